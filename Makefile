@@ -81,7 +81,7 @@ check: lint unit ## Lints, unit and property tests, without optimisation: while 
 # VTU files.
 BORDER := install:: python::
 
-test: lint unit ## All that shows the results to be right (half an hour from nothing on two slow cores)
+test: lint unit ## All that shows the results to be right (some 20 minutes from nothing on two cores)
 	@export BRINELL_FUZZ="$${BRINELL_FUZZ:-10000}" $(ONE_BLAS_THREAD)
 	cargo test --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
 	cargo test --features $(TESTED) --doc

@@ -6,14 +6,23 @@
 //! beside it.
 
 use crate::mesh::Facet;
-use crate::model::{Model, Slot};
+use crate::model::{ContactSurface, Model, Slot};
 use crate::space::{Vector, along, cross, difference, direction, dot, length as length_of};
 
 /// Sine of the angle up to which directions, and share of a facet's length up to which places, are
 /// the same.
 const SAME: f64 = 1e-9;
-/// Share of a pair's size up to which it lies on a plane.
+/// Share of a facet's length up to which a pair lies on a plane.
 const ON_PLANE: f64 = 1e-6;
+
+/// Directions across the contact normal in which the node of a pair is held.
+fn held(model: &Model, node: usize) -> impl Iterator<Item = Vector> + '_ {
+    let slots = model.freedoms.slots[node];
+    let axes = model.freedoms.local(node);
+    (1..3)
+        .filter(move |&i| Conditions::is_held(model, slots[i]))
+        .map(move |i| axes[i])
+}
 
 /// A plane `normal . x = offset`; the body lies where `normal . x` is smaller.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +36,8 @@ pub struct Mirror {
 pub struct Reflection([Vector; 3]);
 
 impl Mirror {
-    /// The planes that pairs of solids lie on: both nodes of some pair are held across them. First
+    /// The planes on which contacts of solids end: both nodes of each pair there are held across
+    /// them. A node that is held by itself, so that a body stays in place, bounds nothing. First
     /// those at right angles to one another, then those opposite to one of these: between the two
     /// the contact goes on without end.
     pub fn of_pairs(
@@ -35,39 +45,67 @@ impl Mirror {
         pairs: impl Iterator<Item = usize>,
     ) -> (Vec<Mirror>, Vec<Mirror>) {
         let (mut out, mut opposite): (Vec<Mirror>, Vec<Mirror>) = (Vec::new(), Vec::new());
+        let mut known: Vec<Mirror> = Vec::new();
         for k in pairs {
             let pair = &model.pairs[k];
-            let held = |node: usize| {
-                let slots = model.freedoms.slots[node];
-                let axes = model.freedoms.local(node);
-                (1..3)
-                    .filter(move |&i| slots[i] == Slot::Fixed)
-                    .map(move |i| axes[i])
-            };
-            for normal in held(pair.faced().unwrap_or(pair.slave)) {
-                let x = model.mesh.point(pair.slave);
+            let contact = &model.contacts[pair.contact];
+            let x = model.mesh.point(pair.slave);
+            // Round-off of places on one plane is far below the size of a facet.
+            let near = ON_PLANE * contact.facet_length;
+            for normal in held(model, pair.slave) {
                 let mirror = Mirror {
                     normal,
                     offset: dot(normal, x),
                 };
-                let is_parallel = |other: Vector| length_of(cross(normal, other)) < SAME;
-                if !held(pair.slave).any(is_parallel) {
+                let same = |other: &Mirror| {
+                    length_of(cross(normal, other.normal)) < SAME && other.beyond(x).abs() <= near
+                };
+                if known.iter().any(same) {
+                    continue;
+                }
+                known.push(mirror);
+                if !mirror.ends(model, contact, near) {
                     continue;
                 }
                 // Mirror images of mirror images agree for planes at right angles.
                 if out.iter().all(|other| mirror.is_normal_to(other)) {
                     out.push(mirror);
+                    continue;
                 }
-                // Round-off of places on one plane is far below the size of a pair's share.
-                let size = pair.area.sqrt();
-                let apart = |other: &Mirror| other.beyond(x).abs() > ON_PLANE * size;
-                let mut parallel = out.iter().filter(|other| is_parallel(other.normal));
-                if parallel.any(apart) && opposite.iter().all(|other| mirror.is_normal_to(other)) {
+                let parallel = |other: &Mirror| length_of(cross(normal, other.normal)) < SAME;
+                if out.iter().any(parallel)
+                    && opposite.iter().all(|other| mirror.is_normal_to(other))
+                {
                     opposite.push(mirror);
                 }
             }
         }
         (out, opposite)
+    }
+
+    /// Whether a contact ends on the plane: its pairs lie on one side of it, an edge of a face lies
+    /// in it, and all pairs there are held across it.
+    fn ends(&self, model: &Model, contact: &ContactSurface, near: f64) -> bool {
+        let off = |node: usize| self.beyond(model.mesh.point(node));
+        let beyond = |k: usize| off(model.pairs[k].slave);
+        let is_on = |k: usize| beyond(k).abs() <= near;
+        let is_held = |node: usize| {
+            let slot = Conditions::slot(model, node, self.normal);
+            slot.is_some_and(|slot| Conditions::is_held(model, slot))
+        };
+        let mut sides = [false; 2];
+        for k in contact.range.clone() {
+            let pair = &model.pairs[k];
+            let faced = || pair.masters.iter().map(|&(node, _)| node);
+            let mut there = faced().filter(|&node| off(node).abs() <= near).peekable();
+            if !is_on(k) {
+                sides[usize::from(beyond(k) > 0.0)] = true;
+            } else if !is_held(pair.slave) || there.peek().is_none() || !there.all(is_held) {
+                return false;
+            }
+        }
+        let has_edge = |face: &Vec<usize>| face.iter().filter(|k| is_on(**k)).count() >= 2;
+        sides != [true; 2] && contact.faces.iter().any(has_edge)
     }
 
     /// The unit vector across it.

@@ -166,50 +166,92 @@ impl Body<'_> {
         }
     }
 
-    /// Adds the body as hexahedra, its faces and its planes of symmetry.
-    fn solid(&self, msh: &mut Msh, random: &mut Random) {
+    /// Adds the body as hexahedra of order 1 or 2, its faces and its planes of symmetry.
+    fn solid(&self, msh: &mut Msh, order: usize, random: &mut Random) {
         let [m, n] = self.cells;
         let [x, y] = [0, 1].map(|_| self.places(m, self.grading, None, random));
         let up = self.places(n, 1.0, None, random);
-        let first = msh.nodes.len() + 1;
-        for share in &up {
-            for y in y.iter().map(|y| self.width * y) {
-                for x in x.iter().map(|x| self.width * x) {
-                    msh.node([x, y, self.height(x.hypot(y), *share)]);
+        // Halves of cells: nodes in the middle of edges stand between.
+        let corner = |[i, j, k]: [usize; 3]| {
+            let (x, y) = (self.width * x[i / 2], self.width * y[j / 2]);
+            [x, y, self.height(x.hypot(y), up[k / 2])]
+        };
+        let place = |at: [usize; 3]| {
+            let ends = [at.map(|i| i / 2 * 2), at.map(|i| i.div_ceil(2) * 2)].map(corner);
+            let [x, y, z] = std::array::from_fn(|d| 0.5 * (ends[0][d] + ends[1][d]));
+            // Edges inside are straight, those of the faces follow them.
+            match at[2] == 0 || at[2] == 2 * n {
+                true => [x, y, self.height(x.hypot(y), up[at[2] / 2])],
+                false => [x, y, z],
+            }
+        };
+        let mut numbers = BTreeMap::new();
+        let mut add = |msh: &mut Msh, group: usize, corners: &[[usize; 3]]| {
+            // Edges in the order of Gmsh.
+            let edges: &[[usize; 2]] = match (corners.len(), order) {
+                (_, 1) => &[],
+                (4, _) => &[[0, 1], [1, 2], [2, 3], [3, 0]],
+                _ => &[
+                    [0, 1],
+                    [0, 3],
+                    [0, 4],
+                    [1, 2],
+                    [1, 5],
+                    [2, 3],
+                    [2, 6],
+                    [3, 7],
+                    [4, 5],
+                    [4, 7],
+                    [5, 6],
+                    [6, 7],
+                ],
+            };
+            let middle = |[a, b]: &[usize; 2]| -> [usize; 3] {
+                std::array::from_fn(|d| (corners[*a][d] + corners[*b][d]) / 2)
+            };
+            let all = corners.iter().copied().chain(edges.iter().map(middle));
+            let nodes = all.map(|at| *numbers.entry(at).or_insert_with(|| msh.node(place(at))));
+            let nodes = nodes.collect();
+            let of_type = match (corners.len(), order) {
+                (4, 1) => 3,
+                (4, _) => 16,
+                (_, 1) => 5,
+                _ => 17,
+            };
+            msh.elements.push((of_type, group, nodes));
+        };
+        // The four corners of a face across an axis.
+        let face = |axis: usize, at: [usize; 3]| {
+            let [b, c] = [(axis + 1) % 3, (axis + 2) % 3];
+            [[0, 0], [2, 0], [2, 2], [0, 2]].map(|[on_b, on_c]| {
+                let mut corner = at;
+                corner[b] += on_b;
+                corner[c] += on_c;
+                corner
+            })
+        };
+        let evens = |n: usize| (0..2 * n).step_by(2);
+        let group = msh.group(3, self.name.to_string());
+        for k in evens(n) {
+            for j in evens(m) {
+                for i in evens(m) {
+                    let both = [k, k + 2].map(|k| face(2, [i, j, k]));
+                    add(msh, group, both.as_flattened());
                 }
             }
         }
-        let at = |i: usize, j: usize, k: usize| first + i + (m + 1) * (j + (m + 1) * k);
-        let group = msh.group(3, self.name.to_string());
-        let squares = |k: usize| {
-            let cells = (0..m).flat_map(move |i| (0..m).map(move |j| (i, j)));
-            cells.map(move |(i, j)| {
-                [
-                    at(i, j, k),
-                    at(i + 1, j, k),
-                    at(i + 1, j + 1, k),
-                    at(i, j + 1, k),
-                ]
-            })
-        };
-        for k in 0..n {
-            for (low, high) in squares(k).zip(squares(k + 1)) {
-                msh.elements.push((5, group, [low, high].concat()));
-            }
-        }
-        for (side, k) in [("bottom", 0), ("top", n)] {
+        for (side, k) in [("bottom", 0), ("top", 2 * n)] {
             let group = msh.group(2, format!("{} {side}", self.name));
-            msh.elements
-                .extend(squares(k).map(|nodes| (3, group, nodes.to_vec())));
+            for (i, j) in evens(m).flat_map(|i| evens(m).map(move |j| (i, j))) {
+                add(msh, group, &face(2, [i, j, k]));
+            }
         }
         for axis in 0..2 {
             let group = msh.group(2, format!("{} axis {axis}", self.name));
-            let on = |a: usize, k: usize| if axis == 0 { at(0, a, k) } else { at(a, 0, k) };
-            for k in 0..n {
-                for a in 0..m {
-                    let nodes = vec![on(a, k), on(a + 1, k), on(a + 1, k + 1), on(a, k + 1)];
-                    msh.elements.push((3, group, nodes));
-                }
+            for (a, k) in evens(m).flat_map(|a| evens(n).map(move |k| (a, k))) {
+                let mut at = [a, a, k];
+                at[axis] = 0;
+                add(msh, group, &face(axis, at));
             }
         }
     }
@@ -271,10 +313,16 @@ fn model(seed: u64, folder: &Path) -> String {
     ];
     let triangles = random.share() < 0.5;
     let order = 1 + random.below(2);
+    // Quadratic faces across the punch's edge, where no nodes lie in space, would bulge.
+    let order = if is_solid && shape == "punch" {
+        1
+    } else {
+        order
+    };
     let mut msh = Msh::default();
     for body in &bodies {
         match is_solid {
-            true => body.solid(&mut msh, random),
+            true => body.solid(&mut msh, order, random),
             false => body.plane(&mut msh, triangles, order, random),
         }
     }

@@ -189,3 +189,50 @@ fn loads_sum_up_to_what_was_asked_for() {
         }
     }
 }
+
+/// Every displacement is given, as people test a material: nothing is left to solve, and the state
+/// follows from the strains. A strain `e` along one axis and `-e/2` across is deviatoric: von
+/// Mises' stress is `3 G e` up to `Y`, then `p = (3 G e - Y)/(3 G + H)` is plastic.
+#[test]
+fn a_model_whose_displacements_are_all_given_has_a_state() {
+    let (modulus, yield_stress, strain, hardening) = (200e3, 200.0, 0.004, 1000.0);
+    let text = format!(
+        r#"kind = "solid"
+mesh.parts = [{{ body = "b",
+               brick = {{ x = [0, 1], y = [0, 1], z = [0, 1], elements = [1, 1, 1] }} }}]
+materials.m = {{ youngs_modulus = {modulus}, poissons_ratio = 0.3, yield_stress = {yield_stress},
+                plastic_modulus = {hardening} }}
+bodies.b.material = "m"
+support = [{{ on = "b.left", fix = ["x"] }}, {{ on = "b.front", fix = ["y"] }},
+           {{ on = "b.bottom", fix = ["z"] }}]
+load = [{{ on = "b.right", displacement = {{ x = {strain} }} }},
+        {{ on = "b.back", displacement = {{ y = {} }} }},
+        {{ on = "b.top", displacement = {{ z = {} }} }}]
+program.targets = [{{ name = "on", load_factor = 1.0 }}]
+"#,
+        -0.5 * strain,
+        -0.5 * strain
+    );
+    let results = run(&parse(&text));
+    let three_g = 3.0 * modulus / 2.6;
+    let alpha = yield_stress / (three_g * strain);
+    close(
+        "first yield",
+        results.first_yield.unwrap().alpha,
+        alpha,
+        alpha,
+        1e-9,
+    );
+    let plastic = (three_g * strain - yield_stress) / (three_g + hardening);
+    let on = state(&results, "on");
+    close(
+        "plastic strain",
+        on.max_equivalent_plastic_strain,
+        plastic,
+        plastic,
+        1e-9,
+    );
+    // Along x two thirds of von Mises' stress, on an area of 1.
+    let force = 2.0 / 3.0 * (yield_stress + hardening * plastic);
+    close("force", on.load, force, force, 1e-9);
+}

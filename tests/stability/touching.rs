@@ -1,6 +1,7 @@
 //! Contact that comes and goes: lift-off, ties, grazing, conforming surfaces, separation.
 
-use crate::support::{close, healthy, run_file, same_contact, state};
+use crate::support::random::Random;
+use crate::support::{close, healthy, parse, run, run_file, same_contact, state};
 use brinell::results::Status;
 
 /// Codes that keep a list of "active" nodes forget the ones that left, or start the second contact
@@ -196,5 +197,73 @@ fn contact_that_comes_nearly_at_once_keeps_its_equilibrium() {
         let (newton, anderson) = (state(&results, name), state(&other, name));
         let force = newton.contact_force;
         close(name, force, anderson.contact_force, force, 1e-6);
+    }
+}
+
+/// Blocks that fit, on unlike meshes, at places that no number of sixteen digits meets: the gaps of
+/// the mesh are round-off. Codes that take them for gaps close pair after pair under a load of
+/// nothing, and lose the body as it comes off; here all close at once, and open at once.
+#[test]
+fn surfaces_that_fit_have_no_gaps() {
+    let mut random = Random::new(7);
+    for case in 0..24 {
+        let is_solid = case % 3 == 0;
+        let [low, middle, high] =
+            [0.1, random.within(0.3, 0.7), 1.1].map(|y| y * random.within(1.0, 1.0 + 1e-9));
+        let from = random.within(-30.0, 30.0);
+        let to = from + random.within(0.7, 1.9);
+        let mut body = |name: &str, [bottom, top]: [f64; 2], cells: usize| {
+            let (element, up) = match is_solid {
+                true => (random.one_of(&["hex8", "hex20"]), "z"),
+                false => (random.one_of(&["quad4", "quad8", "tri3", "tri6"]), "y"),
+            };
+            let across = match is_solid {
+                true => format!("y = [{from}, {to}], "),
+                false => String::new(),
+            };
+            let elements = match is_solid {
+                true => format!("[{cells}, {}, 2]", cells + 1),
+                false => format!("[{cells}, 2]"),
+            };
+            let shape = if is_solid { "brick" } else { "block" };
+            format!(
+                "{{ body = \"{name}\", element = \"{element}\", {shape} = {{ x = [{from}, {to}], \
+                 {across}{up} = [{bottom}, {top}], elements = {elements} }} }}"
+            )
+        };
+        let cells = 2 + case % 4;
+        let parts = [
+            body("low", [low, middle], cells),
+            body("upp", [middle, high], cells + 1),
+        ];
+        let (kind, up, more) = match is_solid {
+            true => (
+                "solid",
+                "z",
+                ", { on = \"low.front\", fix = [\"y\"] }, { on = \"upp.front\", fix = [\"y\"] }",
+            ),
+            false => ("plane_strain", "y", ""),
+        };
+        let text = format!(
+            r#"kind = "{kind}"
+mesh.parts = [{}]
+materials.m = {{ youngs_modulus = 210e3, poissons_ratio = 0.3 }}
+bodies = {{ low.material = "m", upp.material = "m" }}
+contact = [{{ first = "upp.bottom", second = "low.top" }}]
+support = [{{ on = "low.bottom", fix = ["{up}"] }}, {{ on = "low.left", fix = ["x"] }},
+           {{ on = "upp.left", fix = ["x"] }}{more}]
+load = [{{ on = "upp.top", pressure = 50.0 }}]
+program.targets = [{{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]
+"#,
+            parts.join(", ")
+        );
+        let results = run(&parse(&text));
+        healthy(&results);
+        assert_eq!(results.history.len(), 2, "{text}");
+        // The surfaces are as large as each other.
+        let area = (to - from) * if is_solid { to - from } else { 1.0 };
+        let found = results.states[0].contact_force;
+        close(&text, found, 50.0 * area, 50.0 * area, 1e-9);
+        assert_eq!(results.states[1].contact_force, 0.0, "{text}");
     }
 }
