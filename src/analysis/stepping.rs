@@ -13,8 +13,8 @@ use std::collections::HashSet;
 
 /// Cut factor after an increment that did not converge.
 const CUT: f64 = 0.25;
-/// Share of an increment to which it is cut while equilibrium and length are searched together:
-/// where that is not enough no cut is, and they are searched apart.
+/// Share of an increment below which equilibrium and length are no longer searched together: three
+/// cuts cost less than a search apart where they help, and where they do not, more do not either.
 const CUT_TOGETHER: f64 = 0.02;
 /// Status corrections at one point of the path before they are taken to cycle.
 const MOST_CORRECTIONS: usize = 60;

@@ -187,24 +187,15 @@ impl Body<'_> {
         };
         let mut numbers = BTreeMap::new();
         let mut add = |msh: &mut Msh, group: usize, corners: &[[usize; 3]]| {
-            // Edges in the order of Gmsh.
-            let edges: &[[usize; 2]] = match (corners.len(), order) {
-                (_, 1) => &[],
-                (4, _) => &[[0, 1], [1, 2], [2, 3], [3, 0]],
-                _ => &[
-                    [0, 1],
-                    [0, 3],
-                    [0, 4],
-                    [1, 2],
-                    [1, 5],
-                    [2, 3],
-                    [2, 6],
-                    [3, 7],
-                    [4, 5],
-                    [4, 7],
-                    [5, 6],
-                    [6, 7],
-                ],
+            // Of a face in turn, of a hexahedron in the order of their ends, as Gmsh has them.
+            let pairs = |n: usize| (0..n).flat_map(move |b| (b + 1..n).map(move |a| [b, a]));
+            let is_edge = |&[a, b]: &[usize; 2]| {
+                (0..3).filter(|&d| corners[a][d] != corners[b][d]).count() == 1
+            };
+            let edges: Vec<[usize; 2]> = match (corners.len(), order) {
+                (_, 1) => Vec::new(),
+                (4, _) => (0..4).map(|k| [k, (k + 1) % 4]).collect(),
+                (n, _) => pairs(n).filter(is_edge).collect(),
             };
             let middle = |[a, b]: &[usize; 2]| -> [usize; 3] {
                 std::array::from_fn(|d| (corners[*a][d] + corners[*b][d]) / 2)
@@ -337,7 +328,7 @@ fn model(seed: u64, folder: &Path) -> String {
             format!("displacement = {{ {up} = {} }}", -down)
         }
         false => {
-            let pressure = random.one_of(&[0.1, 0.3, 0.6, 0.95]) * yield_stress;
+            let pressure = random.one_of(&[0.1, 0.3, 0.6, 1.0]) * yield_stress;
             let still = if is_solid { "0.0, 0.0" } else { "0.0" };
             format!("traction = [{still}, {}]", -pressure)
         }
