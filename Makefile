@@ -4,7 +4,7 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .ONESHELL:
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-mpi setup-tools cargo build run lint unit check test test-all test-border test-mpi \
+.PHONY: help setup setup-mpi setup-tools cargo build run format lint unit check test test-all test-border test-mpi \
     test-long strength release-check bench bench-peers install uninstall wheel deb packages package python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
@@ -53,7 +53,7 @@ build: setup ## Build the program, target/release/brinell
 	@cargo build --release
 
 run: setup ## Run a scene (SCENE=..., ARGS=...)
-	@cargo run --profile $(PROFILE) $(if $(filter dev,$(PROFILE)),$(UNOPTIMISED)) -- run $(SCENE) $(ARGS)
+	@$(or $(PROGRAM),cargo run --release --) run $(SCENE) $(ARGS)
 
 # TESTED names the features of the one build that is tested. Programs through the public interface are
 # optimised (profile.dev in Cargo.toml); unit tests are small enough to be compiled without.
@@ -64,39 +64,49 @@ UNOPTIMISED := --config profile.dev.package.brinell.opt-level=0 \
 # Tests run beside one another: a BLAS of several threads would fight over the same processors. Tests of threads
 # choose their own.
 ONE_BLAS_THREAD := OPENBLAS_NUM_THREADS=1
+# What is tested is compiled by clippy, whose warnings are errors: a pass of its own would take two minutes.
+LINTED := RUSTC_WORKSPACE_WRAPPER=clippy-driver CLIPPY_ARGS=-Dwarnings
+# Dependencies have the features that all of the workspace together asks for, so that each is compiled once.
+TEST := $(LINTED) $(ONE_BLAS_THREAD) cargo test --workspace
 
-lint: setup ## Format and lints
-	@cargo fmt --check
-	cargo fmt --check --manifest-path ffi/python/Cargo.toml
-	cargo clippy --features $(TESTED) --all-targets -- -D warnings
+format: setup
+	@cargo fmt --all --check
+	if ! command -v clippy-driver >/dev/null; then
+	    echo "clippy is missing: rustup component add clippy (Debian: apt install rust-clippy)" >&2
+	    exit 1
+	fi
 
-unit: setup ## Unit tests
-	@$(ONE_BLAS_THREAD) cargo test $(UNOPTIMISED) --features $(TESTED) --lib
+lint: format ## Format and lints
+	@cargo clippy --workspace --features $(TESTED) --all-targets -- -D warnings
 
-check: lint unit ## Lints, unit and property tests, without optimisation: while you work
-	@cargo test $(UNOPTIMISED) --features $(TESTED) --test all -- properties:: drift:: \
+unit: format ## Unit tests
+	@$(TEST) $(UNOPTIMISED) --features $(TESTED) --lib
+
+check: unit ## Lints, unit and property tests, without optimisation: while you work
+	@$(TEST) $(UNOPTIMISED) --features $(TESTED) --test all -- properties:: drift:: \
 	    --skip the_schema_has_the_keys
 
 # What needs packages of others: the installed C library under valgrind, the Python package, readers of
 # VTU files.
 BORDER := install:: python::
 
-test: lint unit ## All that shows the results to be right (some 20 minutes from nothing on two cores)
-	@export BRINELL_FUZZ="$${BRINELL_FUZZ:-10000}" $(ONE_BLAS_THREAD)
-	cargo test --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
-	cargo test --features $(TESTED) --doc
+test: unit ## All that shows the results to be right (some 20 minutes from nothing on two cores)
+	@export BRINELL_FUZZ="$${BRINELL_FUZZ:-10000}"
+	$(TEST) --features $(TESTED) --benches --examples --no-run
+	$(TEST) --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
+	$(TEST) --features $(TESTED) --doc
 
 test-all: test test-border test-mpi test-long release-check ## Every test there is
 
 test-border: setup python-tests ## The C library as installed, the Python package
-	@$(ONE_BLAS_THREAD) cargo test --features $(TESTED) --test all -- $(BORDER)
+	@$(TEST) --features $(TESTED) --test all -- $(BORDER)
 
 # Meshes as fine as they once were for every commit, damaged files by the hundred thousand, each scene on
 # every number of ranks, suites without CHOLMOD.
 test-long: setup-mpi ## What takes an hour
 	@export $(ONE_BLAS_THREAD)
-	BRINELL_THOROUGH=1 cargo test --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
-	cargo test --features $(TESTED_MPI) --test mpi --test all -- --ignored
+	BRINELL_THOROUGH=1 $(TEST) --features $(TESTED) --test all --test fuzz -- $(addprefix --skip ,$(BORDER))
+	$(TEST) --features $(TESTED_MPI) --test mpi --test all -- --ignored
 	cargo test --no-default-features --features faer,cli --test all -- cli:: cost:: stability::
 	cargo test --no-default-features --features cli --test all -- cli::
 
@@ -110,18 +120,16 @@ setup-tools: setup ## Install CalculiX, valgrind and pkg-config for the tests th
 
 TESTED_MPI := $(if $(findstring mumps,$(TESTED)),$(TESTED),$(TESTED),mumps)
 test-mpi: setup-mpi ## Test runs over several ranks
-	@export RUST_TEST_THREADS=1 $(ONE_BLAS_THREAD)
-	cargo test $(UNOPTIMISED) --features $(TESTED_MPI) --lib -- linalg::mumps constrained:: assembly::
-	cargo test --features $(TESTED_MPI) --test mpi
+	@export RUST_TEST_THREADS=1
+	$(TEST) $(UNOPTIMISED) --features $(TESTED_MPI) --lib -- linalg::mumps constrained:: assembly::
+	$(TEST) --features $(TESTED_MPI) --test mpi
 
 strength: setup ## How many of 66 faults that are put into the code the tests notice (hours)
 	@python3 tests/strength/run.py $(FAULTS)
 
 # What an issue that touches it runs at its end: other features, documentation, packages.
 release-check: setup-mpi packages ## Other sets of features, documentation, packages
-	@export $(ONE_BLAS_THREAD)
-	BRINELL_THOROUGH=1 cargo test --features $(TESTED) --test all -- $(BORDER)
-	cargo clippy --features $(TESTED_MPI) --all-targets -- -D warnings
+	@cargo clippy --workspace --features $(TESTED_MPI) --all-targets -- -D warnings
 	cargo clippy --no-default-features --all-targets -- -D warnings
 	cargo clippy --no-default-features --features faer,cli --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --features capi,faer,guide --no-deps --quiet
@@ -134,17 +142,13 @@ bench-peers: PACKAGES += calculix-ccx
 bench-peers: setup ## Measure beside CalculiX (installs it where it is absent)
 	@cargo bench --bench peers
 
-# The libraries are built for `install` alone: they would slow down every other build. PROGRAM names
-# a program that is built already, LIBRARIES a folder of libraries that are; PROFILE=dev makes libraries,
-# wheel and crate as tests do, and `make run` what they run.
+# PROGRAM names a program that is built already, LIBRARIES a folder of libraries that are.
 PREFIX ?= /usr/local
 DESTDIR ?=
 PYTHON ?= python3
-PROFILE ?= release
-FEATURES ?= --features capi
+FEATURES ?=
 VERSION := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -1)
 BUILT = $(abspath $(or $(CARGO_TARGET_DIR),target))
-TARGET = $(BUILT)/$(if $(filter dev,$(PROFILE)),debug,$(PROFILE))
 PROGRAM ?=
 LIBRARIES ?=
 # Where things go: where they are used, and where they are put now.
@@ -157,22 +161,16 @@ INSTALLED = bin/brinell include/brinell.h lib/libbrinell.a lib/libbrinell.so \
     share/zsh/site-functions/_brinell share/fish/vendor_completions.d/brinell.fish
 
 install: setup ## Install program, library, header, manual, completions (PREFIX=..., DESTDIR=...)
-	@libraries="$(LIBRARIES)"
-	if [[ -z $$libraries ]]; then
-	    cargo rustc --lib --profile $(PROFILE) $(FEATURES) --crate-type cdylib,staticlib -- \
-	        -C link-arg=-Wl,-soname,libbrinell.so.0
-	    libraries="$(TARGET)"
-	fi
-	program="$(PROGRAM)"
-	if [[ -z $$program ]]; then
-	    cargo build --bin brinell --profile $(PROFILE) $(FEATURES)
-	    program="$(TARGET)/brinell"
+	@libraries="$(or $(LIBRARIES),$(BUILT)/release)"
+	program="$(or $(PROGRAM),$(BUILT)/release/brinell)"
+	if [[ -z "$(and $(LIBRARIES),$(PROGRAM))" ]]; then
+	    cargo build --release --package brinell --bin brinell --package brinell-c --lib $(FEATURES)
 	fi
 	for file in $(INSTALLED); do install -d "$$(dirname "$(INTO)/$$file")"; done
 	install -m 755 "$$program" "$(INTO)/bin/brinell"
 	install -m 644 ffi/include/brinell.h "$(INTO)/include/"
-	install -m 644 "$$libraries/libbrinell.a" "$(INTO)/lib/"
-	install -m 755 "$$libraries/libbrinell.so" "$(INTO)/lib/libbrinell.so.$(VERSION)"
+	install -m 644 "$$libraries/libbrinell_c.a" "$(INTO)/lib/libbrinell.a"
+	install -m 755 "$$libraries/libbrinell_c.so" "$(INTO)/lib/libbrinell.so.$(VERSION)"
 	ln -sf "libbrinell.so.$(VERSION)" "$(INTO)/lib/libbrinell.so.0"
 	ln -sf libbrinell.so.0 "$(INTO)/lib/libbrinell.so"
 	sed -e 's|@PREFIX@|$(HOME_OF)|' -e 's|@VERSION@|$(VERSION)|' ffi/brinell.pc.in \
@@ -193,7 +191,7 @@ uninstall: ## Remove what `make install` put there (PREFIX=..., DESTDIR=...)
 
 wheel: setup python-tests ## Build a Python wheel (target/wheels)
 	@export PATH="$(PYTHON_TESTS)/bin:$$PATH" CARGO_TARGET_DIR="$(BUILT)"
-	"$(or $(BRINELL_PYTHON),$(PYTHON_TESTS)/bin/python)" -m maturin build --profile $(PROFILE) \
+	"$(or $(BRINELL_PYTHON),$(PYTHON_TESTS)/bin/python)" -m maturin build --release \
 	    --features faer --locked -m ffi/python/Cargo.toml -o "$(BUILT)/wheels"
 
 deb: setup ## Build a Debian package of the program (target/debian)
@@ -216,7 +214,7 @@ package: setup ## Pack the crate as `cargo publish` would (below 2 MB), install 
 	[[ $$size -lt 2000000 ]]
 	rm -rf "$$crate"
 	tar -xzf "$$crate.crate" -C "$(BUILT)/package"
-	CARGO_TARGET_DIR="$(BUILT)" cargo install --quiet --locked --force --profile $(PROFILE) $(UNOPTIMISED) \
+	CARGO_TARGET_DIR="$(BUILT)" cargo install --quiet --locked --force \
 	    --path "$$crate" --root "$(BUILT)/installed" --no-default-features --features faer,cli
 
 packages: PACKAGES += debootstrap

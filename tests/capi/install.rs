@@ -1,9 +1,10 @@
 //! Programs in C and C++ against the installed library print what the Rust program prints, also
 //! under valgrind.
 
-use crate::support::{either, tools};
+use crate::support::tools;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -48,52 +49,36 @@ fn features() -> Vec<String> {
     }
 }
 
-/// Cargo for a target of this crate with the features of this build.
-fn cargo(command: &str, target: [&str; 2]) -> Command {
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.current_dir(root()).args([command, "-q"]);
-    cargo.args(target).args(features());
-    cargo
+/// The folder of what this build makes of `ffi`, from the library that the tests are linked to: C
+/// library, Python package, examples.
+pub fn borders() -> &'static Path {
+    static BUILT: LazyLock<PathBuf> = LazyLock::new(|| {
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo.current_dir(root()).args(["build", "-q"]);
+        cargo.args(["--workspace", "--lib", "--example", "indentation"]);
+        done(cargo.args(features()));
+        let program = Path::new(env!("CARGO_BIN_EXE_brinell"));
+        program.parent().unwrap().to_path_buf()
+    });
+    &BUILT
 }
 
 /// The Rust example on a scene.
 pub fn rust_example(scene: &Path) -> Command {
-    let mut cargo = cargo("run", ["--example", "indentation"]);
-    cargo.arg("--").arg(scene);
-    cargo
+    let mut example = Command::new(borders().join("examples/indentation"));
+    example.arg(scene);
+    example
 }
 
-/// The libraries of this build in a folder.
-fn linked_into(folder: PathBuf) -> PathBuf {
-    let soname = "link-arg=-Wl,-soname,libbrinell.so.0";
-    done(cargo("rustc", ["--example", "brinell_c"]).args(["--", "-C", soname]));
-    std::fs::create_dir(&folder).unwrap();
-    let built = Path::new(env!("CARGO_BIN_EXE_brinell")).with_file_name("examples");
-    for kind in ["a", "so"] {
-        let linked = built.join(format!("libbrinell_c.{kind}"));
-        std::fs::copy(linked, folder.join(format!("libbrinell.{kind}"))).unwrap();
-    }
-    folder
-}
-
-/// Installs program, libraries and what belongs to them. The libraries are those of this build,
-/// linked from what the tests are linked from (`tests/capi/library.rs`); with `BRINELL_THOROUGH=1`
-/// what a user gets by `make install`, for which brinell is compiled anew.
-fn install(prefix: &Path, folder: &Path) {
-    let variable = match either(true, false) {
-        true => format!(
-            "LIBRARIES={}",
-            linked_into(folder.join("libraries")).display()
-        ),
-        false => format!("FEATURES={}", features().join(" ")),
-    };
+/// Installs program, libraries and what belongs to them.
+fn install(prefix: &Path) {
     done(
         Command::new("make")
             .current_dir(root())
-            .args(["install", "PROFILE=dev"])
+            .arg("install")
             .arg(format!("PREFIX={}", prefix.display()))
             .arg(format!("PROGRAM={}", env!("CARGO_BIN_EXE_brinell")))
-            .arg(variable),
+            .arg(format!("LIBRARIES={}", borders().display())),
     );
 }
 
@@ -106,7 +91,7 @@ fn programs_against_the_installed_library_print_the_same_digits() {
     }
     let folder = tempfile::tempdir().unwrap();
     let prefix = folder.path().join("installed");
-    install(&prefix, folder.path());
+    install(&prefix);
     the_program_is_installed(&prefix);
     let lib = prefix.join("lib");
     for file in [

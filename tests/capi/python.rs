@@ -1,8 +1,7 @@
 //! The Python package, built into a folder of its own: its tests, and the example against the Rust
 //! one.
 
-use crate::support::either;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Output};
 
 fn root() -> PathBuf {
@@ -17,74 +16,34 @@ fn text(output: &Output) -> String {
     )
 }
 
-/// Output where the command ends well, else what it printed.
-fn attempt(command: &mut Command) -> Result<Output, String> {
-    let output = command.output().map_err(|e| format!("{command:?}: {e}"))?;
-    match output.status.success() {
-        true => Ok(output),
-        false => Err(format!("{command:?}\n{}", text(&output))),
-    }
-}
-
 fn done(command: &mut Command) -> Output {
-    attempt(command).unwrap_or_else(|why| panic!("{why}"))
+    let output = command
+        .output()
+        .unwrap_or_else(|e| panic!("{command:?}: {e}"));
+    assert!(output.status.success(), "{command:?}\n{}", text(&output));
+    output
 }
 
-/// Fetches the crates of the package: it is built without the network.
-fn fetch_crates() {
-    let manifest = root().join("ffi/python/Cargo.toml");
-    let mut fetch = Command::new(env!("CARGO"));
-    fetch
-        .args(["fetch", "--locked", "--manifest-path"])
-        .arg(manifest);
-    if let Err(why) = attempt(&mut fetch) {
-        panic!(
-            "the crates of ffi/python cannot be fetched (is Cargo.lock behind? \
-             cargo update --workspace --manifest-path ffi/python/Cargo.toml): {why}"
-        );
+/// The Python package in a folder, as a wheel puts it there.
+fn package(folder: PathBuf) -> PathBuf {
+    let module = folder.join("brinell");
+    std::fs::create_dir_all(&module).unwrap();
+    for entry in std::fs::read_dir(root().join("ffi/python/brinell")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_file() {
+            std::fs::copy(&path, module.join(path.file_name().unwrap())).unwrap();
+        }
     }
-}
-
-/// Where the programs of an interpreter's packages are.
-fn scripts(python: &Path) -> PathBuf {
-    let script = "import sysconfig; print(sysconfig.get_path('scripts'))";
-    let printed = done(Command::new(python).args(["-c", script]));
-    PathBuf::from(text(&printed).trim())
+    let built = super::install::borders().join("lib_brinell.so");
+    std::fs::copy(built, module.join("_brinell.abi3.so")).unwrap();
+    folder
 }
 
 #[test]
 fn the_python_package_passes_its_tests_and_prints_the_same_digits() {
     let folder = tempfile::tempdir().unwrap();
-    let python = crate::support::interpreter::with(&["numpy", "scipy", "pytest", "maturin"]);
-    fetch_crates();
-    let bin = scripts(&python);
-    let path = std::env::var_os("PATH").unwrap_or_default();
-    let path =
-        std::env::join_paths(std::iter::once(bin).chain(std::env::split_paths(&path))).unwrap();
-    let package = folder.path().join("package");
-    // Dependencies that this build has compiled are taken from its target directory.
-    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
-    let mut arguments = "--profile dev".to_string();
-    if !cfg!(feature = "cholmod") {
-        arguments.push_str(" --no-default-features");
-    }
-    // Nothing at the border depends on faer, and compiling it takes a minute.
-    if cfg!(feature = "faer") && either(false, true) {
-        arguments.push_str(" --features faer");
-    }
-    done(
-        Command::new(&python)
-            .args(["-m", "pip", "install", "-q", "--disable-pip-version-check"])
-            .args(["--no-build-isolation", "--no-deps", "--no-index"])
-            .arg("--target")
-            .arg(&package)
-            .arg(root().join("ffi/python"))
-            .env("PATH", path)
-            .env("CARGO_TARGET_DIR", target)
-            .env("CARGO_NET_OFFLINE", "true")
-            .env("MATURIN_PEP517_ARGS", arguments),
-    );
-
+    let python = crate::support::interpreter::with(&["numpy", "scipy", "pytest"]);
+    let package = package(folder.path().join("package"));
     let tests = Command::new(&python)
         .args(["-m", "pytest", "-q", "-p", "no:cacheprovider"])
         .arg(root().join("ffi/python/tests"))

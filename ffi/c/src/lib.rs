@@ -1,0 +1,3 @@
+//! brinell as a library for C (`ffi/include/brinell.h`), which `make install` installs.
+
+pub use brinell::capi::*;
