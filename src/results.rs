@@ -11,7 +11,7 @@ mod ranks;
 
 pub use contact::{ContactPatch, PairState, Status};
 pub use cycles::{CycleOutcome, CycleRow, Cycles};
-pub use end_state::EndState;
+pub use end_state::{EndState, LeftBy, LeftByBody};
 pub use ending::{Ending, Incomplete};
 pub use history::{HistoryRow, PathPoint};
 pub use quality::{Quality, Tolerances};
@@ -178,7 +178,9 @@ pub struct Effect {
 pub struct YieldPoint {
     /// Factor on the scene's proportional loads at which the material first yields.
     pub alpha: f64,
-    /// Total load: contact force where there is contact, else the applied force (see README).
+    /// Size of the first load that varies: its force of the whole model, its stress or its change
+    /// of temperature; of a prescribed displacement the force that moves its nodes along it, of a
+    /// gap the force of its contact.
     pub load: f64,
     /// Maximum contact pressure.
     pub max_pressure: f64,

@@ -6,9 +6,8 @@ use super::reactions;
 use super::reading::Reading;
 use super::stresses::Stresses;
 use crate::error::Result;
-use crate::model::{Magnitude, Model};
+use crate::model::Model;
 use crate::results::{Fields, PairState, State};
-use crate::scene::History;
 use crate::space::Vector;
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -41,9 +40,7 @@ impl Reading<'_, '_> {
         let arc = figures
             .patch
             .and_then(|patch| contact_arc(self.solver.structure.model, figures.contact, patch));
-        let load = self
-            .reaction(&stresses.reactions)
-            .unwrap_or_else(|| self.solver.total_load_size());
+        let load = self.solver.total_load_size();
         let Stresses {
             internal,
             nodal,
@@ -105,32 +102,6 @@ impl Reading<'_, '_> {
             beyond_yield_inside,
             stress_seconds,
         })
-    }
-
-    /// Where the loads that vary are prescribed displacements only and nothing touches: the force
-    /// that holds the first of them, along its displacement, of the whole.
-    fn reaction(&self, reactions: &[f64]) -> Option<f64> {
-        let model = self.solver.structure.model;
-        let mut varying = model
-            .loads
-            .iter()
-            .enumerate()
-            .filter(|(_, l)| !matches!(l.history, History::Constant));
-        if varying
-            .clone()
-            .any(|(_, l)| l.measures != Magnitude::Displacement)
-            || !model.pairs.is_empty()
-        {
-            return None;
-        }
-        let (leading, _) = varying.next()?;
-        let mut sum = 0.0;
-        for (prescribed, force) in model.freedoms.prescribed.iter().zip(reactions) {
-            if prescribed.load == leading {
-                sum += force * prescribed.value.signum();
-            }
-        }
-        Some(sum * self.solver.at.factors[leading].signum() * model.symmetry)
     }
 }
 

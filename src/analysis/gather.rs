@@ -96,6 +96,11 @@ impl Nodal {
         &mut self.values
     }
 
+    /// The sum on the prescribed displacements.
+    pub fn on_prescribed(&self) -> &[f64] {
+        &self.values[self.n_zone + self.n_contact..][..self.prescribed.len()]
+    }
+
     /// The sum on zone and contact freedoms.
     pub fn sum_into(&self, out: &mut Trailing) {
         out.zone.copy_from_slice(&self.values[..self.n_zone]);

@@ -3,7 +3,7 @@
 use super::contact_area::{ReadPatch, patches};
 use super::contact_patch::Patch;
 use super::solver::Solver;
-use crate::model::{AxisPoint, ContactSurface, Magnitude, Model};
+use crate::model::{AxisPoint, ContactSurface, Magnitude, Model, Pair};
 use crate::results::{ContactPatch, EdgeReading, PairState, Status};
 use std::borrow::Cow;
 
@@ -145,16 +145,18 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
         return with_patches(out, patches(model, force, &pressure, vanishing));
     }
     let mut largest = 0.0;
+    // What is no number is none that presses.
+    let presses = |k: usize| force[k] > vanishing;
     for (index, contact) in model.contacts.iter().enumerate() {
         let range = contact.range.clone();
         let mut k = range.start;
         while k < range.end {
-            if force[k] <= vanishing {
+            if !presses(k) {
                 k += 1;
                 continue;
             }
             let begin = k;
-            while k < range.end && force[k] > vanishing {
+            while k < range.end && presses(k) {
                 k += 1;
             }
             let sum: f64 = force[begin..k].iter().sum();
@@ -249,32 +251,27 @@ impl Solver<'_> {
         Cow::Borrowed(force)
     }
 
-    /// The load that the results are reported by: the first that varies, else the first.
-    pub fn leading_load(&self) -> Option<usize> {
-        let varies =
-            |l: &crate::model::LoadCase| !matches!(l.history, crate::scene::History::Constant);
-        let loads = &self.structure.model.loads;
-        loads
-            .iter()
-            .position(varies)
-            .or(if loads.is_empty() { None } else { Some(0) })
-    }
-
     /// The total load of the current state: size of the leading load times its factor; of a force
-    /// the whole's. Where it prescribes displacements, the contact force, if there is contact; else
-    /// NaN: the reaction is known with the state only.
+    /// the whole's. Where it prescribes displacements, the force that moves its nodes; where it
+    /// changes gaps, the force of the contacts whose gaps these are, and without any load of all
+    /// that interfere.
     pub fn total_load_size(&self) -> f64 {
-        match self.leading_load() {
-            Some(i)
-                if !matches!(
-                    self.structure.model.loads[i].measures,
-                    Magnitude::Displacement | Magnitude::Gap
-                ) =>
-            {
-                self.at.factors[i].abs() * self.structure.model.loads[i].magnitude
-            }
-            _ if self.now.force.is_empty() => f64::NAN,
-            _ => sum(&self.contact_forces()) * self.structure.model.symmetry,
+        let model = self.structure.model;
+        let through = |acts: &dyn Fn(&Pair) -> bool| {
+            let forces = self.contact_forces();
+            let acting = model.pairs.iter().zip(forces.iter());
+            let sum = acting.fold(0.0, |sum, (pair, r)| if acts(pair) { sum + r } else { sum });
+            sum * model.symmetry
+        };
+        let Some(leading) = model.leading_load() else {
+            let interferes = model.pairs.iter().any(|pair| pair.interference != 0.0);
+            return through(&|pair| !interferes || pair.interference != 0.0);
+        };
+        let load = &model.loads[leading];
+        match load.measures {
+            Magnitude::Displacement => self.driving_force().unwrap_or(0.0),
+            Magnitude::Gap => through(&|pair| load.gap(pair) != 0.0),
+            _ => self.at.factors[leading].abs() * load.magnitude,
         }
     }
 }

@@ -17,6 +17,7 @@
 //! | `path` | the path between increments | |
 //! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `element_stresses`, `stresses` | stresses of all elements, the forces they exert | |
+//! | `driving_force` | the force that moves what a load displaces | |
 //! | `local_yield` | yield stresses from place to place | |
 //! | `piece` | the stresses of a state, computed by all ranks | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
@@ -31,6 +32,7 @@ mod contact_patch;
 mod cycles;
 mod dent;
 mod drive;
+mod driving_force;
 mod elastic;
 mod element_stresses;
 mod equilibrium;

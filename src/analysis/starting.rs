@@ -4,15 +4,17 @@ use super::solver::Solver;
 use super::zone::History;
 use crate::checkpoint::read_end_state;
 use crate::error::{Error, Result};
+use crate::material::Material;
 use crate::model::Model;
-use crate::results::EndState;
-use crate::scene::Unit;
+use crate::results::{EndState, LeftBy, LeftByBody};
+use crate::scene::{Kind, Unit};
 
 /// Reads the state that the scene of a model starts from; `None` where that is a virgin one.
 ///
 /// # Errors
 /// Those of [`read_end_state`]; `Input` where first yield is asked for, a body with plastic strains
-/// may not yield, or its material has another number of back stresses that fade.
+/// may not yield, its material has other back stresses that fade, the model is of another kind, or
+/// bodies have not brought along what they had.
 pub(super) fn read(model: &Model) -> Result<Option<EndState>> {
     let scene = &model.scene;
     let Some(folder) = scene.start_folder() else {
@@ -54,6 +56,7 @@ fn checked(model: &Model, state: EndState) -> Result<EndState> {
              bodies.{name} a material with a yield stress, and do not set plastic = false"
         )));
     }
+    check_origin(model, &state)?;
     let fading = model.materials.iter().map(|m| m.back_stresses.n_stored());
     let here = fading.max().unwrap_or(0);
     let there = state.back_strains.len() / state.strains.len().max(1);
@@ -64,6 +67,61 @@ fn checked(model: &Model, state: EndState) -> Result<EndState> {
         )));
     }
     Ok(state)
+}
+
+/// What a model leaves a state by.
+fn left_by(model: &Model) -> LeftBy {
+    let names = model.mesh.bodies.iter();
+    let body = |(name, material): (&String, &Material)| {
+        let scene = model.scene.bodies.get(name).into_iter();
+        let brought = scene.flat_map(|body| body.brought_along());
+        LeftByBody {
+            rates: material.back_stresses.rates().collect(),
+            brought_along: brought
+                .map(|(key, rows)| (key.into(), rows.clone()))
+                .collect(),
+        }
+    };
+    LeftBy {
+        kind: model.kind,
+        bodies: names.zip(&model.materials).map(body).collect(),
+    }
+}
+
+/// A state has a meaning in models of one kind, whose bodies remember alike and have brought along
+/// the same.
+fn check_origin(model: &Model, state: &EndState) -> Result<()> {
+    let here = left_by(model);
+    let Some(there) = state.left_by.as_ref().filter(|_| !state.is_virgin()) else {
+        return Ok(());
+    };
+    if there.kind != here.kind {
+        let [there, here] = [there.kind, here.kind].map(Kind::name);
+        return Err(Error::input(format!(
+            "the earlier run was of the kind `{there}`, this one is `{here}`: plastic strains of \
+             the one are none of the other"
+        )));
+    }
+    let names = model.mesh.bodies.iter();
+    for ((there, here), name) in there.bodies.iter().zip(&here.bodies).zip(names) {
+        let [then, now] = [&there.rates, &here.rates];
+        if then.len() == now.len() && then != now {
+            return Err(Error::input(format!(
+                "the back stresses of body `{name}` faded at the rates {then:?} in the earlier \
+                 run, here at {now:?}, so that what they remember means something else: give the \
+                 same rates"
+            )));
+        }
+        let mut given = there.brought_along.iter();
+        let missing = given.find(|given| !here.brought_along.contains(given));
+        if let Some((key, _)) = missing {
+            return Err(Error::input(format!(
+                "body `{name}` had another `{key}` in the earlier run, which is still in it: give \
+                 bodies.{name}.{key} as it was there"
+            )));
+        }
+    }
+    Ok(())
 }
 
 impl Solver<'_> {
@@ -90,6 +148,9 @@ impl Solver<'_> {
     pub(super) fn end_state(&self) -> Option<EndState> {
         let structure = &self.structure;
         let able = structure.model.may_yield.contains(&true);
-        able.then(|| self.zone.history().end_state(&structure.elements))
+        able.then(|| EndState {
+            left_by: Some(left_by(structure.model)),
+            ..self.zone.history().end_state(&structure.elements)
+        })
     }
 }

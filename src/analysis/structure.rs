@@ -1,5 +1,6 @@
 //! The structure: what increments work with and do not change.
 
+use super::driving_force::DrivingForce;
 use super::equilibrium::EliminatedLoad;
 use super::gather::Places;
 use super::load_point::LoadPoint;
@@ -62,6 +63,8 @@ pub(super) struct Loads {
     /// The same on zone and contact freedoms: times their displacements they give the motion's
     /// amplitude.
     pub(super) far: Vec<Trailing>,
+    /// Where the leading load prescribes displacements.
+    pub(super) driving: Option<DrivingForce>,
 }
 
 /// Gaps of the pairs without load.
@@ -220,6 +223,7 @@ impl<'m> Structure<'m> {
             out
         });
         self.loads.condensed = eliminated.collect();
+        self.loads.driving = DrivingForce::new(self, cost)?;
         Ok(())
     }
 

@@ -137,6 +137,11 @@ impl Zone {
         of_zone!(self, zone => zone.restore_of(elements, history));
     }
 
+    /// [`ZoneOf::on_prescribed`]
+    pub fn on_prescribed(&self) -> &[f64] {
+        of_zone!(self, zone => zone.on_prescribed())
+    }
+
     /// [`ZoneOf::initial_load`]
     pub fn initial_load(&self, out: Trailing) -> Trailing {
         of_zone!(self, zone => zone.initial_load(out))

@@ -8,7 +8,7 @@ pub mod shares;
 use crate::element::packed;
 use crate::error::Result;
 use crate::linalg::{Backend, Symmetric};
-use crate::model::{Model, Slot};
+use crate::model::{Magnitude, Model, Slot};
 use elements::{Elements, Matrices};
 
 /// The assembled system `K u = sum_l h_l P_l + contact forces + initial loads`.
@@ -21,6 +21,9 @@ pub struct System {
     /// Load vector of each load at factor 1 (`n` each); those of prescribed displacements are
     /// `-K_fp u_p`.
     pub loads: Vec<Vec<f64>>,
+    /// Where the leading load prescribes displacements `v`: `v' (K_pp u_p - f_p)` of each load at
+    /// factor 1, the work on them of what holds all prescribed freedoms while no free one moves.
+    pub on_leading: Vec<f64>,
 }
 
 /// Assembles stiffness and loads as `backend` takes them: MUMPS a part of the stiffness on each
@@ -38,6 +41,7 @@ pub fn assemble(model: &Model, backend: Backend) -> Result<System> {
         norm: stiffness.norm()?,
         stiffness,
         loads: loads(model),
+        on_leading: on_leading(model),
     })
 }
 
@@ -61,12 +65,17 @@ fn loads(model: &Model) -> Vec<Vec<f64>> {
     loads
 }
 
+/// Elements with prescribed displacements.
+fn of_prescribed(model: &Model) -> Vec<usize> {
+    let is_prescribed = |slot: &Slot| matches!(slot, Slot::Prescribed(_));
+    (0..model.mesh.n_elements())
+        .filter(|&e| model.slots_of(e).iter().any(is_prescribed))
+        .collect()
+}
+
 /// Adds `-K_fp u_p` of each load's prescribed displacements.
 fn add_prescribed(model: &Model, loads: &mut [Vec<f64>]) {
-    let is_prescribed = |slot: &Slot| matches!(slot, Slot::Prescribed(_));
-    let elements: Vec<usize> = (0..model.mesh.n_elements())
-        .filter(|&e| model.slots_of(e).iter().any(is_prescribed))
-        .collect();
+    let elements = of_prescribed(model);
     let matrices = Matrices::new(&Elements::some_of(model, &elements));
     for (place, &e) in elements.iter().enumerate() {
         let slots = model.slots_of(e);
@@ -81,4 +90,37 @@ fn add_prescribed(model: &Model, loads: &mut [Vec<f64>]) {
             }
         }
     }
+}
+
+/// [`System::on_leading`].
+fn on_leading(model: &Model) -> Vec<f64> {
+    let mut work = vec![0.0; model.loads.len()];
+    let is_displacement = |load: &usize| model.loads[*load].measures == Magnitude::Displacement;
+    let Some(leading) = model.leading_load().filter(is_displacement) else {
+        return work;
+    };
+    let moved = |slot| match slot {
+        Slot::Prescribed(p) => Some(model.freedoms.prescribed[p as usize]),
+        _ => None,
+    };
+    let led = |slot| moved(slot).filter(|p| p.load == leading);
+    let elements = of_prescribed(model);
+    let matrices = Matrices::new(&Elements::some_of(model, &elements));
+    for (place, &e) in elements.iter().enumerate() {
+        let slots = model.slots_of(e);
+        for (i, row) in slots.iter().enumerate() {
+            let Some(own) = led(*row) else { continue };
+            for (j, column) in slots.iter().enumerate() {
+                if let Some(other) = moved(*column) {
+                    work[other.load] += own.value * matrices.of(place)[packed(i, j)] * other.value;
+                }
+            }
+        }
+    }
+    for (work, load) in work.iter_mut().zip(&model.loads) {
+        load.each_on_slots(&model.freedoms, |slot, force| {
+            *work -= led(slot).map_or(0.0, |own| own.value * force);
+        });
+    }
+    work
 }

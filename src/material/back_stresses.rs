@@ -31,7 +31,7 @@ use serde::{Deserialize, Serialize};
 pub struct BackStresses {
     /// Sum of the moduli of those that forget nothing.
     linear: f64,
-    /// Modulus C and rate gamma > 0 of those that do.
+    /// Modulus C and rate gamma > 0 of those that do, rates ascending.
     fading: Vec<[f64; 2]>,
 }
 
@@ -46,6 +46,9 @@ impl BackStresses {
                 out.fading.push([modulus, rate]);
             }
         }
+        // In one order however they are listed: what they remember is stored by place.
+        out.fading
+            .sort_by(|a, b| a[1].total_cmp(&b[1]).then(a[0].total_cmp(&b[0])));
         out
     }
 
@@ -64,9 +67,8 @@ impl BackStresses {
         self.fading.len()
     }
 
-    /// The rates of those.
-    #[cfg(test)]
-    pub(super) fn rates(&self) -> impl Iterator<Item = f64> {
+    /// The rates of those, ascending.
+    pub(crate) fn rates(&self) -> impl Iterator<Item = f64> {
         self.fading.iter().map(|[_, rate]| *rate)
     }
 

@@ -118,6 +118,11 @@ impl LoadCase {
         rows.iter().map(|r| r[0])
     }
 
+    /// Calls with each slot that a force at factor 1 acts on, with the force.
+    pub(crate) fn each_on_slots(&self, freedoms: &Freedoms, act: impl FnMut(Slot, f64)) {
+        each_on_slots(&self.nodal, freedoms, act);
+    }
+
     /// Forces as vectors in global axes, on control points.
     pub(super) fn nodal(&self) -> &[(usize, Vector)] {
         &self.nodal
@@ -360,14 +365,18 @@ fn integrate(
 
 pub(super) fn on_freedoms(nodal: &[(usize, Vector)], freedoms: &Freedoms) -> Vec<(usize, f64)> {
     let mut out = std::collections::BTreeMap::new();
+    each_on_slots(nodal, freedoms, |slot, force| {
+        if let Slot::Free(f) = slot {
+            *out.entry(f as usize).or_insert(0.0) += force;
+        }
+    });
+    out.into_iter().collect()
+}
+
+fn each_on_slots(nodal: &[(usize, Vector)], freedoms: &Freedoms, mut act: impl FnMut(Slot, f64)) {
     for &(node, force) in nodal {
         for (slot, axis) in freedoms.slots[node].iter().zip(freedoms.local(node)) {
-            freedoms.each(*slot, |slot, c| {
-                if let Slot::Free(f) = slot {
-                    *out.entry(f as usize).or_insert(0.0) += c * dot(force, axis);
-                }
-            });
+            freedoms.each(*slot, |slot, c| act(slot, c * dot(force, axis)));
         }
     }
-    out.into_iter().collect()
 }

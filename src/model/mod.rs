@@ -98,6 +98,13 @@ enum Origin {
 }
 
 impl Model {
+    /// The load that the results are reported by: the first that varies, else the first.
+    pub fn leading_load(&self) -> Option<usize> {
+        let varies = |load: &LoadCase| !matches!(load.history, crate::scene::History::Constant);
+        let first = (!self.loads.is_empty()).then_some(0);
+        self.loads.iter().position(varies).or(first)
+    }
+
     /// Builds the model of a scene: makes or reads its mesh, resolves names, pairs surfaces.
     ///
     /// # Errors

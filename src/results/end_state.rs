@@ -1,5 +1,6 @@
 //! What a run leaves in the material: the state that another may start from.
 
+use crate::space::Space;
 use serde::{Deserialize, Serialize};
 
 /// Plastic history at the end of a run, of the elements that have any. Residual stresses follow
@@ -17,6 +18,26 @@ pub struct EndState {
     pub back_strains: Vec<[f64; 6]>,
     /// Work per volume that was lost with them at each point; empty where there are none.
     pub lost_work: Vec<f64>,
+    /// What it belongs to.
+    pub left_by: Option<LeftBy>,
+}
+
+/// The model that left a state in the material, as far as the state has a meaning in another one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LeftBy {
+    /// Its kind: the components of strains and what holds between them.
+    pub kind: Space,
+    /// Its bodies, in the order of the mesh.
+    pub bodies: Vec<LeftByBody>,
+}
+
+/// A body in which a state was left.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LeftByBody {
+    /// Rates at which its back stresses fade, in the order of their strains.
+    pub rates: Vec<f64>,
+    /// Stresses and strains that it brought along, by key of the scene.
+    pub brought_along: Vec<(String, Vec<Vec<f64>>)>,
 }
 
 impl EndState {

@@ -8,6 +8,7 @@ mod contact_patch;
 mod cycles;
 mod cyclic_element;
 mod disc_in_plate;
+mod driving_force;
 mod equations;
 mod figures;
 mod flat_punch;

@@ -8,7 +8,7 @@ use brinell::model::Model;
 use brinell::output::{self, RunHeader};
 use brinell::progress::{Flow, Observer, Silent};
 use brinell::results::{HistoryRow, Results};
-use brinell::scene::Scene;
+use brinell::scene::{Kind, Scene};
 use brinell::{ErrorKind, Result};
 use std::path::{Path, PathBuf};
 
@@ -60,7 +60,7 @@ youngs_modulus = 200000.0
 poissons_ratio = 0.3
 yield_stress = 250.0
 plastic_modulus = 2000.0
-back_stresses = [[20000.0, 100.0], [5000.0, 0.0]]
+back_stresses = [[20000.0, 100.0], [8000.0, 30.0], [5000.0, 0.0]]
 [bodies.sheet]
 material = "metal"
 [program]
@@ -68,7 +68,7 @@ targets = [{ load_factor = 1.0 }]
 "#;
 
 /// A sheet with a back stress that fades, pulled, pushed, and pulled again by a second and a third
-/// run: nothing of the history is lost.
+/// run: nothing of the history is lost, in whatever order the back stresses are listed.
 #[test]
 fn a_sheet_goes_on_where_it_was_left() {
     let folder = tempfile::tempdir().unwrap();
@@ -77,7 +77,10 @@ fn a_sheet_goes_on_where_it_was_left() {
     let whole = run(&with_targets(&sheet, &[1.0, 0.0, -0.5, 0.0, 1.2], None));
     run_into(&with_targets(&sheet, &[1.0, 0.0], None), &dirs[0]);
     let start = Some(dirs[0].as_path());
-    run_into(&with_targets(&sheet, &[-0.5, 0.0], start), &dirs[1]);
+    let mut second = with_targets(&sheet, &[-0.5, 0.0], start);
+    let laws = second.materials.get_mut("metal").unwrap();
+    laws.back_stresses.as_mut().unwrap().reverse();
+    run_into(&second, &dirs[1]);
     let last = run(&with_targets(&sheet, &[1.2], Some(&dirs[1])));
     let [one, other] = [&whole.states[4], &last.states[0]];
     // Each of three increments is in equilibrium to 1e-10 of the forces.
@@ -246,7 +249,31 @@ fn what_cannot_be_started_from_is_named() {
     refused(&other, "its run was on another mesh");
     let mut other = start.clone();
     other.materials.get_mut("metal").unwrap().back_stresses = None;
-    refused(&other, "1 back stresses that fade, those here have 0");
+    refused(&other, "2 back stresses that fade, those here have 0");
+    let mut other = start.clone();
+    other.kind = match start.kind {
+        Kind::PlaneStrain => Kind::PlaneStress,
+        _ => Kind::PlaneStrain,
+    };
+    refused(&other, "the earlier run was of the kind");
+    let mut other = start.clone();
+    for law in other
+        .materials
+        .get_mut("metal")
+        .unwrap()
+        .back_stresses
+        .iter_mut()
+        .flatten()
+    {
+        law[1] *= 1.5;
+    }
+    refused(&other, "faded at the rates");
+    let mut stressed = with_targets(&sheet, &[1.0, 0.0], None);
+    let rows = vec![vec![0.0, 5.0, 0.0, 0.0, 0.0]];
+    stressed.bodies.get_mut("sheet").unwrap().initial_stress = Some(rows);
+    run_into(&stressed, &dir);
+    refused(&start, "another `initial_stress`");
+    run_into(&with_targets(&sheet, &[1.0, 0.0], None), &dir);
     let mut other = start.clone();
     other.bodies.get_mut("sheet").unwrap().plastic = brinell::scene::Plastic::No;
     refused(&other, "body `sheet`, which may not yield here");

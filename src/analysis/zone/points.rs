@@ -50,6 +50,8 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     factors: Vec<f64>,
     /// Initial loads of the committed plastic strains: what yields adds to them.
     base: Trailing,
+    /// The same on the prescribed displacements.
+    base_on_prescribed: Vec<f64>,
     nodal: Nodal,
     sums: Nodal,
 }
@@ -116,6 +118,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             yielding: vec![0; n],
             active: Vec::new(),
             base: Trailing::zeros(n_zone, n_contact),
+            base_on_prescribed: vec![0.0; model.freedoms.prescribed.len()],
             nodal: Nodal::new(model, places),
             sums: Nodal::new(model, places),
         }
@@ -359,6 +362,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.back.put(points, &history.back, from);
     }
 
+    /// Initial loads of the committed plastic strains on the prescribed displacements.
+    pub fn on_prescribed(&self) -> &[f64] {
+        &self.base_on_prescribed
+    }
+
     /// Initial loads of the committed plastic strains.
     pub fn initial_load(&self, mut out: Trailing) -> Trailing {
         out.copy_from(&self.base);
@@ -382,6 +390,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             elements.scatter(i, &gradients.forces(&stress), sums);
         }
         self.sums.sum_into(&mut self.base);
+        self.base_on_prescribed
+            .copy_from_slice(self.sums.on_prescribed());
     }
 
     /// Work on the plastic strains of a point of the zone's element `i`, per volume.

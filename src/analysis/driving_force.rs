@@ -1,0 +1,98 @@
+//! The force that moves what a load displaces, without the displacements of the whole model.
+//!
+//! By Betti's theorem the state at hand does the same work on the displacements of another one as
+//! that one on its own. The other one is the elastic structure with all pairs tied while the load's
+//! nodes move by 1, prescribed displacements `v`, free ones `w`, forces of the pairs `t`:
+//!
+//! ```text
+//! R = sum_k h_k (v'(K_pf u_k + K_pp v_k - f_k) - w' f_k) - t'(delta - g) - w' J - v' J_p
+//! ```
+//!
+//! `h_k` are the factors of the loads, `f_k` their forces, `delta - g` how far the pairs have moved
+//! together, `J` and `J_p` the initial loads on free and on prescribed freedoms.
+
+use super::solver::Solver;
+use super::structure::{Cost, Structure};
+use crate::error::Result;
+use crate::model::Magnitude;
+use crate::substructure::Trailing;
+
+/// What the force that moves a load's nodes is the sum of.
+pub(super) struct DrivingForce {
+    load: usize,
+    /// Force of each load at factor 1 with all pairs tied.
+    of_loads: Vec<f64>,
+    /// Force of each tied pair where the nodes move by 1.
+    of_pairs: Vec<f64>,
+    /// Displacements of zone and contact freedoms where they do.
+    moved: Trailing,
+    /// The prescribed displacements themselves.
+    prescribed: Vec<f64>,
+}
+
+impl DrivingForce {
+    /// For the leading load of a structure whose loads are condensed; `None` where that one
+    /// prescribes no displacement. Costs about half a full solve.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub(super) fn new(structure: &Structure, cost: &mut Cost) -> Result<Option<Self>> {
+        let (model, system, loads) = (structure.model, structure.system, &structure.loads);
+        let Some(load) = model.leading_load() else {
+            return Ok(None);
+        };
+        let case = &model.loads[load];
+        if case.measures != Magnitude::Displacement || case.magnitude == 0.0 {
+            return Ok(None);
+        }
+        let size = case.magnitude;
+        let mut moved = loads.condensed[load].eliminated.clone();
+        structure
+            .sub
+            .recover(&mut moved, &vec![0.0; structure.n_pairs()]);
+        let all = structure.sub.recover_all(&loads.reduced[load], &moved)?;
+        cost.counts.full_solves += 1;
+        let dot = |f: &Vec<f64>| -> f64 { all.iter().zip(f).map(|(u, f)| u * f).sum() };
+        let held = system.on_leading.iter().zip(&system.loads);
+        let prescribed = model.freedoms.prescribed.iter();
+        moved.iter_mut().for_each(|u| *u /= size);
+        Ok(Some(DrivingForce {
+            load,
+            of_loads: held.map(|(held, f)| (held - dot(f)) / size).collect(),
+            of_pairs: (loads.condensed[load].forces.iter())
+                .map(|force| force / size)
+                .collect(),
+            moved,
+            prescribed: prescribed
+                .map(|p| if p.load == load { p.value / size } else { 0.0 })
+                .collect(),
+        }))
+    }
+}
+
+impl Solver<'_> {
+    /// The force that moves the nodes of the leading load along its displacement, of the whole:
+    /// negative where they have to be held back, zero where it is no more than round-off of its
+    /// terms. `None` where that load prescribes no displacement.
+    pub(super) fn driving_force(&self) -> Option<f64> {
+        let structure = &self.structure;
+        let driving = structure.loads.driving.as_ref()?;
+        let product = |(a, b): (&f64, &f64)| a * b;
+        let delta = structure.delta(&self.at);
+        let slip = delta.iter().zip(&self.now.gap).map(|(d, gap)| gap - d);
+        let of_loads = self.at.factors.iter().zip(&driving.of_loads).map(product);
+        let of_pairs = driving.of_pairs.iter().zip(slip).map(|(t, slip)| t * slip);
+        let initial = self.now.initial.load.iter();
+        let of_initial = driving.moved.iter().zip(initial).map(product);
+        let held = driving.prescribed.iter().zip(self.zone.on_prescribed());
+        let plastic = of_initial.chain(held.map(product)).map(|work| -work);
+        let terms = of_loads.chain(of_pairs).chain(plastic);
+        let [force, size] = terms.fold([0.0, 0.0], |[sum, size], term| {
+            [sum + term, size + f64::abs(term)]
+        });
+        if f64::abs(force) <= 8.0 * f64::EPSILON * structure.condition * size {
+            return Some(0.0);
+        }
+        Some(force * self.at.factors[driving.load].signum() * structure.model.symmetry)
+    }
+}
