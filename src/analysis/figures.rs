@@ -22,6 +22,8 @@ pub struct Figures {
     pub beyond_yield_inside: bool,
     /// Seconds spent on the stresses of all elements: forces, fields, error indicator.
     pub stress_seconds: f64,
+    /// Displacements of all nodes.
+    pub moved: Vec<Vector>,
 }
 
 impl Reading<'_, '_> {
@@ -62,10 +64,10 @@ impl Reading<'_, '_> {
             self.solver.tableau.open(),
             |axis| self.distance_on_axis(axis, u),
         );
+        let model = self.solver.structure.model;
+        let moved = model.nodal(u, &self.solver.at.factors);
         let (energy_error, fields) = shown.map_or((None, None), |shown| {
-            let model = self.solver.structure.model;
-            let moved = model.nodal(u, &self.solver.at.factors);
-            let (energy_error, mut fields) = fields(model, moved, shown);
+            let (energy_error, mut fields) = fields(model, &moved, shown);
             on_nodes(model, &pairs, &mut fields);
             fields.force = reactions::on_nodes(model, nodal, &self.solver.contact_forces());
             (Some(energy_error), Some(fields))
@@ -101,13 +103,14 @@ impl Reading<'_, '_> {
             beyond_yield_outside,
             beyond_yield_inside,
             stress_seconds,
+            moved,
         })
     }
 }
 
 /// The estimated error of the stresses, and fields on the whole mesh, for the displacements of its
 /// nodes and what all elements show.
-fn fields(model: &Model, nodal: Vec<Vector>, shown: Shown) -> (f64, Fields) {
+fn fields(model: &Model, nodal: &[Vector], shown: Shown) -> (f64, Fields) {
     let dimension = model.mesh.dimension;
     let errors = shown.recovered.indicator(2 * dimension);
     let yielded = shown.plastic_strain.iter().map(|p| u8::from(*p > 0.0));

@@ -44,6 +44,10 @@ impl Run<'_, '_> {
             self.observer.warning(&text);
             results.warnings.push(text);
         }
+        if let Some(text) = self.position.deformation.warning() {
+            self.observer.warning(&text);
+            results.warnings.push(text);
+        }
         for (name, quality) in &judged {
             for (figure, value, most) in quality.misses(&tolerances) {
                 let text = format!(

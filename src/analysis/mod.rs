@@ -21,6 +21,7 @@
 //! | `local_yield` | yield stresses from place to place | |
 //! | `piece` | the stresses of a state, computed by all ranks | |
 //! | `indicator` | discretisation error of the stresses, element by element | |
+//! | `deformation` | whether strains and rotations are small | |
 //! | `check`, `seconds` | effects, cost and time before a run | |
 
 mod acceleration;
@@ -30,6 +31,7 @@ mod contact_area;
 mod contact_edge;
 mod contact_patch;
 mod cycles;
+mod deformation;
 mod dent;
 mod drive;
 mod driving_force;

@@ -1,6 +1,7 @@
 //! Where the load program is between two steps.
 
 use super::cycles::CycleRecord;
+use super::deformation::Deformation;
 use super::drive::Drive;
 use super::recovery::Watched;
 use crate::results::YieldPoint;
@@ -34,6 +35,8 @@ pub(super) struct Position {
     pub(super) fraction: f64,
     /// Time spent.
     pub(super) seconds: Seconds,
+    /// How far from small the states are.
+    pub(super) deformation: Deformation,
 }
 
 /// A part of the program.

@@ -97,6 +97,8 @@ impl<'m> Run<'m, '_> {
         if missed.is_empty() && watched == first_yield.watched {
             self.position.target += 1;
             self.position.attempt = 0;
+            let (model, of) = (self.solver.structure.model, &mut self.position.deformation);
+            of.take(&model.mesh, &label, &figures.moved);
             let is_last = self
                 .position
                 .cycles

@@ -2,6 +2,7 @@
 //!
 //! The scenes are in `data/scenes/hard`.
 
+mod beyond;
 mod checkpoint;
 mod collapse;
 mod cycles;

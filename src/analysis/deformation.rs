@@ -1,0 +1,81 @@
+//! Whether what is computed is small, as the theory takes it to be.
+//!
+//! With the gradient `H` of the displacements the exact (Green) strain is
+//!
+//! ```text
+//! E = (H + H')/2 + H'H/2
+//! ```
+//!
+//! Small strains leave the second term out: of a stretch `|H|` the share `|H|/2`, and a rotation
+//! `|H|` adds the strain `|H|^2/2` that is none. Between two nodes of an element `|H|` is at least
+//! the change of their difference over their distance. (G. A. Holzapfel, *Nonlinear Solid
+//! Mechanics* (2000), section 2.5.)
+
+use crate::mesh::Mesh;
+use crate::space::{Vector, difference, length};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Gradient beyond which a user is told: a twentieth of the strains is left out.
+const LARGE: f64 = 0.1;
+
+/// The largest displacement gradient of the states so far.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct Deformation {
+    largest: f64,
+    /// The state, and the body it is in.
+    state: String,
+    body: String,
+}
+
+impl Deformation {
+    /// Takes in a state with the displacements of its nodes.
+    pub(super) fn take(&mut self, mesh: &Mesh, state: &str, displacements: &[Vector]) {
+        let of_element = |e: usize| {
+            let corners = &mesh.nodes(e)[..mesh.shapes[e].n_corners()];
+            let mut largest = 0.0f64;
+            for (i, &a) in corners.iter().enumerate() {
+                for &b in &corners[..i] {
+                    let [a, b] = [a as usize, b as usize];
+                    let apart = length(difference(mesh.point(a), mesh.point(b)));
+                    let moved = length(difference(displacements[a], displacements[b]));
+                    if apart > 0.0 {
+                        largest = largest.max(moved / apart);
+                    }
+                }
+            }
+            (largest, e)
+        };
+        let more = |a: (f64, usize), b: (f64, usize)| if b.0 > a.0 { b } else { a };
+        let (largest, element) = (0..mesh.n_elements())
+            .into_par_iter()
+            .with_min_len(1 << 12)
+            .map(of_element)
+            .reduce(|| (0.0, 0), more);
+        if largest > self.largest {
+            *self = Deformation {
+                largest,
+                state: state.to_string(),
+                body: mesh.bodies[mesh.element_body[element] as usize].clone(),
+            };
+        }
+    }
+
+    /// What a user is to know of it.
+    pub(super) fn warning(&self) -> Option<String> {
+        let Deformation {
+            largest,
+            state,
+            body,
+        } = self;
+        (*largest > LARGE).then(|| {
+            format!(
+                "state `{state}`: neighbouring nodes of body `{body}` move against each other by \
+                 {:.0} % of their distance, and strains and rotations are taken for small: there \
+                 strains are wrong by half of that share. Where less was expected, look for units \
+                 that contradict each other (a modulus in GPa beside stresses in MPa)",
+                100.0 * largest
+            )
+        })
+    }
+}
