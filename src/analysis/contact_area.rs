@@ -10,6 +10,8 @@
 //! A = int dA,   c = int x dA/A,   M = int (x - c)(x - c)' dA/A = Q diag(a^2, b^2)/4 Q'
 //! ```
 //!
+//! Of a face that the other body covers in part, that part counts.
+//!
 //! Beyond a plane of symmetry the patch goes on as its mirror image. A patch between two parallel
 //! planes of symmetry is a strip without end: its larger half axis is infinite, the smaller one
 //! half its width. A patch that closes round a body, as in a press fit, has no mean normal: its
@@ -21,6 +23,7 @@
 
 mod fit;
 mod moments;
+mod topology;
 
 use super::mirror::Mirror;
 use crate::model::Model;
@@ -29,6 +32,7 @@ use crate::space::{Vector, along, cross, difference, direction, dot, length, uni
 use fit::{Cloud, Known};
 use moments::{Moments, Sums, mirror};
 use std::collections::{BTreeMap, BTreeSet};
+use topology::Topology;
 
 /// Layers of pairs at the edge whose pressures are not believed.
 const SKIPPED: usize = 1;
@@ -63,7 +67,7 @@ pub(super) fn patches(
 ) -> Vec<ReadPatch> {
     let mut out = Vec::new();
     for (contact, surface) in model.contacts.iter().enumerate() {
-        let topology = Topology::new(surface.range.clone(), &surface.faces);
+        let topology = Topology::new(surface);
         let closed: BTreeSet<usize> = surface
             .range
             .clone()
@@ -78,56 +82,6 @@ pub(super) fn patches(
     }
     out.sort_by(|a, b| b.patch.force.total_cmp(&a.patch.force));
     out
-}
-
-/// Which pairs of a contact share faces.
-struct Topology<'m> {
-    start: usize,
-    faces: &'m [Vec<usize>],
-    /// Faces at each pair.
-    at: Vec<Vec<u32>>,
-}
-
-impl<'m> Topology<'m> {
-    fn new(range: std::ops::Range<usize>, faces: &'m [Vec<usize>]) -> Self {
-        let mut at = vec![Vec::new(); range.len()];
-        for (face, corners) in faces.iter().enumerate() {
-            for &k in corners {
-                at[k - range.start].push(face as u32);
-            }
-        }
-        Topology {
-            start: range.start,
-            faces,
-            at,
-        }
-    }
-
-    /// Pairs that share a face with a pair, itself included.
-    fn around(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
-        let faces = self.at[k - self.start].iter();
-        faces.flat_map(|&face| self.faces[face as usize].iter().copied())
-    }
-
-    /// The connected sets of some pairs.
-    fn connected(&self, closed: &BTreeSet<usize>) -> Vec<BTreeSet<usize>> {
-        let mut left = closed.clone();
-        let mut out = Vec::new();
-        while let Some(first) = left.pop_first() {
-            let mut members = BTreeSet::from([first]);
-            let mut edge = vec![first];
-            while let Some(k) = edge.pop() {
-                for other in self.around(k) {
-                    if left.remove(&other) {
-                        members.insert(other);
-                        edge.push(other);
-                    }
-                }
-            }
-            out.push(members);
-        }
-        out
-    }
 }
 
 /// A unit vector across another.
@@ -226,7 +180,7 @@ impl<'a> Shape<'a> {
     fn measure(&mut self) {
         if self.planes.is_empty() {
             let mut sums = Sums::default();
-            self.member_faces().for_each(|corners| {
+            self.member_faces().for_each(|(_, corners)| {
                 let places: Vec<[f64; 2]> = corners.iter().map(|k| self.place(*k)).collect();
                 sums.add_face(&places, |_| 1.0);
             });
@@ -238,7 +192,7 @@ impl<'a> Shape<'a> {
             ];
         }
         let (mut faces, mut extents) = (0.0, [0.0; 2]);
-        for corners in self.member_faces() {
+        for (_, corners) in self.member_faces() {
             let places = || corners.iter().map(|k| self.place(*k));
             faces += 1.0;
             for (d, extent) in extents.iter_mut().enumerate() {
@@ -249,14 +203,25 @@ impl<'a> Shape<'a> {
         self.units = extents.map(|extent| extent / faces);
     }
 
-    /// The faces at the pairs that touch, by their corners.
-    fn member_faces(&self) -> impl Iterator<Item = &[usize]> {
+    /// The faces at the pairs that touch, by number and corners.
+    fn member_faces(&self) -> impl Iterator<Item = (usize, &[usize])> {
         let faces: BTreeSet<u32> = (self.members.iter())
             .flat_map(|&k| self.topology.at[k - self.topology.start].iter().copied())
             .collect();
         faces
             .into_iter()
-            .map(|face| self.topology.faces[face as usize].as_slice())
+            .map(|face| (face as usize, self.topology.faces[face as usize].as_slice()))
+    }
+
+    /// What is covered of a face, where that is not all.
+    fn covered(&self, face: usize) -> Option<Vec<Vec<[f64; 2]>>> {
+        let parts = self.topology.covered.get(&face)?;
+        Some(self.in_plane(parts))
+    }
+
+    fn in_plane(&self, parts: &[Vec<Vector>]) -> Vec<Vec<[f64; 2]>> {
+        let places = |part: &Vec<Vector>| part.iter().map(|&x| self.place_of(x)).collect();
+        parts.iter().map(places).collect()
     }
 
     fn place(&self, k: usize) -> [f64; 2] {
@@ -367,10 +332,11 @@ impl<'a> Shape<'a> {
         let layers = self.layers();
         let believed = self.believed(&layers, skipped);
         let mut sums = Sums::default();
-        for corners in self.member_faces() {
+        for (face, corners) in self.member_faces() {
             let places: Vec<[f64; 2]> = corners.iter().map(|k| self.place(*k)).collect();
+            let parts = self.covered(face);
             if corners.iter().all(|k| layers[k] > skipped) {
-                sums.add_face(&places, |_| 1.0);
+                sums.add_parts(parts.as_deref().unwrap_or(&[places]), |_| 1.0);
                 continue;
             }
             let mean = |d: usize| places.iter().map(|x| x[d]).sum::<f64>() / places.len() as f64;
@@ -389,13 +355,33 @@ impl<'a> Shape<'a> {
                     let zeros: Vec<Known> = wrong.map(zero).collect();
                     let bounded = (!zeros.is_empty()).then(|| believed.fit(center, &zeros));
                     let fit = bounded.flatten().unwrap_or(fit);
-                    sums.add_face(&places, |x| fit.value(x));
+                    sums.add_parts(parts.as_deref().unwrap_or(&[places]), |x| fit.value(x));
                 }
                 // Halfway between pairs that touch and pairs that do not.
                 None => {
                     let sign = |k: &usize| if self.members.contains(k) { 1.0 } else { -1.0 };
                     let signs: Vec<f64> = corners.iter().map(sign).collect();
                     sums.add_corners(&places, &signs);
+                }
+            }
+        }
+        for (near, parts) in self.topology.slivers {
+            if near.iter().any(|k| self.members.contains(k)) {
+                let parts = self.in_plane(parts);
+                let mean = |d: usize| {
+                    let sum: f64 = near.iter().map(|k| self.place(*k)[d]).sum();
+                    sum / near.len() as f64
+                };
+                match near
+                    .iter()
+                    .all(|k| layers.get(k).is_some_and(|l| *l > skipped))
+                {
+                    true => sums.add_parts(&parts, |_| 1.0),
+                    false => {
+                        if let Some(fit) = believed.fit([mean(0), mean(1)], &[]) {
+                            sums.add_parts(&parts, |x| fit.value(x));
+                        }
+                    }
                 }
             }
         }

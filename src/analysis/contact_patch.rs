@@ -46,10 +46,17 @@ pub(super) struct Patch<'a> {
 }
 
 impl Patch<'_> {
-    /// Where the surface ends beyond its last pair `k`: there, or on the axis.
+    /// Where the surface ends beyond its last pair `k`: there, or on the axis, or where the other
+    /// surface does.
     pub(super) fn end_arc(&self, k: usize) -> f64 {
-        self.axis_beside(k)
-            .map_or(self.model.pairs[k].arc, |axis| axis.pair.arc)
+        let pair = &self.model.pairs[k];
+        let extent = self.model.contacts[pair.contact].extent;
+        match (self.axis_beside(k), extent) {
+            (Some(axis), _) => axis.pair.arc,
+            (None, Some([low, _])) if k == self.range.start => low,
+            (None, Some([_, high])) if k + 1 == self.range.end => high,
+            _ => pair.arc,
+        }
     }
 
     /// The point on the axis that a pair is next to.

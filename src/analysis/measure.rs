@@ -173,7 +173,7 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
                 let middle = match (at_begin, at_end) {
                     (true, _) => patch.end_arc(begin),
                     (_, true) => patch.end_arc(k - 1),
-                    _ => 0.5 * (model.pairs[begin].arc + model.pairs[k - 1].arc),
+                    _ => 0.5 * (patch.end_arc(begin) + patch.end_arc(k - 1)),
                 };
                 let ends = [patch.edge(begin, -1, middle), patch.edge(k - 1, 1, middle)];
                 let [from, to] = ends.map(|end| end.arc);

@@ -13,9 +13,9 @@ use super::given::Given;
 use super::names::Entry;
 use crate::error::{Error, Result};
 use crate::mesh::surface::PAIRING;
-use crate::mesh::{Curve, Facet, Mesh, Surface};
+use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::{Contact, Scene};
-use crate::space::{Space, Vector};
+use crate::space::{Space, Vector, difference, dot, length};
 use std::collections::BTreeMap;
 
 /// Relative error of a coordinate of a mesh: it was rounded some times on its way through rotations
@@ -104,6 +104,15 @@ pub struct ContactSurface {
     /// In a solid model the pairs at the corners of each piece of a face of the slave surface, in
     /// order.
     pub faces: Vec<Vec<usize>>,
+    /// Of pieces that the other surface does not cover wholly, by their number: polygons that it
+    /// does cover.
+    pub covered: BTreeMap<usize, Vec<Vec<Vector>>>,
+    /// Of pieces some of whose nodes face too little to be pairs: the pairs nearest in the face,
+    /// and polygons that the other surface covers.
+    pub slivers: Vec<(Vec<usize>, Vec<Vec<Vector>>)>,
+    /// Arc lengths along the slave surface of a plane model between which the other surface covers
+    /// it, where that is not known from the pairs.
+    pub extent: Option<[f64; 2]>,
 }
 
 /// A pair on the axis of revolution whose slave belongs to a quadratic element. Its consistent
@@ -193,9 +202,9 @@ pub(super) fn resolve(
                 ))));
             }
         }
-        let sides = (found.slave, found.facet_length);
-        pairs.extend(found.pairs);
-        contacts.push(surface_of(&entries, sides, &mut pairs, start));
+        let own = std::mem::take(&mut found.pairs);
+        pairs.extend(own);
+        contacts.push(surface_of(&entries, &found, &mut pairs, start));
     }
     Ok((pairs, contacts))
 }
@@ -206,65 +215,142 @@ struct Found {
     /// Which surface has the slaves.
     slave: usize,
     facet_length: f64,
+    covered: Covered,
 }
+
+/// What the other surface covers of facets of the slave surface, by their number and piece by
+/// piece, where that is not all.
+type Covered = BTreeMap<usize, Vec<Vec<Vec<Vector>>>>;
 
 /// The contact of the pairs from `start` on.
 fn surface_of(
     entries: &Entries,
-    (slave, facet_length): (usize, f64),
+    found: &Found,
     pairs: &mut Vec<Pair>,
     start: usize,
 ) -> ContactSurface {
-    let surface = entries.surfaces[slave];
+    let surface = entries.surfaces[found.slave];
     let axis = take_axis_pair(entries, pairs, start);
+    let pieces = Pieces::new(
+        entries.mesh,
+        surface,
+        &found.covered,
+        (&pairs[start..], start),
+    );
     ContactSurface {
         names: [
             entries.contact.first.clone(),
             entries.contact.second.clone(),
         ],
-        slave,
+        slave: found.slave,
         range: start..pairs.len(),
         circle: match surface.curve {
             Some(Curve::Circle { center, radius, .. }) => Some((center, radius)),
             _ => None,
         },
         stiffness: entries.contact.stiffness,
-        facet_length,
+        facet_length: found.facet_length,
         axis,
         goes_on: Vec::new(),
-        faces: faces_of(entries.mesh, surface, &pairs[start..], start),
+        faces: pieces.faces,
+        covered: pieces.covered,
+        slivers: pieces.slivers,
+        extent: extent(entries.mesh, surface, &pairs[start..], &found.covered),
     }
 }
 
-/// The pairs at the corners of each piece of a face of a surface of a solid; `start` is the first
-/// one's number. A linear face is one piece; of a quadratic one the nodes are the corners of
-/// several.
-fn faces_of(mesh: &Mesh, surface: &Surface, pairs: &[Pair], start: usize) -> Vec<Vec<usize>> {
-    if !mesh.is_solid() {
-        return Vec::new();
+/// Pieces of faces of a slave surface of a solid; see [`ContactSurface`].
+#[derive(Default)]
+struct Pieces {
+    faces: Vec<Vec<usize>>,
+    covered: BTreeMap<usize, Vec<Vec<Vector>>>,
+    slivers: Vec<(Vec<usize>, Vec<Vec<Vector>>)>,
+}
+
+impl Pieces {
+    /// Of the pairs from number `start` on. A linear face is one piece; of a quadratic one the
+    /// nodes are the corners of several.
+    fn new(
+        mesh: &Mesh,
+        surface: &Surface,
+        found: &Covered,
+        (pairs, start): (&[Pair], usize),
+    ) -> Self {
+        let mut out = Pieces::default();
+        if !mesh.is_solid() {
+            return out;
+        }
+        let numbers = start..start + pairs.len();
+        let of_node: BTreeMap<usize, usize> = pairs.iter().map(|p| p.slave).zip(numbers).collect();
+        for (number, facet) in surface.facets.iter().enumerate() {
+            let nodes: Vec<usize> = mesh.facet_nodes(*facet).collect();
+            let known = |node: &usize| of_node.get(node).copied();
+            let all: Vec<usize> = nodes.iter().filter_map(known).collect();
+            if all.is_empty() {
+                continue;
+            }
+            for (k, piece) in mesh.facet_reference(*facet).pieces().iter().enumerate() {
+                let corners: Vec<usize> = piece.iter().filter_map(|&i| known(&nodes[i])).collect();
+                let of_piece = |pieces: &Vec<_>| pieces.get(k).cloned().unwrap_or_default();
+                let parts: Option<Vec<Vec<Vector>>> = found.get(&number).map(of_piece);
+                match parts {
+                    parts if corners.len() == piece.len() => {
+                        out.covered
+                            .extend(parts.map(|parts| (out.faces.len(), parts)));
+                        out.faces.push(corners);
+                    }
+                    Some(parts) if !parts.is_empty() => {
+                        let near = if corners.is_empty() {
+                            all.clone()
+                        } else {
+                            corners
+                        };
+                        out.slivers.push((near, parts));
+                    }
+                    _ => {}
+                }
+            }
+        }
+        out
     }
-    let numbers = start..start + pairs.len();
-    let of_node: BTreeMap<usize, usize> = pairs.iter().map(|p| p.slave).zip(numbers).collect();
-    let pairs_of = |&facet: &Facet| -> Option<Vec<Vec<usize>>> {
-        let nodes = mesh.facet_nodes(facet);
-        let face: Vec<usize> = nodes
-            .map(|node| of_node.get(&node).copied())
-            .collect::<Option<_>>()?;
-        let of_piece = |piece: &&[usize]| piece.iter().map(|&k| face[k]).collect();
-        Some(
-            mesh.facet_reference(facet)
-                .pieces()
-                .iter()
-                .map(of_piece)
-                .collect(),
-        )
-    };
-    surface
-        .facets
-        .iter()
-        .filter_map(pairs_of)
-        .flatten()
-        .collect()
+}
+
+/// [`ContactSurface::extent`]: of facets that are covered in part the ends of what is covered, of
+/// others those of their pairs.
+fn extent(mesh: &Mesh, surface: &Surface, pairs: &[Pair], found: &Covered) -> Option<[f64; 2]> {
+    if mesh.is_solid() || found.is_empty() {
+        return None;
+    }
+    let arc_of: BTreeMap<usize, f64> = pairs.iter().map(|p| (p.slave, p.arc)).collect();
+    let [first_arc, last_arc] = [pairs.first()?, pairs.last()?].map(|pair| pair.arc);
+    let mut arcs = Vec::new();
+    for (number, facet) in surface.facets.iter().enumerate() {
+        let nodes = mesh.facet_nodes(*facet);
+        let known = nodes.filter_map(|node| Some((arc_of.get(&node).copied()?, mesh.point(node))));
+        let mut known: Vec<(f64, Vector)> = known.collect();
+        known.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let [Some(&low), Some(&high)] = [known.first(), known.last()] else {
+            continue;
+        };
+        let Some(parts) = found.get(&number) else {
+            arcs.extend([low.0, high.0]);
+            continue;
+        };
+        let way = difference(high.1, low.1);
+        arcs.extend(parts.iter().flatten().flatten().filter_map(|&point| {
+            let from = difference(point, low.1);
+            match low.0 < high.0 {
+                true => Some(low.0 + dot(from, way) / dot(way, way) * (high.0 - low.0)),
+                // Beyond the end of the pairs.
+                false if low.0 == last_arc && low.0 > first_arc => Some(low.0 + length(from)),
+                false if low.0 == first_arc && low.0 < last_arc => Some(low.0 - length(from)),
+                false => None,
+            }
+        }));
+    }
+    let low = arcs.iter().copied().reduce(f64::min)?;
+    let high = arcs.iter().copied().reduce(f64::max)?;
+    (low < high).then_some([low, high])
 }
 
 /// Takes the pair on the axis that can carry no force out of the pairs from `start` on.

@@ -1,5 +1,6 @@
 //! Three dimensions: elements, contact and plasticity of solids.
 
+mod covered;
 mod extruded;
 mod generated;
 mod held;

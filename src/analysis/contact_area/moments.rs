@@ -23,6 +23,18 @@ pub(super) struct Sums {
 }
 
 impl Sums {
+    /// The part of convex polygons where a function is positive.
+    pub(super) fn add_parts(&mut self, parts: &[Vec<[f64; 2]>], level: impl Fn([f64; 2]) -> f64) {
+        for corners in parts {
+            match corners.len() {
+                3 | 4 => self.add_face(corners, &level),
+                n => (2..n).for_each(|k| {
+                    self.add_face(&[corners[0], corners[k - 1], corners[k]], &level);
+                }),
+            }
+        }
+    }
+
     /// The part of a face where a function is positive, by small straight pieces.
     pub(super) fn add_face(&mut self, corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64) {
         let n = PIECES;

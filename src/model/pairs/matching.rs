@@ -128,6 +128,7 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
         pairs,
         slave,
         facet_length,
+        covered: BTreeMap::new(),
     }))
 }
 

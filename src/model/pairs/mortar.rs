@@ -30,7 +30,7 @@ use crate::mesh::surface::{longest_facet, nodes, normals};
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::SlaveSide;
 use crate::space::{Vector, difference, direction, dot, length};
-use dual::{Integrals, integrate};
+use dual::{CoveredFacet, Integrals, OfFacet, integrate};
 use face::Face;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -72,6 +72,8 @@ struct Coupled<'a> {
     /// Which surface has the slaves.
     slave: usize,
     facet_length: f64,
+    /// Of facets of the slave that are covered in part, by their number: what is.
+    covered: BTreeMap<usize, CoveredFacet>,
 }
 
 impl Coupled<'_> {
@@ -110,6 +112,7 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
         pairs: found.pairs,
         slave: found.slave,
         facet_length: found.facet_length,
+        covered: found.covered,
     })
 }
 
@@ -150,6 +153,7 @@ pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, V
         pairs: found.pairs,
         slave: found.slave,
         facet_length: found.facet_length,
+        covered: found.covered,
     };
     Ok((found, free))
 }
@@ -196,11 +200,12 @@ fn coupled<'a>(entries: &'a Entries<'a>, slave: SlaveSide) -> Result<Coupled<'a>
         curves,
         normals: slave_nodes.iter().copied().zip(normals).collect(),
     };
-    let integrals = sum(sides
+    let of_facets: Result<Vec<OfFacet>> = sides
         .slaves
         .par_iter()
         .map(|face| integrate(&sides, face))
-        .collect())?;
+        .collect();
+    let (integrals, covered) = sum(of_facets?);
     let facet_length = longest_facet(mesh, slave_surface).max(longest_facet(mesh, master_surface));
     let (mut left_out, mut alone) = (Vec::new(), Vec::new());
     let mut pairs = Vec::new();
@@ -233,18 +238,21 @@ fn coupled<'a>(entries: &'a Entries<'a>, slave: SlaveSide) -> Result<Coupled<'a>
         alone,
         slave,
         facet_length,
+        covered,
     })
 }
 
-/// Integrals of all facets, node by node.
-fn sum(facets: Vec<Result<Vec<(usize, Integrals)>>>) -> Result<BTreeMap<usize, Integrals>> {
+/// Integrals of all facets, node by node, and what is covered of those that are not whole.
+fn sum(facets: Vec<OfFacet>) -> (BTreeMap<usize, Integrals>, BTreeMap<usize, CoveredFacet>) {
     let mut sums: BTreeMap<usize, Integrals> = BTreeMap::new();
-    for facet in facets {
-        for (node, of_facet) in facet? {
+    let mut covered = BTreeMap::new();
+    for (number, facet) in facets.into_iter().enumerate() {
+        for (node, of_facet) in facet.nodes {
             sums.entry(node).or_default().add(&of_facet);
         }
+        covered.extend(facet.covered.map(|parts| (number, parts)));
     }
-    Ok(sums)
+    (sums, covered)
 }
 
 /// How much longer than those of the slave linear facets of a master may be. They stay straight:

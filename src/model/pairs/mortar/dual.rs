@@ -4,7 +4,7 @@
 //! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`: where little is covered that loses
 //! half of the digits that the inverse of `int phi_j phi_l` would.
 
-use super::face::{Face, Plane};
+use super::face::{Face, Plane, Point};
 use super::{NOTHING, Sides, overlap};
 use crate::error::{Error, Result};
 use crate::shape::MAX_FACET_NODES;
@@ -14,6 +14,8 @@ use std::collections::BTreeMap;
 
 /// Smallest over largest diagonal entry of `R` at which a facet counts as covered at all.
 const SLIVER: f64 = 1e-7;
+/// Share of a facet that is not covered above which it counts as covered in part: round-off.
+const PARTLY: f64 = 1e-9;
 /// Share of a facet that may be covered twice: more than polygons are off facets with curved edges.
 const TWICE: f64 = 0.05;
 /// What each end of an edge counts at the middle of it: that of [`crate::model::ContactBasis`].
@@ -95,14 +97,26 @@ struct Sample {
     normal: Vector,
 }
 
+/// What a slave facet comes to.
+pub(super) struct OfFacet {
+    /// The integrals of each of its nodes; none where it faces no master.
+    pub nodes: Vec<(usize, Integrals)>,
+    /// What masters cover of it, where that is not all.
+    pub covered: Option<CoveredFacet>,
+}
+
+/// The covered parts of a facet, for each piece of it between its nodes.
+pub(super) type CoveredFacet = Vec<Vec<Vec<Vector>>>;
+
 /// The integrals of each node of a slave facet that faces masters.
 ///
 /// # Errors
 /// A facet that masters cover twice.
-pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integrals)>> {
+pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<OfFacet> {
     let plane = Plane::new(face.center, face.normal, face.is_solid());
     let pieces = face.pieces(&plane);
     let mut samples = Vec::new();
+    let mut covered: Vec<Vec<Point>> = Vec::new();
     let mut faced = Vec::new();
     for number in sides.near.near(face.center, face.normal, face.radius) {
         let master = &sides.masters[number];
@@ -113,17 +127,24 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integr
         let are_quadratic = face.is_transformed() || master.is_transformed();
         for piece in &pieces {
             for other in master.pieces(&plane) {
-                for (point, weight) in overlap::points(piece, &other, are_quadratic) {
+                let common = overlap::common(piece, &other);
+                for (point, weight) in overlap::points(&common, are_quadratic) {
                     samples.extend(sample(sides, [face, master], &plane, point, weight));
                 }
+                covered.push(common);
             }
         }
         if samples.len() > start {
             faced.push((number, start..samples.len()));
         }
     }
+    let parts = || by_pieces(face, &plane, &covered);
+    let none = || OfFacet {
+        nodes: Vec::new(),
+        covered: Some(parts()),
+    };
     if samples.is_empty() {
-        return Ok(Vec::new());
+        return Ok(none());
     }
     let n = face.nodes.len();
     let (whole, area) = whole(sides, face);
@@ -147,7 +168,7 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integr
         r.diagonal().iter().map(|d| d.abs()).fold(from, pick)
     };
     if samples.len() < n || size(f64::min, f64::INFINITY) <= SLIVER * size(f64::max, 0.0) {
-        return Ok(Vec::new());
+        return Ok(none());
     }
     let q = qr.q();
     // Coefficients on `phi` of functions at the samples: `R^-1 Q' sqrt(w) f`.
@@ -196,7 +217,29 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<Vec<(usize, Integr
             }
         }
     }
-    Ok(out)
+    Ok(OfFacet {
+        nodes: out,
+        covered: (covered_area < (1.0 - PARTLY) * area).then(parts),
+    })
+}
+
+/// Polygons in the plane of a facet, cut to its pieces, in space.
+fn by_pieces(face: &Face, plane: &Plane, polygons: &[Vec<Point>]) -> CoveredFacet {
+    let mut out = Vec::new();
+    for polygon in polygons.iter().filter(|polygon| !polygon.is_empty()) {
+        let parts = face.by_pieces(plane, polygon);
+        out.resize(parts.len(), Vec::new());
+        for (out, part) in out.iter_mut().zip(parts) {
+            if !part.is_empty() {
+                out.push(
+                    part.into_iter()
+                        .map(|point| plane.position(point))
+                        .collect(),
+                );
+            }
+        }
+    }
+    out
 }
 
 /// `int phi` of each node over a whole facet, and its area.
@@ -233,7 +276,7 @@ fn sample(
     sides: &Sides,
     [face, master]: [&Face; 2],
     plane: &Plane,
-    point: super::face::Point,
+    point: Point,
     weight: f64,
 ) -> Option<Sample> {
     let [here, there] = [face.locate(plane, point)?, master.locate(plane, point)?];

@@ -1,5 +1,6 @@
 //! A facet as mortar integrals see it: projected along a direction, and mapped back.
 
+use super::overlap;
 use crate::mesh::{Facet, Mesh};
 use crate::shape::{FacetReference, MAX_FACET_NODES, Place};
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
@@ -47,6 +48,12 @@ impl Plane {
             normal,
             axes,
         }
+    }
+
+    /// The position of a point.
+    pub(super) fn position(&self, point: Point) -> Vector {
+        let first = along(self.origin, point[0], self.axes[0]);
+        along(first, point[1], self.axes[1])
     }
 
     pub(super) fn project(&self, x: Vector) -> Point {
@@ -184,6 +191,24 @@ impl Face {
             pieces.iter_mut().for_each(|piece| piece.reverse());
         }
         pieces
+    }
+
+    /// What of a polygon lies in each piece between the nodes of the facet, in the order of
+    /// [`FacetReference::pieces`]; a line is in one piece.
+    pub(super) fn by_pieces(&self, plane: &Plane, polygon: &[Point]) -> Vec<Vec<Point>> {
+        if !self.is_solid() {
+            return vec![polygon.to_vec()];
+        }
+        let points: Vec<Point> = self.x.iter().map(|&x| plane.project(x)).collect();
+        let pieces = self.reference.pieces().iter();
+        let of_piece = |piece: &&[usize]| -> Vec<Point> {
+            let mut corners: Vec<Point> = piece.iter().map(|&k| points[k]).collect();
+            if dot(self.normal, plane.normal) < 0.0 {
+                corners.reverse();
+            }
+            overlap::common(&corners, polygon)
+        };
+        pieces.map(of_piece).collect()
     }
 
     /// Whether middle nodes lie on the chords of their edges.

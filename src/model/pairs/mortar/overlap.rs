@@ -56,27 +56,39 @@ fn seven() -> Vec<([f64; 2], f64)> {
     rule.map(|&([x, y, _], weight)| ([x, y], weight)).collect()
 }
 
-/// Points and weights on what two pieces of facets have in common; of quadratic facets more of
-/// them.
-pub(super) fn points(a: &[Point], b: &[Point], are_quadratic: bool) -> Vec<(Point, f64)> {
+/// What two pieces of facets have in common: a polygon, or the ends of a line; empty where that is
+/// nothing.
+pub(super) fn common(a: &[Point], b: &[Point]) -> Vec<Point> {
     match (a, b) {
-        (&[a, b], &[c, d]) => on_line([a[0], b[0]], [c[0], d[0]]),
+        (&[a, b], &[c, d]) => {
+            let low = a[0].min(b[0]).max(c[0].min(d[0]));
+            let high = a[0].max(b[0]).min(c[0].max(d[0]));
+            match high > low {
+                true => vec![[low, 0.0], [high, 0.0]],
+                false => Vec::new(),
+            }
+        }
         _ => {
             let corners = clipped(b, a);
-            if corners.len() < 3 {
-                return Vec::new();
+            match corners.len() < 3 {
+                true => Vec::new(),
+                false => corners,
             }
-            on_polygon(&corners, &if are_quadratic { sixteen() } else { seven() })
         }
     }
 }
 
-fn on_line(a: [f64; 2], b: [f64; 2]) -> Vec<(Point, f64)> {
-    let low = a[0].min(a[1]).max(b[0].min(b[1]));
-    let high = a[0].max(a[1]).min(b[0].max(b[1]));
-    if high <= low {
-        return Vec::new();
+/// Points and weights on what two pieces of facets have in common; of quadratic facets more of
+/// them.
+pub(super) fn points(common: &[Point], are_quadratic: bool) -> Vec<(Point, f64)> {
+    match common {
+        [] => Vec::new(),
+        &[from, to] => on_line(from[0], to[0]),
+        corners => on_polygon(corners, &if are_quadratic { sixteen() } else { seven() }),
     }
+}
+
+fn on_line(low: f64, high: f64) -> Vec<(Point, f64)> {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     let point = |(x, w): (f64, f64)| ([middle + half * x, 0.0], half * w);
     LINE.into_iter().map(point).collect()
@@ -137,7 +149,9 @@ mod tests {
     const SQUARE: [Point; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
     fn area(a: &[Point], b: &[Point]) -> f64 {
-        let areas = [false, true].map(|more| points(a, b, more).iter().map(|p| p.1).sum::<f64>());
+        let common = common(a, b);
+        let areas =
+            [false, true].map(|more| points(&common, more).iter().map(|p| p.1).sum::<f64>());
         assert!((areas[0] - areas[1]).abs() < 1e-14);
         areas[0]
     }
@@ -160,7 +174,7 @@ mod tests {
     #[test]
     fn rules_are_exact() {
         for (more, m, n) in [(false, 3, 2), (true, 3, 2), (true, 4, 4), (true, 7, 1)] {
-            let points = points(&SQUARE, &SQUARE, more);
+            let points = points(&common(&SQUARE, &SQUARE), more);
             let sum: f64 = points
                 .iter()
                 .map(|([x, y], w)| w * x.powi(m) * y.powi(n))
@@ -168,7 +182,8 @@ mod tests {
             let exact = 1.0 / f64::from((m + 1) * (n + 1));
             assert!((sum - exact).abs() < 1e-14, "{m} {n}: {sum} {exact}");
         }
-        let line = points(&[[0.0, 0.0], [2.0, 0.0]], &[[3.0, 0.0], [1.0, 0.0]], false);
+        let line = common(&[[0.0, 0.0], [2.0, 0.0]], &[[3.0, 0.0], [1.0, 0.0]]);
+        let line = points(&line, false);
         let sum: f64 = line.iter().map(|([x, _], w)| w * x.powi(9)).sum();
         assert!((sum - (2f64.powi(10) - 1.0) / 10.0).abs() < 1e-12);
     }
