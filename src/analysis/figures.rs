@@ -22,8 +22,8 @@ pub struct Figures {
     pub beyond_yield_inside: bool,
     /// Seconds spent on the stresses of all elements: forces, fields, error indicator.
     pub stress_seconds: f64,
-    /// Displacements of all nodes.
-    pub moved: Vec<Vector>,
+    /// Displacements of all nodes without the rigid motions of floating bodies.
+    pub deformation: Vec<Vector>,
 }
 
 impl Reading<'_, '_> {
@@ -65,9 +65,11 @@ impl Reading<'_, '_> {
             |axis| self.distance_on_axis(axis, u),
         );
         let model = self.solver.structure.model;
-        let moved = model.nodal(u, &self.solver.at.factors);
+        let factors = &self.solver.at.factors;
+        let deformation = model.nodal(displacements.deformation(), factors);
         let (energy_error, fields) = shown.map_or((None, None), |shown| {
-            let (energy_error, mut fields) = fields(model, &moved, shown);
+            let moved = model.nodal(u, factors);
+            let (energy_error, mut fields) = fields(model, moved, shown);
             on_nodes(model, &pairs, &mut fields);
             fields.force = reactions::on_nodes(model, nodal, &self.solver.contact_forces());
             (Some(energy_error), Some(fields))
@@ -103,14 +105,14 @@ impl Reading<'_, '_> {
             beyond_yield_outside,
             beyond_yield_inside,
             stress_seconds,
-            moved,
+            deformation,
         })
     }
 }
 
 /// The estimated error of the stresses, and fields on the whole mesh, for the displacements of its
 /// nodes and what all elements show.
-fn fields(model: &Model, nodal: &[Vector], shown: Shown) -> (f64, Fields) {
+fn fields(model: &Model, nodal: Vec<Vector>, shown: Shown) -> (f64, Fields) {
     let dimension = model.mesh.dimension;
     let errors = shown.recovered.indicator(2 * dimension);
     let yielded = shown.plastic_strain.iter().map(|p| u8::from(*p > 0.0));

@@ -98,7 +98,7 @@ impl<'m> Run<'m, '_> {
             self.position.target += 1;
             self.position.attempt = 0;
             let (model, of) = (self.solver.structure.model, &mut self.position.deformation);
-            of.take(&model.mesh, &label, &figures.moved);
+            of.take(&model.mesh, &label, &figures.deformation);
             let is_last = self
                 .position
                 .cycles

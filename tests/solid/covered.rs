@@ -104,11 +104,16 @@ fn a_patch_is_what_both_bodies_cover() {
 
 #[test]
 fn a_half_width_ends_where_either_body_does() {
-    for seed in 0..either(20, 300) {
+    let (n, mut read) = (either(20, 300), 0);
+    for seed in 0..n {
         let random = &mut Random::new(seed);
         let kind = random.one_of(&["plane_strain", "plane_stress"]);
         let ([a, _], states) = pressed(random, kind);
         for (state, slave) in states.iter().zip(["first", "second"]) {
+            if state.pairs.iter().any(|pair| pair.status == Status::Open) {
+                continue;
+            }
+            read += 1;
             let off = (state.half_width - 0.5 * a).abs() / a;
             assert!(
                 off < 1e-9,
@@ -118,4 +123,5 @@ fn a_half_width_ends_where_either_body_does() {
             );
         }
     }
+    assert!(read > 3 * n / 2, "{read} of {}", 2 * n);
 }

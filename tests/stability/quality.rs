@@ -70,7 +70,13 @@ fn plastic_flow_does_not_know_the_gap() {
         let set = format!("contact.0.gap={gap}");
         let results = run_file("hard/all_closed", &[&set]);
         assert!(results.inaccurate.is_empty(), "{:?}", results.inaccurate);
-        assert!(results.warnings.is_empty(), "{:?}", results.warnings);
+        // Of strains of a tenth, and of nothing else.
+        let mut warnings = results.warnings.iter();
+        assert!(
+            warnings.all(|w| w.contains("taken for small")),
+            "{:?}",
+            results.warnings
+        );
         let plastic = state(&results, "plastic");
         assert!(plastic.plastic_points > 0);
         plastic.max_equivalent_plastic_strain
