@@ -3,14 +3,23 @@
 //! The change of the plastic strains over a cycle is compared, point by point, with that over the
 //! cycle before. Where the differences `r_k` fall like a geometric series, the cycles to come
 //! change it by `r_k q/(1 - q)`, `q = r_k/r_(k-1)`: a cycle is steady once both are a small share
-//! of what flowed in the first one. A cycle in which nothing flows is steady at once. The states of
-//! a program are those of one more cycle.
+//! of what flowed in the first one. Flow or growth that is no more than what the cycles to come
+//! take off goes, however slowly; what is more than that stays, however small it is. A cycle in
+//! which nothing flows is steady at once. The states of a program are those of one more cycle.
 
 use super::packed;
 use super::program::Run;
+use super::zone::History;
+
 use crate::material::PlasticState;
-use crate::results::{CycleOutcome, CycleRow, Cycles};
+use crate::results::{CycleOutcome, CycleRow, Cycles, EndState};
 use serde::{Deserialize, Serialize};
+
+/// Flow over what the cycles to come take off it up to which it goes, and above which it stays;
+/// between these another cycle is waited for. A geometric series has 1, growth at a rate infinity:
+/// the bounds leave room for points that fall at different paces.
+const GOES: f64 = 1.5;
+const STAYS: f64 = 2.0;
 
 /// The cycles so far.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
@@ -90,12 +99,27 @@ impl CycleRecord {
             false if now <= steady * small => now,
             false => f64::INFINITY,
         };
-        match now.max(ahead) <= small {
-            false => None,
-            true if row.flow <= small => Some(CycleOutcome::ElasticShakedown),
-            true if row.growth <= small => Some(CycleOutcome::PlasticShakedown),
-            true => Some(CycleOutcome::Ratchetting),
+        if now.max(ahead) > small {
+            return None;
         }
+        // No more than an iteration leaves.
+        let none = steady * small;
+        let goes = |size: f64| size <= GOES * ahead + none;
+        let stays = |size: f64| size > STAYS * ahead + none;
+        match () {
+            () if goes(row.flow) => Some(CycleOutcome::ElasticShakedown),
+            () if !stays(row.flow) => None,
+            () if goes(row.growth) => Some(CycleOutcome::PlasticShakedown),
+            () if !stays(row.growth) => None,
+            () => Some(CycleOutcome::Ratchetting),
+        }
+    }
+
+    /// Cycles begin with what is left of an earlier run.
+    fn begin_with(&mut self, start: &EndState) {
+        self.points = History::from(start).points;
+        self.change = vec![PlasticState::default(); self.points.len()];
+        self.elements.clone_from(&start.elements);
     }
 }
 
@@ -146,6 +170,11 @@ impl Run<'_, '_> {
         let record = &mut self.position.cycles;
         if most == 1 || record.is_over {
             return false;
+        }
+        if let Some(start) = self.solver.structure.model.start.as_ref()
+            && record.rows.is_empty()
+        {
+            record.begin_with(start);
         }
         let was_last = record.is_last(most);
         let history = self.solver.zone.history();
@@ -213,6 +242,9 @@ mod tests {
         let (found, cycles) = outcome(2000, slow);
         assert_eq!(found, Some(CycleOutcome::ElasticShakedown));
         assert!((600..800).contains(&cycles), "{cycles}");
+        // Growth that is a thousandth of the first flow in each cycle, for ever.
+        let little = outcome(50, |k| [1.0 + 2e-4 * k as f64, 0.0]);
+        assert_eq!(little, (Some(CycleOutcome::Ratchetting), 3));
         // Growth that falls to a rate: the rate is what is left.
         let (found, cycles) = outcome(200, |k| [1e-3 * k as f64 - 0.5f64.powi(k as i32), 0.0]);
         assert_eq!(found, Some(CycleOutcome::Ratchetting));

@@ -69,7 +69,13 @@ impl Cycles {
         let body = self.body.as_deref().unwrap_or("no body");
         let what = match self.outcome {
             CycleOutcome::Elastic => "nothing yields".to_string(),
-            CycleOutcome::ElasticShakedown => "nothing yields any more".to_string(),
+            CycleOutcome::ElasticShakedown if last.flow == 0.0 => {
+                "nothing yields any more".to_string()
+            }
+            CycleOutcome::ElasticShakedown => format!(
+                "what flows falls from each to the next, to {} at most in the last",
+                short(last.flow)
+            ),
             CycleOutcome::PlasticShakedown => format!(
                 "in each plastic strains go to and fro, by {} at most, and come back",
                 short(last.flow)

@@ -6,6 +6,7 @@
 //! cycle, by elastic stresses of `+-sigma_t` at its faces; perfectly plastic, uniaxial.
 
 use crate::verification::run::{close, run, scene};
+use crate::verification::start_from::run_into;
 use brinell::results::{CycleOutcome, Results};
 use brinell::scene::Scene;
 
@@ -136,4 +137,70 @@ fn a_contact_shakes_down_and_is_what_the_cycles_written_out_give() {
         close(cycle.max_pressure, other.max_pressure, 1e-14);
         assert_eq!(cycle.plastic_points, other.plastic_points);
     }
+}
+
+/// Beside the limit of ratchetting a wall grows by a thousandth of its first flow in each cycle:
+/// that is no shakedown, however little it is.
+#[test]
+fn slow_ratchetting_is_no_shakedown() {
+    for (thermal, outcome) in [
+        (1.18, CycleOutcome::ElasticShakedown),
+        (1.21, CycleOutcome::Ratchetting),
+    ] {
+        let cycles = wall(0.7, thermal, 16, 200).cycles.unwrap();
+        assert_eq!(cycles.outcome, outcome, "{thermal}: {:?}", cycles.rows);
+        let ratio = cycles.last().growth / cycles.rows[0].flow;
+        let grows = outcome == CycleOutcome::Ratchetting;
+        assert!(
+            ratio < if grows { 0.02 } else { 1e-3 },
+            "{thermal}: {ratio}"
+        );
+    }
+}
+
+/// A sheet that was pulled before: its cycles are its own, and what the earlier run left is none.
+#[test]
+fn cycles_after_an_earlier_run_do_not_count_what_that_left() {
+    let text = |load: &str, program: &str| {
+        format!(
+            "kind = \"plane_stress\"\n{load}\n\
+             support = [{{ on = \"b.bottom\", fix = [\"y\"] }}, \
+             {{ on = \"b.left\", fix = [\"x\"] }}]\n\
+             [[mesh.parts]]\nbody = \"b\"\n\
+             block = {{ x = [0, 1], y = [0, 1], elements = [2, 1] }}\n\
+             [materials.m]\nyoungs_modulus = 200000.0\npoissons_ratio = 0.3\n\
+             yield_stress = 200.0\n\
+             back_stresses = [[20000.0, 100.0]]\n[bodies.b]\nmaterial = \"m\"\n\
+             [program]\nstepping = \"steps\"\nsteps = 20\n{program}\n"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path().join("pulled");
+    let pulled = text(
+        "load = [{ on = \"b.top\", displacement = { y = 0.3 } }]",
+        "targets = [{ load_factor = 1.0 }, { load_factor = 0.99 }]",
+    );
+    run_into(&Scene::parse(&pulled, "pulled").unwrap(), &dir);
+    let cycled = text(
+        "load = [{ on = \"b.top\", traction = [0.0, 1.0] }]",
+        "cycles = 300\ntargets = [{ load_factor = 260.0 }, { load_factor = -255.0 }]",
+    );
+    let virgin = Scene::parse(&cycled, "cycled").unwrap();
+    let mut after = virgin.clone();
+    after.start_from = Some(dir);
+    let [virgin, after] = [virgin, after].map(|scene| run(&scene).cycles.unwrap());
+    for cycles in [&virgin, &after] {
+        assert_eq!(
+            cycles.outcome,
+            CycleOutcome::Ratchetting,
+            "{:?}",
+            cycles.rows
+        );
+    }
+    // The rate depends on the law and on the stresses alone.
+    close(after.last().growth, virgin.last().growth, 1e-2);
+    assert!(
+        after.rows[0].flow < 0.1,
+        "the sheet was pulled by 0.3 before"
+    );
 }
