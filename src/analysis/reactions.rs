@@ -4,8 +4,9 @@
 //!     f_node = sum_elements int B' sigma - contact forces
 //! ```
 //!
-//! Forces that go through a tie are those of what its nodes follow. On quadratic faces in contact
-//! forces are those of control points ([`crate::model::ContactBasis`]): sums are the same.
+//! Forces that go through a tie are those of what its nodes follow. Sums are taken on the control
+//! points of quadratic faces in contact ([`crate::model::ContactBasis`]); what comes out are the
+//! consistent forces on the nodes.
 
 use crate::model::{Model, Slot};
 use crate::space::{Vector, along, dot};
@@ -31,6 +32,7 @@ pub(super) fn on_nodes(model: &Model, mut forces: Vec<Vector>, of_pairs: &[f64])
             }
         }
     }
+    freedoms.basis.gather(&mut forces);
     let d = model.mesh.dimension;
     forces.iter().flat_map(|f| &f[..d]).copied().collect()
 }

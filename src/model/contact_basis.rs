@@ -156,6 +156,17 @@ impl ContactBasis {
         }
     }
 
+    /// Forces on nodes for those on control points: the inverse of [`ContactBasis::share`].
+    pub(crate) fn gather(&self, forces: &mut [Vector]) {
+        for (node, ends) in self.edges() {
+            let own = forces[node].map(|f| f / OWN);
+            forces[node] = own;
+            for end in ends {
+                forces[end] = along(forces[end], -ALPHA, own);
+            }
+        }
+    }
+
     /// As [`ContactBasis::share`], for forces on some nodes.
     pub(super) fn share_of(&self, forces: Vec<(usize, Vector)>) -> Vec<(usize, Vector)> {
         if self.ends.is_empty() {

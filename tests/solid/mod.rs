@@ -5,6 +5,7 @@ mod extruded;
 mod generated;
 mod held;
 mod hertz;
+mod nodal_forces;
 mod patch;
 mod patches;
 mod punch;
