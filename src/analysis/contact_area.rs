@@ -372,16 +372,11 @@ impl<'a> Shape<'a> {
                     let sum: f64 = near.iter().map(|k| self.place(*k)[d]).sum();
                     sum / near.len() as f64
                 };
-                match near
-                    .iter()
-                    .all(|k| layers.get(k).is_some_and(|l| *l > skipped))
-                {
-                    true => sums.add_parts(&parts, |_| 1.0),
-                    false => {
-                        if let Some(fit) = believed.fit([mean(0), mean(1)], &[]) {
-                            sums.add_parts(&parts, |x| fit.value(x));
-                        }
-                    }
+                let is_believed = |k: &usize| layers.get(k).is_some_and(|l| *l > skipped);
+                if near.iter().all(is_believed) {
+                    sums.add_parts(&parts, |_| 1.0);
+                } else if let Some(fit) = believed.fit([mean(0), mean(1)], &[]) {
+                    sums.add_parts(&parts, |x| fit.value(x));
                 }
             }
         }

@@ -10,7 +10,6 @@
 use super::packed;
 use super::program::Run;
 use super::zone::History;
-
 use crate::material::PlasticState;
 use crate::results::{CycleOutcome, CycleRow, Cycles, EndState};
 use serde::{Deserialize, Serialize};
@@ -106,12 +105,14 @@ impl CycleRecord {
         let none = steady * small;
         let goes = |size: f64| size <= GOES * ahead + none;
         let stays = |size: f64| size > STAYS * ahead + none;
-        match () {
-            () if goes(row.flow) => Some(CycleOutcome::ElasticShakedown),
-            () if !stays(row.flow) => None,
-            () if goes(row.growth) => Some(CycleOutcome::PlasticShakedown),
-            () if !stays(row.growth) => None,
-            () => Some(CycleOutcome::Ratchetting),
+        if goes(row.flow) {
+            Some(CycleOutcome::ElasticShakedown)
+        } else if stays(row.flow) && goes(row.growth) {
+            Some(CycleOutcome::PlasticShakedown)
+        } else if stays(row.flow) && stays(row.growth) {
+            Some(CycleOutcome::Ratchetting)
+        } else {
+            None
         }
     }
 

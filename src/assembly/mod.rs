@@ -8,7 +8,7 @@ pub mod shares;
 use crate::element::packed;
 use crate::error::Result;
 use crate::linalg::{Backend, Symmetric};
-use crate::model::{Magnitude, Model, Slot};
+use crate::model::{Model, Prescribed, Slot};
 use elements::{Elements, Matrices};
 
 /// The assembled system `K u = sum_l h_l P_l + contact forces + initial loads`.
@@ -37,11 +37,12 @@ pub fn assemble(model: &Model, backend: Backend) -> Result<System> {
         Backend::Mumps => Symmetric::Shared(shares::assemble(model)?),
         _ => all(model).stiffness(|_| true).into(),
     };
+    let (loads, on_leading) = loads(model);
     Ok(System {
         norm: stiffness.norm()?,
         stiffness,
-        loads: loads(model),
-        on_leading: on_leading(model),
+        loads,
+        on_leading,
     })
 }
 
@@ -50,7 +51,7 @@ fn all(model: &Model) -> Elements<'_> {
     Elements::of(model).with_springs(springs.map(|spring| (spring.freedom, spring.stiffness)))
 }
 
-fn loads(model: &Model) -> Vec<Vec<f64>> {
+fn loads(model: &Model) -> (Vec<Vec<f64>>, Vec<f64>) {
     let forces = |load: &crate::model::LoadCase| {
         let mut vector = vec![0.0; model.freedoms.n];
         for &(freedom, force) in &load.forces {
@@ -59,68 +60,46 @@ fn loads(model: &Model) -> Vec<Vec<f64>> {
         vector
     };
     let mut loads: Vec<Vec<f64>> = model.loads.iter().map(forces).collect();
-    if !model.freedoms.prescribed.is_empty() {
-        add_prescribed(model, &mut loads);
-    }
-    loads
-}
-
-/// Elements with prescribed displacements.
-fn of_prescribed(model: &Model) -> Vec<usize> {
-    let is_prescribed = |slot: &Slot| matches!(slot, Slot::Prescribed(_));
-    (0..model.mesh.n_elements())
-        .filter(|&e| model.slots_of(e).iter().any(is_prescribed))
-        .collect()
-}
-
-/// Adds `-K_fp u_p` of each load's prescribed displacements.
-fn add_prescribed(model: &Model, loads: &mut [Vec<f64>]) {
-    let elements = of_prescribed(model);
-    let matrices = Matrices::new(&Elements::some_of(model, &elements));
-    for (place, &e) in elements.iter().enumerate() {
-        let slots = model.slots_of(e);
-        for (j, slot) in slots.iter().enumerate() {
-            let Slot::Prescribed(p) = *slot else { continue };
-            let prescribed = model.freedoms.prescribed[p as usize];
-            for (i, row) in slots.iter().enumerate() {
-                if let Slot::Free(f) = *row {
-                    loads[prescribed.load][f as usize] -=
-                        matrices.of(place)[packed(i, j)] * prescribed.value;
-                }
-            }
-        }
-    }
-}
-
-/// [`System::on_leading`].
-fn on_leading(model: &Model) -> Vec<f64> {
-    let mut work = vec![0.0; model.loads.len()];
-    let is_displacement = |load: &usize| model.loads[*load].measures == Magnitude::Displacement;
-    let Some(leading) = model.leading_load().filter(is_displacement) else {
-        return work;
+    let on_leading = match model.freedoms.prescribed.is_empty() {
+        true => vec![0.0; loads.len()],
+        false => add_prescribed(model, &mut loads),
     };
+    (loads, on_leading)
+}
+
+/// Adds `-K_fp u_p` of each load's prescribed displacements, and returns [`System::on_leading`].
+fn add_prescribed(model: &Model, loads: &mut [Vec<f64>]) -> Vec<f64> {
+    let is_prescribed = |slot: &Slot| matches!(slot, Slot::Prescribed(_));
+    let elements: Vec<usize> = (0..model.mesh.n_elements())
+        .filter(|&e| model.slots_of(e).iter().any(is_prescribed))
+        .collect();
+    let leading = model.leading_load();
+    let prescribed = |p: u32| model.freedoms.prescribed[p as usize];
     let moved = |slot| match slot {
-        Slot::Prescribed(p) => Some(model.freedoms.prescribed[p as usize]),
+        Slot::Prescribed(p) => Some(prescribed(p)).filter(|p| Some(p.load) == leading),
         _ => None,
     };
-    let led = |slot| moved(slot).filter(|p| p.load == leading);
-    let elements = of_prescribed(model);
+    let mut on_leading = vec![0.0; loads.len()];
     let matrices = Matrices::new(&Elements::some_of(model, &elements));
     for (place, &e) in elements.iter().enumerate() {
-        let slots = model.slots_of(e);
-        for (i, row) in slots.iter().enumerate() {
-            let Some(own) = led(*row) else { continue };
-            for (j, column) in slots.iter().enumerate() {
-                if let Some(other) = moved(*column) {
-                    work[other.load] += own.value * matrices.of(place)[packed(i, j)] * other.value;
+        let (slots, matrix) = (model.slots_of(e), matrices.of(place));
+        for (j, slot) in slots.iter().enumerate() {
+            let Slot::Prescribed(p) = *slot else { continue };
+            let Prescribed { load, value } = prescribed(p);
+            for (i, row) in slots.iter().enumerate() {
+                let force = matrix[packed(i, j)] * value;
+                if let Slot::Free(f) = *row {
+                    loads[load][f as usize] -= force;
+                } else if let Some(own) = moved(*row) {
+                    on_leading[load] += own.value * force;
                 }
             }
         }
     }
-    for (work, load) in work.iter_mut().zip(&model.loads) {
+    for (work, load) in on_leading.iter_mut().zip(&model.loads) {
         load.each_on_slots(&model.freedoms, |slot, force| {
-            *work -= led(slot).map_or(0.0, |own| own.value * force);
+            *work -= moved(slot).map_or(0.0, |own| own.value * force);
         });
     }
-    work
+    on_leading
 }

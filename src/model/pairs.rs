@@ -202,8 +202,7 @@ pub(super) fn resolve(
                 ))));
             }
         }
-        let own = std::mem::take(&mut found.pairs);
-        pairs.extend(own);
+        pairs.append(&mut found.pairs);
         contacts.push(surface_of(&entries, &found, &mut pairs, start));
     }
     Ok((pairs, contacts))
@@ -218,9 +217,12 @@ struct Found {
     covered: Covered,
 }
 
-/// What the other surface covers of facets of the slave surface, by their number and piece by
-/// piece, where that is not all.
-type Covered = BTreeMap<usize, Vec<Vec<Vec<Vector>>>>;
+/// What the other surface covers of facets of the slave surface, by their number, where that is not
+/// all.
+type Covered = BTreeMap<usize, CoveredFacet>;
+
+/// The covered polygons of a facet, for each piece of it between its nodes.
+type CoveredFacet = Vec<Vec<Vec<Vector>>>;
 
 /// The contact of the pairs from `start` on.
 fn surface_of(

@@ -23,14 +23,14 @@ mod overlap;
 mod roundness;
 mod spheres;
 
-use super::{ContactSurface, Entries, Found, NO_AREA, Pair};
+use super::{ContactSurface, Covered, CoveredFacet, Entries, Found, NO_AREA, Pair};
 use crate::balls::Balls;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{longest_facet, nodes, normals};
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::SlaveSide;
 use crate::space::{Vector, difference, direction, dot, length};
-use dual::{CoveredFacet, Integrals, OfFacet, integrate};
+use dual::{Integrals, OfFacet, integrate};
 use face::Face;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
@@ -72,8 +72,7 @@ struct Coupled<'a> {
     /// Which surface has the slaves.
     slave: usize,
     facet_length: f64,
-    /// Of facets of the slave that are covered in part, by their number: what is.
-    covered: BTreeMap<usize, CoveredFacet>,
+    covered: Covered,
 }
 
 impl Coupled<'_> {
@@ -243,7 +242,7 @@ fn coupled<'a>(entries: &'a Entries<'a>, slave: SlaveSide) -> Result<Coupled<'a>
 }
 
 /// Integrals of all facets, node by node, and what is covered of those that are not whole.
-fn sum(facets: Vec<OfFacet>) -> (BTreeMap<usize, Integrals>, BTreeMap<usize, CoveredFacet>) {
+fn sum(facets: Vec<OfFacet>) -> (BTreeMap<usize, Integrals>, Covered) {
     let mut sums: BTreeMap<usize, Integrals> = BTreeMap::new();
     let mut covered = BTreeMap::new();
     for (number, facet) in facets.into_iter().enumerate() {

@@ -5,7 +5,7 @@
 //! half of the digits that the inverse of `int phi_j phi_l` would.
 
 use super::face::{Face, Plane, Point};
-use super::{NOTHING, Sides, overlap};
+use super::{CoveredFacet, NOTHING, Sides, overlap};
 use crate::error::{Error, Result};
 use crate::shape::MAX_FACET_NODES;
 use crate::space::{Vector, along, difference, direction, dot, length};
@@ -104,9 +104,6 @@ pub(super) struct OfFacet {
     /// What masters cover of it, where that is not all.
     pub covered: Option<CoveredFacet>,
 }
-
-/// The covered parts of a facet, for each piece of it between its nodes.
-pub(super) type CoveredFacet = Vec<Vec<Vec<Vector>>>;
 
 /// The integrals of each node of a slave facet that faces masters.
 ///
