@@ -10,7 +10,7 @@
 //! A = int dA,   c = int x dA/A,   M = int (x - c)(x - c)' dA/A = Q diag(a^2, b^2)/4 Q'
 //! ```
 //!
-//! Of a face that the other body covers in part, that part counts.
+//! Where the other body covers only part of a face, only that part counts.
 //!
 //! Beyond a plane of symmetry the patch goes on as its mirror image. A patch between two parallel
 //! planes of symmetry is a strip without end: its larger half axis is infinite, the smaller one

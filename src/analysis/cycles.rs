@@ -3,9 +3,10 @@
 //! The change of the plastic strains over a cycle is compared, point by point, with that over the
 //! cycle before. Where the differences `r_k` fall like a geometric series, the cycles to come
 //! change it by `r_k q/(1 - q)`, `q = r_k/r_(k-1)`: a cycle is steady once both are a small share
-//! of what flowed in the first one. Flow or growth that is no more than what the cycles to come
-//! take off goes, however slowly; what is more than that stays, however small it is. A cycle in
-//! which nothing flows is steady at once. The states of a program are those of one more cycle.
+//! of what flowed in the first one. The flow that is left in the end is that of the last cycle less
+//! the change of the cycles to come: where nothing is left, plastic flow dies out, however slowly;
+//! else it goes on in every cycle, however small it is. The same holds for growth. A cycle in which
+//! nothing flows is steady at once. The states of a program are those of one more cycle.
 
 use super::packed;
 use super::program::Run;
@@ -14,11 +15,12 @@ use crate::material::PlasticState;
 use crate::results::{CycleOutcome, CycleRow, Cycles, EndState};
 use serde::{Deserialize, Serialize};
 
-/// Flow over what the cycles to come take off it up to which it goes, and above which it stays;
-/// between these another cycle is waited for. A geometric series has 1, growth at a rate infinity:
-/// the bounds leave room for points that fall at different paces.
-const GOES: f64 = 1.5;
-const STAYS: f64 = 2.0;
+/// The flow of a cycle over what the cycles to come will take off it is 1 where flow dies out in a
+/// geometric series, and infinite where it is the same in each cycle. Up to this ratio it counts as
+/// dying out: points of the structure do so at different rates.
+const DIES_OUT: f64 = 1.5;
+/// Above this ratio it counts as lasting; between the two another cycle is run.
+const LASTS: f64 = 2.0;
 
 /// The cycles so far.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
@@ -103,13 +105,13 @@ impl CycleRecord {
         }
         // No more than an iteration leaves.
         let none = steady * small;
-        let goes = |size: f64| size <= GOES * ahead + none;
-        let stays = |size: f64| size > STAYS * ahead + none;
-        if goes(row.flow) {
+        let dies_out = |size: f64| size <= DIES_OUT * ahead + none;
+        let lasts = |size: f64| size > LASTS * ahead + none;
+        if dies_out(row.flow) {
             Some(CycleOutcome::ElasticShakedown)
-        } else if stays(row.flow) && goes(row.growth) {
+        } else if lasts(row.flow) && dies_out(row.growth) {
             Some(CycleOutcome::PlasticShakedown)
-        } else if stays(row.flow) && stays(row.growth) {
+        } else if lasts(row.flow) && lasts(row.growth) {
             Some(CycleOutcome::Ratchetting)
         } else {
             None

@@ -1,15 +1,19 @@
 //! The force that moves what a load displaces, without the displacements of the whole model.
 //!
-//! By Betti's theorem the state at hand does the same work on the displacements of another one as
-//! that one on its own. The other one is the elastic structure with all pairs tied while the load's
-//! nodes move by 1, prescribed displacements `v`, free ones `w`, forces of the pairs `t`:
+//! Betti's theorem: of two states of one elastic structure, the forces of the first do the same
+//! work on the displacements of the second as the forces of the second on those of the first. The
+//! first is the state at hand. The second is the structure with all pairs tied, whose driven nodes
+//! move by 1: its prescribed displacements are `v`, its free ones `w`, the forces of its pairs `t`.
+//! Solved for the force `R` that drives the first state:
 //!
 //! ```text
-//! R = sum_k h_k (v'(K_pf u_k + K_pp v_k - f_k) - w' f_k) - t'(delta - g) - w' J - v' J_p
+//! R = sum_k h_k (v'(K_pp u_k - f_k) - w' P_k) - t'(delta - g) - w' J - v' J_p
 //! ```
 //!
-//! `h_k` are the factors of the loads, `f_k` their forces, `delta - g` how far the pairs have moved
-//! together, `J` and `J_p` the initial loads on free and on prescribed freedoms.
+//! Load `k` has the factor `h_k`, the prescribed displacements `u_k`, the forces `f_k` on
+//! prescribed freedoms and the load vector `P_k` on free ones ([`crate::assembly::System::loads`]).
+//! `delta - g` is how far each pair has moved together; `J` and `J_p` are the initial loads of the
+//! plastic strains on free and on prescribed freedoms.
 
 use super::solver::Solver;
 use super::structure::{Cost, Structure};
