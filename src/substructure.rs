@@ -18,6 +18,7 @@
 mod groups;
 mod rigid_slips;
 mod rows;
+mod singular;
 mod tied;
 
 pub(crate) use rows::{Entries, Rows};
@@ -25,12 +26,13 @@ pub(crate) use tied::{Tied, Trace};
 
 use crate::assembly::System;
 use crate::contact::{PairBlock, PairMatrix, Tableau};
-use crate::error::{Error, Result};
-use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, Recovered, ZonePart};
+use crate::error::Result;
+use crate::linalg::{self, Backend, Condensed, Partition, Recovered, ZonePart};
 use crate::memory;
 use crate::model::Model;
 use groups::Groups;
 use nalgebra::{DMatrix, DVector};
+use singular::name_freedom;
 
 /// A load (or displacement) on zone and contact freedoms, these in the order of
 /// [`crate::model::ContactRows::freedoms`].
@@ -455,24 +457,4 @@ fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
         .zip(&model.floating.of_contact)
         .map(of)
         .collect()
-}
-
-fn name_freedom(error: Error, model: &Model) -> Error {
-    let freedom = std::error::Error::source(&error)
-        .and_then(|s| s.downcast_ref::<NotDefinite>())
-        .map(|n| n.freedom);
-    match freedom {
-        Some(freedom) => {
-            let place = model.freedoms.describe(&model.mesh, freedom);
-            Error::new(
-                crate::ErrorKind::Unheld,
-                format!(
-                    "the stiffness is singular at {place}: a part of the model is not held, or an \
-                     element there is degenerate"
-                ),
-            )
-            .because(error)
-        }
-        None => error,
-    }
 }

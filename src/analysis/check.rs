@@ -271,6 +271,29 @@ fn earlier_run(model: &Model, start: Option<&EndState>) -> Effect {
     effect_asked_for("earlier run", asked, start.is_some(), why)
 }
 
+fn prescribed_displacements(model: &Model) -> Effect {
+    let loads = model.loads.iter();
+    let asked = loads.filter(|load| load.measures == Magnitude::Displacement);
+    let (asked, acting) = asked.fold((false, Vec::new()), |(_, mut acting), load| {
+        acting.extend(load.acts().then_some(load.name.as_str()));
+        (true, acting)
+    });
+    let why = match (asked, acting.is_empty()) {
+        (false, _) => "no load prescribes one".to_string(),
+        (true, true) => "all that loads prescribe are zero: they hold as supports do".to_string(),
+        (true, false) => format!("by {}: the force that it takes is found", acting.join(", ")),
+    };
+    effect_asked_for("prescribed displacements", asked, !acting.is_empty(), why)
+}
+
+fn cycles(model: &Model) -> Effect {
+    let why = match model.scene.program.cycles {
+        1 => "the program is gone through once".to_string(),
+        n => format!("the targets at most {n} times, until a cycle is like the last"),
+    };
+    effect("cycles", model.scene.program.cycles > 1, why)
+}
+
 /// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
 /// yield.
 pub(super) fn effects(model: &Model, yields: bool, start: Option<&EndState>) -> Vec<Effect> {
@@ -321,11 +344,13 @@ pub(super) fn effects(model: &Model, yields: bool, start: Option<&EndState>) -> 
     };
     let interference = model.pairs.iter().any(|p| p.interference != 0.0);
     let changed: Vec<&str> = (model.loads.iter())
-        .filter(|load| !load.opens.is_empty())
+        .filter(|load| load.measures == Magnitude::Gap && load.acts())
         .map(|load| load.name.as_str())
         .collect();
     let floating = &model.floating.bodies;
-    let loaded = |l: &LoadCase| l.measures != Magnitude::Strain && l.factor(0.0, 1.0) != 0.0;
+    let loaded = |load: &LoadCase| {
+        load.measures != Magnitude::Strain && load.acts() && load.factor(0.0, 1.0) != 0.0
+    };
     let preload = model.loads.iter().any(loaded);
     let on_off = |on: bool, yes: String, no: &str| if on { yes } else { no.to_string() };
     vec![
@@ -360,6 +385,8 @@ pub(super) fn effects(model: &Model, yields: bool, start: Option<&EndState>) -> 
                 (false, false) => format!("{} changes gaps", changed.join(", ")),
             },
         ),
+        prescribed_displacements(model),
+        cycles(model),
         effect(
             "preload",
             preload,

@@ -254,12 +254,13 @@ impl Solver<'_> {
         self.update_scales();
         reported.event = describe(&changes);
     }
-    /// Whether nothing has moved yet and nothing is to, on the way to `end`: what a solve would
-    /// find there is round-off.
+    /// Whether the current state is that of `end`: what another solve would change is round-off. A
+    /// state in which nothing has moved yet must be apart; any other was solved for.
     pub(super) fn rests_at(&self, end: &LoadPoint) -> bool {
-        let still = self.now.u.largest() == 0.0 && self.now.force.iter().all(|r| *r == 0.0);
+        let moved = self.now.u.largest() != 0.0 || self.now.force.iter().any(|r| *r != 0.0);
         let apart = self.now.gap.iter().all(|g| *g >= 0.0);
-        self.at == *end && self.fresh && still && apart && self.now.gap == self.structure.delta(end)
+        let solved = moved || apart && self.now.gap == self.structure.delta(end);
+        self.at == *end && self.fresh && solved
     }
 
     /// Whether the way to `end` leads back against the last increment: then the material unloads

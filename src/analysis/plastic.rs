@@ -46,7 +46,7 @@ impl PlasticDrive {
     /// taken already.
     ///
     /// # Errors
-    /// Those of the monitor.
+    /// Those of the monitor and of [`Solver::accepted`].
     pub fn begin(
         solver: &mut Solver,
         end: &LoadPoint,
@@ -65,6 +65,11 @@ impl PlasticDrive {
         let monitored = monitor.map(|m| m(solver)).transpose()?;
         if is_hit(monitored) {
             return Ok(ControlFlow::Break(Step::arrived(Arrival::Monitor)));
+        }
+        if solver.rests_at(end) {
+            let (from, solves) = (solver.at.alpha, solver.cost.counts.trailing_solves);
+            let step = solver.contact_step(from, "target", solves, Some(Arrival::End))?;
+            return Ok(ControlFlow::Break(step));
         }
         Ok(ControlFlow::Continue(PlasticDrive {
             whole: solver.at.distance(end),

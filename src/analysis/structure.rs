@@ -178,8 +178,20 @@ impl<'m> Structure<'m> {
         cost.counts.full_solves += self.system.loads.iter().filter(|load| acts(load)).count();
         self.reduce_far_boundary(cost)?;
         self.condense_loads(cost)?;
-        let condensed = self.loads.condensed.iter();
-        self.loads.forces = condensed.map(|l| l.forces.clone()).collect();
+        let motions = &self.model.floating.motions;
+        let forces = self.loads.condensed.iter().zip(&self.model.loads);
+        let forces = forces.map(|(load, case)| {
+            let mut forces = load.forces.clone();
+            // Heat pushes no body away: what round-off leaves of it is not carried by anything.
+            if !motions
+                .iter()
+                .any(|motion| motion.is_driven_by(&case.forces))
+            {
+                self.sub.balance(&mut forces);
+            }
+            forces
+        });
+        self.loads.forces = forces.collect();
         Ok(())
     }
 

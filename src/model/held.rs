@@ -50,6 +50,15 @@ impl RigidMotion {
             .binary_search_by_key(&(freedom as u32), |&(f, _)| f);
         place.map_or(0.0, |at| self.values[at].1)
     }
+
+    /// Whether forces on free freedoms (freedom, force) do work on the motion.
+    pub fn is_driven_by(&self, forces: &[(usize, f64)]) -> bool {
+        let works = forces
+            .iter()
+            .map(|&(freedom, force)| force * self.at(freedom));
+        let (work, size) = works.fold((0.0, 0.0), |(sum, size), w: f64| (sum + w, size + w.abs()));
+        work.abs() > NO_WORK * size
+    }
 }
 
 /// A freedom that was held because nothing else held it and no load works on its motion.

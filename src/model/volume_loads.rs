@@ -135,6 +135,12 @@ fn nodal(path: &Path, mesh: &Mesh, nodes: &[usize]) -> std::result::Result<Vec<f
                 "{path} has a value of node {label}, which is not there: {another}"
             ));
         };
+        if !value.is_finite() {
+            let path = path.display();
+            return Err(format!(
+                "{path} has {value} as the temperature of node {label}"
+            ));
+        }
         out[node] = Some(value);
     }
     if let Some(&missing) = nodes.iter().find(|&&node| out[node].is_none()) {

@@ -1,5 +1,6 @@
 //! Steels and alloys by name, from `data/materials.toml`, each number with its source.
 
+use super::units::STRESSES;
 use super::{Material, Scene, Units};
 use crate::error::{Error, Result};
 use serde::Deserialize;
@@ -76,7 +77,7 @@ impl Listed {
     /// # Errors
     /// `Input` where the unit of stress is not known.
     pub fn material(&self, units: &Units) -> Result<Material> {
-        let stress = known(&STRESSES, &units.stress).ok_or_else(|| {
+        let stress = units.pascals().ok_or_else(|| {
             let names: Vec<&str> = STRESSES.iter().map(|(name, _)| *name).collect();
             Error::input(format!(
                 "its stresses are in MPa, and \"{}\" is none of the units they can be turned \
@@ -86,7 +87,7 @@ impl Listed {
             ))
         })?;
         let in_units = |figure: &Published| figure.0 * 1e6 / stress;
-        let length = known(&LENGTHS, &units.length);
+        let length = units.metres();
         Ok(Material {
             youngs_modulus: in_units(&self.youngs_modulus),
             poissons_ratio: self.poissons_ratio.0,
@@ -101,35 +102,6 @@ impl Listed {
             ..Material::default()
         })
     }
-}
-
-/// Units of stress in pascals. A pound-force per square inch: 0.45359237 kg, 9.80665 m/s^2 and
-/// 0.0254 m, all exact.
-const STRESSES: [(&str, f64); 9] = [
-    ("MPa", 1e6),
-    ("N/mm^2", 1e6),
-    ("N/mm2", 1e6),
-    ("N/mm\u{b2}", 1e6),
-    ("Pa", 1.0),
-    ("kPa", 1e3),
-    ("GPa", 1e9),
-    ("psi", PSI),
-    ("ksi", 1e3 * PSI),
-];
-const PSI: f64 = 0.45359237 * 9.80665 / (0.0254 * 0.0254);
-
-/// Units of length in metres.
-const LENGTHS: [(&str, f64); 5] = [
-    ("mm", 1e-3),
-    ("m", 1.0),
-    ("cm", 1e-2),
-    ("in", 0.0254),
-    ("\u{b5}m", 1e-6),
-];
-
-fn known(units: &[(&str, f64)], name: &str) -> Option<f64> {
-    let found = units.iter().find(|(known, _)| *known == name);
-    found.map(|(_, size)| *size)
 }
 
 /// Puts the listed materials that bodies name, and the scene has none of, among those of the scene.

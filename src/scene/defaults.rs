@@ -10,10 +10,6 @@ pub(super) fn fine_depth() -> f64 {
     1.5
 }
 
-pub(super) fn far_size() -> f64 {
-    20_000.0
-}
-
 pub(super) fn growth() -> f64 {
     1.15
 }

@@ -197,11 +197,10 @@ pub struct CylinderOnHalfPlane {
     /// Depth of the evenly meshed region, in half widths.
     #[serde(default = "super::defaults::fine_depth")]
     pub fine_depth: f64,
-    /// Size of each body, in half widths. The bodies stand for infinite ones: a size W changes the
-    /// stress under the contact by the order b/W, so the default is large; elements that grow with
-    /// the distance make it cheap.
-    #[serde(default = "super::defaults::far_size")]
-    pub far_size: f64,
+    /// Size of each body, in half widths; 20,000 by default, 2,000 under a ball. The bodies stand
+    /// for infinite ones: a size W changes the stress under the contact by the order b/W, under a
+    /// ball by (b/W)^2 and its approach by b/W. Elements that grow with the distance make it cheap.
+    pub far_size: Option<f64>,
     /// Ratio of neighbouring element sizes outside the even region.
     #[serde(default = "super::defaults::growth")]
     pub growth: f64,

@@ -3,6 +3,39 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// Units of stress in pascals.
+pub(super) const STRESSES: [(&str, f64); 9] = [
+    ("MPa", 1e6),
+    ("N/mm^2", 1e6),
+    ("N/mm2", 1e6),
+    ("N/mm\u{b2}", 1e6),
+    ("Pa", 1.0),
+    ("kPa", 1e3),
+    ("GPa", 1e9),
+    ("psi", POUND / (INCH * INCH)),
+    ("ksi", 1e3 * POUND / (INCH * INCH)),
+];
+/// Units of length in metres.
+const LENGTHS: [(&str, f64); 5] = [
+    ("mm", 1e-3),
+    ("m", 1.0),
+    ("cm", 1e-2),
+    ("in", INCH),
+    ("\u{b5}m", 1e-6),
+];
+/// Units of force in newtons.
+const FORCES: [(&str, f64); 6] = [
+    ("N", 1.0),
+    ("kN", 1e3),
+    ("MN", 1e6),
+    ("mN", 1e-3),
+    ("lbf", POUND),
+    ("kip", 1e3 * POUND),
+];
+/// A pound-force in newtons: 0.45359237 kg by 9.80665 m/s^2, exact by definition as the inch is.
+const POUND: f64 = 0.45359237 * 9.80665;
+const INCH: f64 = 0.0254;
+
 /// What the scene's numbers are in. brinell computes in whatever consistent units the scene uses
 /// (N, mm and MPa; N, m and Pa; ...) and converts nothing but materials of its own list: these
 /// names stand beside numbers in tables and plots.
@@ -15,4 +48,71 @@ pub struct Units {
     pub force: String,
     /// Of stresses, moduli and pressures: force over length squared, such as `"MPa"`.
     pub stress: String,
+}
+
+impl Units {
+    /// The unit of stress in pascals, where its name is known.
+    pub(super) fn pascals(&self) -> Option<f64> {
+        known(&STRESSES, &self.stress)
+    }
+
+    /// The unit of length in metres, where its name is known.
+    pub(super) fn metres(&self) -> Option<f64> {
+        known(&LENGTHS, &self.length)
+    }
+
+    /// How many of the unit of stress are force over length squared, where all three are known and
+    /// that is not one.
+    pub(super) fn mismatch(&self) -> Option<f64> {
+        let force = known(&FORCES, &self.force)?;
+        let ratio = force / self.metres()?.powi(2) / self.pascals()?;
+        // Products and quotients of a few rounded numbers.
+        ((ratio - 1.0).abs() > 1e-12).then_some(ratio)
+    }
+}
+
+fn known(units: &[(&str, f64)], name: &str) -> Option<f64> {
+    let found = units.iter().find(|(known, _)| *known == name);
+    found.map(|(_, size)| *size)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The usual systems, those of micromechanics among them, and some that are none.
+    #[test]
+    fn a_stress_is_a_force_over_a_length_squared() {
+        let ratio = |[length, force, stress]: [&str; 3]| {
+            let [length, force, stress] = [length, force, stress].map(String::from);
+            let units = Units {
+                length,
+                force,
+                stress,
+            };
+            units.mismatch()
+        };
+        for system in [
+            ["mm", "N", "MPa"],
+            ["mm", "N", "N/mm2"],
+            ["mm", "kN", "GPa"],
+            ["m", "N", "Pa"],
+            ["m", "kN", "kPa"],
+            ["m", "MN", "MPa"],
+            ["in", "lbf", "psi"],
+            ["in", "kip", "ksi"],
+            ["\u{b5}m", "mN", "GPa"],
+            ["furlong", "N", "Pa"],
+        ] {
+            assert_eq!(ratio(system), None, "{system:?}");
+        }
+        let near = |system: [&str; 3], right: f64| {
+            let found = ratio(system).unwrap_or(1.0);
+            assert!((found / right - 1.0).abs() < 1e-12, "{system:?}: {found}");
+        };
+        near(["mm", "N", "Pa"], 1e6);
+        near(["m", "N", "MPa"], 1e-6);
+        near(["mm", "kN", "MPa"], 1e3);
+        near(["in", "lbf", "ksi"], 1e-3);
+    }
 }

@@ -8,10 +8,12 @@
 //! | `flow` | incompressible flow, limit loads, cycles, ratchetting, the axis of quadratic elements |
 //! | `peers` | cases on which other codes were seen to fail without a word |
 //! | `restart` | going on from checkpoints |
+//! | `foreign` | models as they come: few elements, punches on larger bases, stacks, loose bodies |
 //! | `solids` | three dimensions: Hertz, plane strain drawn out, bodies of all stiffnesses, slivers |
 
 mod contact;
 mod flow;
+mod foreign;
 mod numbers;
 mod peers;
 mod restart;
@@ -89,7 +91,8 @@ pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
         .chain(flow::FAMILIES)
         .chain(peers::FAMILIES)
         .chain(restart::FAMILIES)
-        .chain(solids::FAMILIES);
+        .chain(solids::FAMILIES)
+        .chain(foreign::FAMILIES);
     let mut rows = Vec::new();
     for family in families {
         if observer.stop_requested() {

@@ -1,6 +1,6 @@
 //! What an effect costs is paid by the scenes that ask for it.
 
-use crate::support::{load, try_run};
+use crate::support::{load, parse, try_run};
 use brinell::linalg::Backend;
 use brinell::results::{Counts, Effect, Results};
 
@@ -162,6 +162,46 @@ fn an_initial_state_that_is_nothing_is_off_and_costs_nothing() {
         run(&["bodies.half_plane.initial_stress=[[0.0, -5.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]"]);
     assert!(effect(&some, "initial state").on);
     assert_eq!(some.counts.factorizations, plain.counts.factorizations);
+}
+
+/// Loads at load factor 0 that are nothing are no preload, displacements of zero hold as supports
+/// do, and a program that is gone through once has no cycles.
+#[test]
+fn preloads_and_prescribed_displacements_of_nothing_are_off() {
+    let text = |held: &str, more: &str, end: &str| {
+        format!(
+            "kind = \"plane_strain\"\n\
+             mesh.parts = [{{ body = \"b\", block = {{ x = [0, 1], y = [0, 1], \
+             elements = [2, 2] }} }}]\nbodies.b.material = \"m\"\n\
+             support = [{{ on = \"b.left\", fix = {held} }}]\n\
+             load = [{{ on = \"b.right\", traction = [1.0, 0.0] }}{more}]\n\
+             [materials.m]\nyoungs_modulus = 1.0\npoissons_ratio = 0.3\nyield_stress = 0.5\n\
+             plastic_modulus = 0.5\nthermal_expansion = 1.0\n[program]\ntargets = [{{ load_factor = 1.0 }}]\n{end}"
+        )
+    };
+    let run = |text: String| try_run(&parse(&text), Backend::default()).unwrap();
+    let plain = run(text("[\"x\", \"y\"]", "", ""));
+    let nothing = run(text(
+        "[\"x\"]",
+        ", { on = \"b.left\", displacement = { y = 0.0 } }, \
+         { on = \"b\", temperature = 0.0, history = \"constant\" }",
+        "",
+    ));
+    let all = run(text(
+        "[\"x\"]",
+        ", { on = \"b.left\", displacement = { y = 0.1 } }, \
+         { on = \"b\", temperature = 0.1, history = \"constant\" }",
+        "cycles = 2\n",
+    ));
+    let names = ["preload", "prescribed displacements", "cycles"];
+    for name in names {
+        let on = [&plain, &nothing, &all].map(|results| effect(results, name).on);
+        assert_eq!(on, [false, false, true], "{name}");
+    }
+    let asked = [&plain, &nothing].map(|results| effect(results, names[1]).asked);
+    assert_eq!(asked, [false, true]);
+    let alpha = |results: &Results| results.first_yield.as_ref().unwrap().alpha;
+    assert!((alpha(&plain) / alpha(&nothing) - 1.0).abs() < 1e-12);
 }
 
 /// The cylinder with another load on its half plane.

@@ -1,11 +1,14 @@
 //! Bodies that nothing but contact holds.
 
-use crate::support::{self, close, healthy, largest, run_file, same_contact, state};
+use crate::support::random::Random;
+use crate::support::{self, close, either, healthy, largest, parse, run_file, same_contact, state};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::progress::Silent;
 use brinell::results::Status;
+use brinell::scene::Scene;
+use std::f64::consts::PI;
 
 /// With every pair open the structure is singular: codes stop at a zero pivot, or add springs that
 /// carry part of the load. Here the contact carries all of it, uniformly: 10 MPa on 2 mm.
@@ -204,5 +207,83 @@ fn a_ball_is_held_by_whichever_pair_comes_first() {
             let change = yields[0] / yields[1] - 1.0;
             assert!(change.abs() < 0.011, "{element} {resolution}: {yields:?}");
         }
+    }
+}
+
+/// A block on another, held by contact alone, under a pressure on its top.
+fn block_on_block(kind: &str, of_low: &str, rest: &str, random: &mut Random) -> Scene {
+    let n: [usize; 5] = std::array::from_fn(|_| 1 + random.below(6));
+    let solid = kind == "solid";
+    let part = |body: &str, end: f64, [from, to]: [f64; 2], [a, b]: [usize; 2]| match solid {
+        true => format!(
+            "{{ body = \"{body}\", brick = {{ x = [0, {end:?}], y = [0, 1], \
+             z = [{from:?}, {to:?}], elements = [{a}, 1, {b}] }} }}"
+        ),
+        false => format!(
+            "{{ body = \"{body}\", block = {{ x = [0, {end:?}], y = [{from:?}, {to:?}], \
+             elements = [{a}, {b}] }} }}"
+        ),
+    };
+    let along = if solid { "z" } else { "y" };
+    let sides = match solid {
+        true => "{ on = \"low.front\", fix = [\"y\"] }, { on = \"up.front\", fix = [\"y\"] },",
+        false => "",
+    };
+    let left = "{ on = \"low.left\", fix = [\"x\"] }, { on = \"up.left\", fix = [\"x\"] }";
+    let [low, up] = [
+        part("low", 4.0, [0.0, 2.0], [2 * n[0], n[1]]),
+        part(
+            "up",
+            2.0,
+            [2.0, 2.0 + random.within(0.5, 2.0)],
+            [n[2], n[3]],
+        ),
+    ];
+    parse(&format!(
+        "kind = \"{kind}\"\nmesh.parts = [{low}, {up}]\n\
+         contact = [{{ first = \"up.bottom\", second = \"low.top\" }}]\n\
+         support = [{{ on = \"low.bottom\", fix = [\"{along}\"] }}, {sides} {left}]\n\
+         bodies = {{ low = {{ material = \"m\"{of_low} }}, up.material = \"m\" }}\n\
+         [materials.m]\nyoungs_modulus = 2e5\npoissons_ratio = 0.3\nthermal_expansion = 1.2e-5\n\
+         [[load]]\non = \"up.top\"\npressure = 100.0\n{rest}\n\
+         [program]\ntargets = [{{ load_factor = 1.0 }}]\n"
+    ))
+}
+
+/// Heat and residual stresses push no body away, whatever round-off leaves of them: a block that
+/// lies on them is there before the load comes, and carries all of it.
+#[test]
+fn strains_drive_no_loose_body_away() {
+    for seed in 1..=either(120, 1000) {
+        let mut random = Random::new(seed);
+        let random = &mut random;
+        let kind = random.one_of(&["plane_strain", "plane_stress", "axisymmetric", "solid"]);
+        let heat = format!(
+            "[[load]]\non = \"low\"\ntemperature = {:?}\nhistory = \"constant\"\n",
+            random.within(-500.0, 500.0)
+        );
+        let [x, y, z] = std::array::from_fn(|_| random.within(-300.0, 300.0));
+        let z = if kind == "plane_stress" { 0.0 } else { z };
+        let (rest, of_low) = match random.below(3) {
+            0 => (heat, String::new()),
+            1 => (
+                String::new(),
+                format!(", initial_stress = [[0.0, {x:?}, {y:?}, {z:?}]]"),
+            ),
+            _ => (
+                heat,
+                ", initial_plastic_strain = [[0.0, 0.001, 0.0, 0.002]]".into(),
+            ),
+        };
+        let mut scene = block_on_block(kind, &of_low, &rest, random);
+        scene.title = format!("seed {seed}");
+        let results = support::run(&scene);
+        let area = if kind == "axisymmetric" {
+            PI * 4.0
+        } else {
+            2.0
+        };
+        let force = results.states[0].contact_force;
+        close(&scene.title, force, 100.0 * area, 100.0 * area, 1e-8);
     }
 }

@@ -1,6 +1,8 @@
 //! Numbers far apart: stiffness, shape, and gaps that are negative.
 
-use crate::support::{close, healthy, largest, parse, run, run_file, state};
+use crate::support::{self, close, healthy, largest, parse, run, run_file, state};
+use brinell::ErrorKind;
+use brinell::linalg::Backend;
 use brinell::results::{Results, Status};
 
 /// A penalty scaled with the stiffer body swamps the softer one, and an absolute pivot tolerance
@@ -170,5 +172,40 @@ fn interference_is_lost_under_tension_and_comes_back() {
         fitted,
         state(&results, "fitted again"),
         1e-10,
+    );
+}
+
+/// A row of elements of the shape hex20 deforms in ways that no Gauss point sees: what is missing
+/// there is no support against a rigid motion, and is not called that. Two elements across have no
+/// such way.
+#[test]
+fn modes_without_energy_are_named() {
+    let row = |n: usize| {
+        let text = format!(
+            "kind = \"solid\"\nbodies.b.material = \"m\"\n\
+             mesh.parts = [{{ body = \"b\", element = \"hex20\", brick = {{ x = [0, 10], \
+             y = [0, 1], z = [0, 1], elements = [10, {n}, {n}] }} }}]\n\
+             support = [{{ on = \"b.left\", fix = [\"x\", \"y\", \"z\"] }}]\n\
+             load = [{{ on = \"b.right\", traction = [0.0, 0.0, 1.0] }}]\n\
+             [materials.m]\nyoungs_modulus = 200000.0\npoissons_ratio = 0.3\n\
+             [program]\ntargets = [{{ load_factor = 1.0 }}]\n"
+        );
+        support::try_run(&parse(&text), Backend::default())
+    };
+    let error = row(1).unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Unheld);
+    assert!(
+        error.message().contains("of the shape hex20 have ways"),
+        "{error}"
+    );
+    // Bernoulli's beam; shear adds (h/L)^2 = 1 %.
+    let bent = row(2).unwrap();
+    let fields = bent.states[0].fields.as_ref().unwrap();
+    close(
+        "tip",
+        largest(fields.displacement.iter().copied()),
+        0.02,
+        0.02,
+        0.02,
     );
 }

@@ -6,11 +6,13 @@
 //! is elastic while a Gauss point is beyond its yield stress, and that it does not matter how a
 //! support is written.
 
+use crate::support::msh::{Body, Msh};
 use crate::support::random::Random;
 use crate::support::{close, parse, try_run};
 use brinell::linalg::Backend;
 use brinell::results::Results;
 use std::fmt::Write;
+use std::path::Path;
 
 /// Yield stress of all models.
 const YIELD: f64 = 200.0;
@@ -159,52 +161,122 @@ const SOLID: [Held; 4] = [
     ],
 ];
 
-/// A block of any kind under any load, but for its supports.
-fn block(random: &mut Random) -> (String, Held) {
-    let mut text = String::new();
-    let kind = random.one_of(&["plane_stress", "plane_strain", "axisymmetric", "solid"]);
+/// Drawn from a plane mesh: up is along y.
+const DRAWN: [Held; 3] = [
+    &[("b.left", &["x", "y", "z"])],
+    &[
+        ("b.left", &["x"]),
+        ("b.bottom", &["y"]),
+        ("b.front", &["z"]),
+    ],
+    &[("b.left", &["x", "y"]), ("b.front", &["z"])],
+];
+/// Of a mesh of tetrahedra.
+const TETRAHEDRA: [Held; 2] = [
+    &[("b bottom", &["x", "y", "z"])],
+    &[
+        ("b axis 0", &["x"]),
+        ("b axis 1", &["y"]),
+        ("b bottom", &["z"]),
+    ],
+];
+
+/// The mesh of a block, what holds it, and the faces that loads act on.
+fn mesh(random: &mut Random, kind: &str, file: &Path) -> (String, Held, [&'static str; 2]) {
     let mut cells = || 1 + random.below(6);
     let (m, n, k) = (cells(), cells(), 1 + cells() / 2);
     // On the axis of revolution nothing moves outward, and so cannot be told to.
     let x = random.one_of(&[0.0, 1.0]);
     let x = if kind == "axisymmetric" { 1.0 } else { x };
-    let length = random.one_of(&[1.0, 2.0, 8.0]);
-    let _ = writeln!(text, "kind = \"{kind}\"");
-    let is_solid = kind == "solid";
-    if is_solid {
-        let element = random.one_of(&["hex8", "hex20"]);
-        let _ = writeln!(
-            text,
-            "mesh.parts = [{{ body = \"b\", element = \"{element}\", brick = {{ x = [{x}, {}], \
-             y = [0, 1], z = [0, 1], elements = [{m}, {n}, {k}] }} }}]",
-            x + length
-        );
-    } else {
-        let element = random.one_of(&["quad4", "quad8", "tri3", "tri6"]);
-        let _ = writeln!(
-            text,
-            "mesh.parts = [{{ body = \"b\", element = \"{element}\", block = {{ x = [{x}, {}], \
-             y = [0, 1], elements = [{m}, {n}] }} }}]",
-            x + length
-        );
-    }
-    let _ = writeln!(
-        text,
-        "materials.m = {{ youngs_modulus = 200e3, poissons_ratio = 0.3, yield_stress = {YIELD}, \
-         plastic_modulus = 20e3, thermal_expansion = 1e-5 }}\nbodies.b.material = \"m\""
-    );
-    let held = match kind {
-        "solid" => random.one_of(&SOLID),
-        "axisymmetric" => random.one_of(&AXISYMMETRIC),
-        _ => random.one_of(&PLANE),
+    let end = x + random.one_of(&[1.0, 2.0, 8.0]);
+    let faces = ["b.right", "b.top"];
+    // Another block that is tied to the first one's top, on a mesh of its own.
+    let tied = random.share() < 0.25;
+    let parts = |element: &str, shape: &str, [from, to]: [&str; 2], k: &str| {
+        let part = |body: &str, up: [f64; 2], n: usize| {
+            format!(
+                "{{ body = \"{body}\", element = \"{element}\", {shape} = {{ x = [{x}, {end}], \
+                 {from}{up:?}{to}, elements = [{}, {n}{k}] }} }}",
+                if body == "b" { m } else { m + 1 }
+            )
+        };
+        let tie =
+            "\ntie = [{ first = \"c.bottom\", second = \"b.top\" }]\nbodies.c.material = \"m\"";
+        match tied {
+            true => {
+                let parts = [part("b", [0.0, 1.0], n), part("c", [1.0, 1.5], 1 + n / 2)];
+                format!("mesh.parts = [{}]{tie}", parts.join(", "))
+            }
+            false => format!("mesh.parts = [{}]", part("b", [0.0, 1.0], n)),
+        }
     };
+    let faces = if tied { ["b.right", "c.top"] } else { faces };
+    if kind != "solid" {
+        let element = random.one_of(&["quad4", "quad8", "tri3", "tri6"]);
+        let held = match kind {
+            "axisymmetric" => random.one_of(&AXISYMMETRIC),
+            _ => random.one_of(&PLANE),
+        };
+        let mut text = parts(element, "block", ["y = ", ""], "");
+        // The right end stays plane, where its corner is not held.
+        let held_there = held
+            .iter()
+            .any(|(on, fix)| *on == "b.bottom" && fix.contains(&"x"));
+        if random.share() < 0.3 && !held_there {
+            text += "\n[[equation]]\nterms = [";
+            text += "{ on = \"b.right\", direction = \"x\", coefficient = 1 },";
+            text += "{ on = \"b.bottom_right\", direction = \"x\", coefficient = -1 }]";
+        }
+        return (text, held, faces);
+    }
+    match random.below(3) {
+        0 => {
+            let element = random.one_of(&["hex8", "hex20"]);
+            let text = parts(element, "brick", ["y = [0, 1], z = ", ""], "");
+            let text = text.replace(", elements = [", &format!(", elements = [{k}, "));
+            (text, random.one_of(&SOLID), faces)
+        }
+        1 => {
+            let element = random.one_of(&["quad4", "tri3", "tri6"]);
+            let text = parts(element, "block", ["y = ", ""], "");
+            let drawn = format!("\nmesh.extrude = {{ depth = 1.0, elements = {k} }}");
+            (text + &drawn, random.one_of(&DRAWN), faces)
+        }
+        _ => {
+            let mut msh = Msh::default();
+            let body = Body {
+                name: "b",
+                width: random.one_of(&[0.3, 1.0, 3.0]),
+                cells: [1 + m / 3, 1 + n / 2],
+                heights: [&|_| 0.0, &|_| 1.0],
+                kink: None,
+                grading: 1.0,
+                jitter: random.one_of(&[0.0, 0.5]),
+            };
+            body.solid(&mut msh, true, 1 + random.below(2), random);
+            std::fs::write(file, msh.text()).unwrap();
+            let text = format!("mesh.file = {file:?}");
+            (text, random.one_of(&TETRAHEDRA), ["b top", "b top"])
+        }
+    }
+}
+
+/// A block of any kind under any load, but for its supports; `file` takes its mesh.
+fn block(random: &mut Random, file: &Path) -> (String, Held) {
+    let kind = random.one_of(&["plane_stress", "plane_strain", "axisymmetric", "solid"]);
+    let (mesh, held, faces) = mesh(random, kind, file);
+    let mut text = format!(
+        "kind = \"{kind}\"\n{mesh}\n\
+         [materials.m]\nyoungs_modulus = 200e3\npoissons_ratio = 0.3\nyield_stress = {YIELD}\n\
+         plastic_modulus = 20e3\nthermal_expansion = 1e-5\n[bodies.b]\nmaterial = \"m\"\n"
+    );
     let mut loads = Vec::new();
     let force = |random: &mut Random, axes: usize| {
         let parts = (0..axes).map(|_| format!("{:.6}", random.within(-150.0, 150.0)));
         format!("[{}]", parts.collect::<Vec<_>>().join(", "))
     };
-    let axes = if is_solid { 3 } else { 2 };
-    for on in ["b.right", "b.top"] {
+    let axes = if kind == "solid" { 3 } else { 2 };
+    for on in faces {
         if random.share() < 0.7 {
             let traction = force(random, axes);
             loads.push(format!("{{ on = \"{on}\", traction = {traction} }}"));
@@ -222,17 +294,14 @@ fn block(random: &mut Random) -> (String, Held) {
     }
     if random.share() < 0.2 {
         let stress = random.within(-80.0, 80.0);
-        let _ = writeln!(
-            text,
-            "bodies.b.initial_stress = [[0.0, {stress:.4}, 0.0, 0.0]]"
-        );
+        let _ = writeln!(text, "initial_stress = [[0.0, {stress:.4}, 0.0, 0.0]]");
     }
     let _ = writeln!(
         text,
-        "load = [{}]\nprogram.targets = [{{ load_factor = 0.5, fields = true }}, {{ load_factor = \
-         1.0, fields = true }}]",
-        loads.join(", ")
+        "[program]\ntargets = [{{ load_factor = 0.5, fields = true }}, \
+         {{ load_factor = 1.0, fields = true }}]"
     );
+    let text = format!("load = [{}]\n{text}", loads.join(", "));
     (text, held)
 }
 
@@ -259,9 +328,11 @@ fn with_supports(text: &str, held: Held, as_displacements: bool) -> String {
 #[test]
 fn no_state_is_elastic_while_a_gauss_point_is_beyond_yield() {
     let (mut yielded, mut elastic, mut refused) = (0, 0, 0);
+    let folder = tempfile::tempdir().unwrap();
     for seed in 1..=300u64 {
         let mut random = Random::new(seed);
-        let (text, held) = block(&mut random);
+        let file = folder.path().join(format!("{seed}.msh"));
+        let (text, held) = block(&mut random, &file);
         let both = [false, true].map(|as_displacements| {
             let text = with_supports(&text, held, as_displacements);
             (try_run(&parse(&text), Backend::default()), text)

@@ -2,14 +2,16 @@
 """How many of the faults in faults.py the tests notice: make strength [FAULTS='3 17']
 
 All faults are compiled into one build of a copy of the last commit; BRINELL_MUTANT=n switches number n
-on. Unit tests run first, then the program of all integration tests, until a test fails that passes
-without faults. Prints a line for each fault and the count.
+on. The suites that a fault is close to run first, then all unit tests and all integration tests, until
+a test fails that passes without faults. Prints a line for each fault and the count.
 """
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
+from functools import cache
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -35,25 +37,42 @@ def built(*arguments):
     return next(program for program in programs if program)
 
 
-def failures(program, fault, known, first_only):
-    """Names of the tests that fail and are not known to; the first one alone, if that is enough."""
-    environment = {**os.environ, "BRINELL_MUTANT": str(fault)} if fault else dict(os.environ)
+def nearest(suites):
+    """Filters of unit and of integration tests: `unit shape; solid (patches, hertz)`."""
+    unit, integration = [], []
+    for suite, modules in re.findall(r"([\w: ]+?)(?: \(([^)]*)\))?(?:[,;]|$)", suites):
+        words = suite.split()
+        if words[:1] == ["unit"]:
+            unit.append(words[1] + "::")
+        elif words:
+            inside = modules.split(", ") if modules else [""]
+            integration += [f"{words[0]}::{module}" for module in inside]
+    return unit, integration
+
+
+@cache
+def passes(program, test):
+    """Whether a test passes without faults."""
+    command = [program, "--exact", test]
+    return subprocess.run(command, cwd=COPY, stdout=subprocess.DEVNULL,
+                          stderr=subprocess.DEVNULL).returncode == 0
+
+
+def noticed(program, fault, filters):
+    """The first test of those that pass without faults that fails with this one."""
+    environment = {**os.environ, "BRINELL_MUTANT": str(fault)}
     skip = [word for name in SKIPPED for word in ("--skip", name)]
-    run = subprocess.Popen([program, *skip], cwd=COPY, env=environment, text=True,
+    run = subprocess.Popen([program, *filters, *skip], cwd=COPY, env=environment, text=True,
                            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-    found = []
     for line in run.stdout:
         words = line.split()
-        if line.startswith("test ") and words[-1] == "FAILED" and words[1] not in known:
-            found.append(words[1])
-            if first_only:
-                run.kill()
-                break
+        if line.startswith("test ") and words[-1] == "FAILED" and passes(program, words[1]):
+            run.kill()
+            run.wait()
+            return words[1]
     # A program that a fault ends altogether has noticed it, too.
     ended = run.wait()
-    if not found and ended not in (0, 101):
-        found.append(f"the program ended with {ended}")
-    return found
+    return None if ended in (0, 101) else f"the program ended with {ended}"
 
 
 def main():
@@ -62,18 +81,19 @@ def main():
     table = COPY / "faults.tsv"
     subprocess.run([sys.executable, str(HERE / "faults.py"), str(COPY), "--tsv", str(table)],
                    check=True)
-    programs = [built(*UNOPTIMISED, "--lib"), built("--test", "all")]
-    known = {name for program in programs for name in failures(program, 0, set(), False)}
+    unit, integration = built(*UNOPTIMISED, "--lib"), built("--test", "all")
     rows = [line.split("\t") for line in table.read_text().splitlines()[1:]]
     wanted = set(sys.argv[1:])
     rows = [row for row in rows if not wanted or row[0] in wanted]
     missed = 0
-    for number, place, _, what, *_ in rows:
-        caught = []
-        for program in programs:
-            caught = caught or failures(program, int(number), known, True)
-        missed += not caught
-        print(f"{number:>3} {place}: {what}: {caught[0] if caught else 'MISSED'}", flush=True)
+    for number, place, _, what, suites in rows:
+        of_unit, of_integration = nearest(suites)
+        runs = [(unit, of_unit)] * bool(of_unit) + [(integration, of_integration)] * bool(of_integration)
+        runs += [(unit, []), (integration, [])]
+        found = (noticed(program, number, filters) for program, filters in runs)
+        caught = next((test for test in found if test), None)
+        missed += caught is None
+        print(f"{number:>3} {place}: {what}: {caught or 'MISSED'}", flush=True)
     print(f"{len(rows) - missed} of {len(rows)} faults noticed")
 
 

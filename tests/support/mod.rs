@@ -5,6 +5,7 @@ pub mod grid;
 pub mod interpreter;
 pub mod limit;
 pub mod meshes;
+pub mod msh;
 pub mod random;
 pub mod scenes;
 pub mod svg;

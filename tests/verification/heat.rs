@@ -418,11 +418,18 @@ fn temperatures_of_nodes_from_a_file() {
             "{a} {b}"
         );
     }
+    let refused = |why: &str| {
+        let error = Model::new(&by_file).unwrap_err();
+        assert!(error.message().contains(why), "{error}");
+    };
+    let text = std::fs::read_to_string(&path).unwrap();
+    for value in ["NaN", "inf"] {
+        let (first, rest) = text.split_once("\n5 ").unwrap();
+        let (_, rest) = rest.split_once('\n').unwrap();
+        std::fs::write(&path, format!("{first}\n5 {value}\n{rest}")).unwrap();
+        refused("node 5");
+    }
     all.pop();
     write(&all);
-    let error = Model::new(&by_file).unwrap_err();
-    assert!(
-        error.message().contains("no value of node 1 of the body"),
-        "{error}"
-    );
+    refused("no value of node 1 of the body");
 }

@@ -8,7 +8,7 @@ use brinell::model::Model;
 use brinell::output::{self, RunHeader};
 use brinell::progress::{Flow, Observer, Silent};
 use brinell::results::{HistoryRow, Results};
-use brinell::scene::{Kind, Scene};
+use brinell::scene::{Kind, Scene, Stepping};
 use brinell::{ErrorKind, Result};
 use std::path::{Path, PathBuf};
 
@@ -324,4 +324,53 @@ fn a_run_in_which_nothing_yielded_leaves_nothing() {
         "{}",
         effect.why
     );
+}
+
+/// A body that contact alone holds lies on what the earlier run left: a target without load, where
+/// nothing moves, takes nothing from what comes after.
+#[test]
+fn a_target_where_a_run_starts_changes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = r#"
+kind = "plane_strain"
+support = [
+    { on = "low.bottom", fix = ["y"] },
+    { on = "low.left", fix = ["x"] },
+    { on = "up.left", fix = ["x"] },
+]
+contact = [{ first = "up.bottom", second = "low.top" }]
+load = [{ on = "up.top", pressure = 300.0 }]
+mesh.parts = [
+    { body = "low", block = { x = [0, 4], y = [0, 2], elements = [12, 6], bias = [3.0, 0.5] } },
+    { body = "up", block = { x = [0, 2], y = [2, 3], elements = [7, 4] } },
+]
+bodies = { low.material = "low", up.material = "up" }
+program = { targets = [{ load_factor = 1.0 }, { load_factor = 0.0 }] }
+[materials.low]
+youngs_modulus = 2e5
+poissons_ratio = 0.3
+yield_stress = 200
+plastic_modulus = 2000
+[materials.up]
+youngs_modulus = 1e5
+poissons_ratio = 0.25
+yield_stress = 300
+plastic_modulus = 5000
+"#;
+    for stepping in [Stepping::Events, Stepping::Steps] {
+        let mut scene = Scene::parse(text, "blocks").unwrap();
+        scene.program.stepping = stepping;
+        run_into(&scene, folder.path());
+        let [with, without] = [&[0.0, 1.0][..], &[1.0]].map(|factors| {
+            let results = run(&with_targets(&scene, factors, Some(folder.path())));
+            results.states.last().unwrap().clone()
+        });
+        assert!(with.residual_depth != 0.0);
+        for (a, b) in with.pairs.iter().zip(&without.pairs) {
+            let off = (a.pressure - b.pressure).abs() / with.max_pressure;
+            assert!(off < 1e-6, "{stepping:?}: {off:e}");
+        }
+        let [a, b] = [&with, &without].map(|state| state.max_equivalent_plastic_strain);
+        close(a, b, 1e-6);
+    }
 }

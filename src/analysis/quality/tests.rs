@@ -419,3 +419,49 @@ fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
         assert_eq!(q.misses(&tolerances).is_empty(), accepted, "{q:?}");
     }
 }
+
+/// What is not a number is never waited for: with one among forces, gaps or initial loads every
+/// figure of a state is found, and the state is not called sound.
+#[test]
+fn what_is_not_a_number_ends_in_no_loop_and_is_caught() {
+    type Spoil = fn(&mut Solver, usize, f64);
+    let spoils: [Spoil; 3] = [
+        |solver, k, value| solver.now.force[k] = value,
+        |solver, k, value| solver.now.gap[k] = value,
+        |solver, k, value| solver.now.initial.load.contact[k] = value,
+    ];
+    for kind in ["plane_strain", "axisymmetric", "solid"] {
+        let solid = "[mesh.extrude]\ndepth = 1.0\nelements = 1\n\
+                     [[support]]\non = \"half_plane.front\"\nfix = [\"z\"]\n\
+                     [[support]]\non = \"cylinder.front\"\nfix = [\"z\"]\n";
+        let mut text = SCENE.replace("plane_strain", kind);
+        text += if kind == "solid" { solid } else { "" };
+        let scene = Scene::parse(&text, "test").expect("scene");
+        let model = Model::new(&scene).expect("model");
+        let system = assemble(&model, Backend::default()).expect("system");
+        let mut solver =
+            Solver::new(&model, &system, Backend::default(), &[], Vec::new(), &[]).expect("solver");
+        let end = solver.structure.point(1.0);
+        assert_eq!(
+            solver.drive_elastic(&end, None).expect("drive"),
+            Arrival::End
+        );
+        solver.refresh();
+        let (sound, scales) = (solver.now.clone(), solver.scales);
+        let n = model.pairs.len();
+        for (i, spoil) in spoils.iter().enumerate() {
+            for k in [0, n / 2, n - 1] {
+                for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300] {
+                    solver.now = sound.clone();
+                    solver.scales = scales;
+                    spoil(&mut solver, k, value);
+                    let Ok(figures) = solver.reading().figures("end", true) else {
+                        continue;
+                    };
+                    let misses = figures.state.quality.misses(&tolerances(&model));
+                    assert!(!misses.is_empty(), "{kind}: {i}, pair {k}, {value}");
+                }
+            }
+        }
+    }
+}

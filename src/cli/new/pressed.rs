@@ -57,7 +57,6 @@ pub(super) fn scene(pressed: &Pressed, ball: bool) -> Result<String> {
         (first, Box::new(move |load| hertz.half_width(load)))
     };
     let load = largest(pressed.load, yield_load)?;
-    let reach = yield_load.map_or(1.0, |first| widths(load) / widths(first));
     let (shape, name, kind, per) = match ball {
         true => ("Ball", "ball", "axisymmetric", "N over the full circle"),
         false => ("Roller", "roller", "plane_strain", "N per mm of length"),
@@ -75,15 +74,6 @@ pub(super) fn scene(pressed: &Pressed, ball: bool) -> Result<String> {
         false => "symmetry = 2                 # half model, x >= 0: loads and results are those \
                   of the whole\n"
             .to_string(),
-    };
-    // Stress under a point fades with the square of the distance: 200 contact radii are enough.
-    let far = if ball {
-        format!(
-            "far_size = {:?}            # size of the bodies, in half widths at first yield\n",
-            (200.0 * reach.max(1.0)).ceil()
-        )
-    } else {
-        String::new()
     };
     let half_width = match yield_load {
         Some(_) => String::new(),
@@ -103,7 +93,7 @@ kind = \"{kind}\"
 names = [\"{name}\", \"flat\"]
 radius = {radius}
 resolution = {resolution}              # elements over the contact half width: 8 coarse, 32 fine
-{half_width}{far}
+{half_width}
 {material}[[contact]]
 first = \"{name}.contact\"
 second = \"flat.contact\"

@@ -2,6 +2,7 @@
 //! measure of. Hertz' theory gives that size and nothing else: no result depends on it but through
 //! the mesh.
 
+use super::cylinder::{PLANE_FAR_SIZE, ROUND_FAR_SIZE};
 use super::{ContactSize, WIDEST};
 use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
@@ -43,7 +44,20 @@ pub(crate) fn of(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<ContactSize> 
         Some(width) => width * half_width,
         None => reach(scene, p, half_width).unwrap_or(0.0),
     };
-    Ok(ContactSize { half_width, reach })
+    Ok(ContactSize {
+        half_width,
+        reach,
+        far_size: far_size(scene, p),
+    })
+}
+
+/// Size of each body, in half widths.
+pub(crate) fn far_size(scene: &Scene, p: &CylinderOnHalfPlane) -> f64 {
+    let round = scene.mesh.section(scene.kind).is_axisymmetric();
+    p.far_size.unwrap_or(match round {
+        true => ROUND_FAR_SIZE,
+        false => PLANE_FAR_SIZE,
+    })
 }
 
 /// Hertz' contact of a line or a point.
@@ -139,7 +153,9 @@ fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64>
 /// known before.
 pub(crate) fn warning(scene: &Scene) -> Option<String> {
     let p = scene.mesh.cylinder_on_half_plane.as_ref()?;
-    let ContactSize { half_width, reach } = of(scene, p).ok()?;
+    let ContactSize {
+        half_width, reach, ..
+    } = of(scene, p).ok()?;
     let [wanted, _] = widest(scene, p, half_width)?;
     let given = p.contact_width.unwrap_or(0.0).max(p.fine_width) * half_width;
     let candidates = reach.max(given).min(WIDEST * p.radius);
@@ -175,7 +191,7 @@ fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f6
     let largest =
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, |m, v| m.max(v.abs()));
     let factor = largest(&mut targets().filter_map(|t| t.load_factor));
-    let size = p.far_size * half_width;
+    let size = far_size(scene, p) * half_width;
     let mut force = 0.0;
     let mut depth = largest(&mut targets().map(|t| asked_for(t.displacement.as_ref())));
     for load in &scene.load {

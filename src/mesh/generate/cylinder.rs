@@ -10,6 +10,10 @@ use crate::{Error, Result};
 const KEY: &str = "mesh.cylinder_on_half_plane";
 /// The candidates may reach this share of the radius: further out the circle is nearly vertical.
 pub const WIDEST: f64 = 0.9;
+/// Size of each body in half widths, under a cylinder and under a ball. A size W changes the stress
+/// under a cylinder by the order b/W, under a ball by (b/W)^2 and its approach by b/W.
+pub(super) const PLANE_FAR_SIZE: f64 = 20_000.0;
+pub(super) const ROUND_FAR_SIZE: f64 = 2_000.0;
 
 /// How large the contact of a cylinder on a half plane is, in the unit of its radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,14 +22,17 @@ pub struct ContactSize {
     pub half_width: f64,
     /// How far the contact may reach; less than the even part of the mesh is no matter.
     pub reach: f64,
+    /// Size of each body, in half widths, where the parameters leave it open.
+    pub far_size: f64,
 }
 
 impl ContactSize {
-    /// A contact that stays within the even part of the mesh.
+    /// A contact of a cylinder that stays within the even part of the mesh.
     pub fn at_yield(half_width: f64) -> Self {
         ContactSize {
             half_width,
             reach: 0.0,
+            far_size: PLANE_FAR_SIZE,
         }
     }
 }
@@ -152,17 +159,22 @@ impl Layout {
     }
 
     fn new(p: &CylinderOnHalfPlane, contact: ContactSize) -> Result<Layout> {
-        let ContactSize { half_width, reach } = contact;
+        let ContactSize {
+            half_width,
+            reach,
+            far_size,
+        } = contact;
+        let far_size = p.far_size.unwrap_or(far_size);
         let key = |name: &str| format!("{KEY}.{name}");
         limits::positive(&key("radius"), p.radius)?;
         limits::positive(&key("half_width"), half_width)?;
         limits::positive(&key("fine_width"), p.fine_width)?;
         limits::positive(&key("fine_depth"), p.fine_depth)?;
-        limits::positive(&key("far_size"), p.far_size)?;
+        limits::positive(&key("far_size"), far_size)?;
         limits::growths(&key("growth"), p.growth, &key("far_growth"), p.far_growth)?;
         limits::at_least(&key("resolution"), p.resolution, 1)?;
 
-        let size = p.far_size * half_width;
+        let size = far_size * half_width;
         let candidates = p.fine_width * half_width;
         if candidates > WIDEST * p.radius {
             return Err(Error::input(format!(
@@ -188,11 +200,11 @@ impl Layout {
                     1.0 / resolution
                 )));
             }
-            if n + 1.0 > p.far_size * resolution {
+            if n + 1.0 > far_size * resolution {
                 return Err(Error::input(format!(
                     "{} = {}: give at least {}, one element more than {name} = {extent}",
                     key("far_size"),
-                    p.far_size,
+                    far_size,
                     (n + 1.0) / resolution
                 )));
             }

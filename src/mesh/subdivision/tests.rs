@@ -134,7 +134,7 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
             fine_width: 2.0,
             contact_width: None,
             fine_depth: 2.0,
-            far_size: 10.0,
+            far_size: Some(10.0),
             growth: 1.3,
             far_growth: None,
             element: shape,

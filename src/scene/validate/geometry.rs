@@ -191,7 +191,10 @@ impl Checks {
             "mesh.cylinder_on_half_plane",
             [parameters.fine_width, parameters.fine_depth],
             parameters.contact_width,
-            [parameters.growth, parameters.far_size],
+            [
+                parameters.growth,
+                parameters.far_size.unwrap_or(f64::INFINITY),
+            ],
         );
         if let Some(far) = parameters.far_growth {
             self.at_least(key("far_growth"), far, parameters.growth);

@@ -6,6 +6,12 @@ use crate::scene::read::closest;
 use crate::scene::{Body, Material, Plastic, Scene, beyond_yield, materials};
 use crate::space::Space;
 
+/// Moduli of tensile tests over Young's modulus, beyond which a test is not one of its material:
+/// extensometers show moduli to some per cent (ISO 6892-1:2019, annex G), rows close to yield have
+/// left the elastic line, strains in per cent are a factor of 100 off.
+const STIFFER: f64 = 1.2;
+const SOFTER: f64 = 0.1;
+
 impl Checks {
     pub(super) fn materials(&mut self, scene: &Scene) {
         for (name, material) in &scene.materials {
@@ -378,6 +384,8 @@ impl Checks {
             );
         }
         let rows = beyond_yield(test, material.youngs_modulus, material.yield_stress);
+        let n_elastic = rows.first().map_or(test.len(), |first| first.row);
+        self.elastic_line(key, &test[..n_elastic], material.youngs_modulus);
         let Some(first) = rows.first() else {
             self.problem(
                 key,
@@ -406,6 +414,32 @@ impl Checks {
         for (pair, row) in curve.windows(2).zip(&rows) {
             self.rising(&format!("{key}.{}", row.row), pair);
         }
+    }
+
+    /// The last row before yield: it shows the modulus best.
+    fn elastic_line(&mut self, key: &str, rows: &[[f64; 2]], youngs_modulus: f64) {
+        let Some(&[strain, stress]) = rows.last().filter(|row| row[0] > 0.0) else {
+            return;
+        };
+        let ratio = stress / strain / youngs_modulus;
+        let (cause, holds) = match ratio > 1.0 {
+            true => (
+                "is Young's modulus in the unit of the stresses?",
+                ratio < STIFFER,
+            ),
+            false => ("are the strains in per cent?", ratio > SOFTER),
+        };
+        self.require(
+            holds,
+            format!("{key}.{}", rows.len() - 1),
+            format!(
+                "[{}, {}] lies before yield, on a line of {ratio:.3} times Young's modulus ({}): \
+                 {cause}",
+                exact(strain),
+                exact(stress),
+                exact(youngs_modulus)
+            ),
+        );
     }
 
     /// A point of a curve of true stress against plastic strain and the one before it.

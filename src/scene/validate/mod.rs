@@ -152,6 +152,7 @@ impl Checks {
         // A comparison with NaN would only repeat the problem in other words.
         if checks.problems.is_empty() {
             checks.symmetry(scene);
+            checks.units(scene);
             geometry(&mut checks, scene);
             checks.materials(scene);
             checks.boundary(scene);
@@ -274,6 +275,23 @@ impl Checks {
             key: "symmetry".to_string(),
             message,
         }));
+    }
+
+    /// The unit of stress is that of a force over a length squared.
+    fn units(&mut self, scene: &Scene) {
+        let Some(units) = &scene.units else {
+            return;
+        };
+        if let Some(ratio) = units.mismatch() {
+            self.problem(
+                "units.stress",
+                format!(
+                    "\"{}\" is not force over length squared: 1 {} on 1 {} squared is {ratio:.4e} \
+                     {}; are moduli and loads in the same units?",
+                    units.stress, units.force, units.length, units.stress
+                ),
+            );
+        }
     }
 
     /// No number of the scene may be NaN or infinite. A file cannot bring one here, a caller can.

@@ -72,6 +72,11 @@ fn mesh_sources() {
                 |s| s.mesh.file = Some("a.msh".into()),
                 "2 of mesh source given",
             ),
+            (
+                |s| s.units.as_mut().unwrap().stress = "Pa".into(),
+                "units.stress: \"Pa\" is not force over length squared: 1 N on 1 mm squared is \
+                 1.0000e6 Pa",
+            ),
             (|s| cylinder!(s).radius = -1.0, "radius: -1 must be greater"),
             (
                 |s| cylinder!(s).resolution = 0,
@@ -82,7 +87,7 @@ fn mesh_sources() {
                 "growth: 0.9 must be at least 1",
             ),
             (
-                |s| cylinder!(s).far_size = 2.0,
+                |s| cylinder!(s).far_size = Some(2.0),
                 "far_size: 2 must be greater than fine_width",
             ),
             (

@@ -14,7 +14,7 @@ pub(super) fn example(element: Shape) -> CylinderOnHalfPlane {
         fine_width: 2.0,
         contact_width: None,
         fine_depth: 1.5,
-        far_size: 50.0,
+        far_size: Some(50.0),
         growth: 1.15,
         far_growth: None,
         element,
@@ -112,6 +112,7 @@ fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_
             let size = ContactSize {
                 half_width: HALF_WIDTH,
                 reach: reach * HALF_WIDTH,
+                far_size: 50.0,
             };
             let mesh = cylinder_on_half_plane(&p, size).unwrap();
             check_common(&mesh);
@@ -255,7 +256,7 @@ fn the_widest_candidates_are_valid() {
         p.fine_width = 90.0;
         p.resolution = 1;
         p.fine_depth = 2.0;
-        p.far_size = far_size;
+        p.far_size = Some(far_size);
         p.growth = 1.3;
         check_common(&cylinder_on_half_plane(&p, ContactSize::at_yield(1.0)).unwrap());
     }
@@ -305,7 +306,7 @@ fn refusals_name_key_and_value() {
             |p| (p.growth, p.far_growth) = (1.0, Some(2.0)),
             &["far_growth = 2", "above 1"],
         ),
-        (|p| p.far_size = 0.0, &["far_size = 0"]),
+        (|p| p.far_size = Some(0.0), &["far_size = 0"]),
         (
             |p| p.fine_width = 90.0,
             &["fine_width = 90", "0.9 of the radius", "at most 81.8"],

@@ -11,7 +11,7 @@ fn generated(shape: Shape) -> [Mesh; 2] {
         fine_width: 2.0,
         contact_width: None,
         fine_depth: 1.5,
-        far_size: 30.0,
+        far_size: Some(30.0),
         growth: 1.2,
         far_growth: None,
         element: shape,

@@ -189,6 +189,15 @@ fn materials_and_bodies() {
                 "tensile_test.2: true stress 397.8 is less than 404 before it: beyond the largest",
             ),
             (
+                |s| tested(s, Some(300.0), &[[0.1, 200.0], [1.0, 400.0]]),
+                "tensile_test.0: [0.1, 200] lies before yield, on a line of 0.010 times Young's \
+                 modulus (210000): are the strains in per cent?",
+            ),
+            (
+                |s| tested(s, None, &[[0.001, 300.0], [0.01, 400.0]]),
+                "tensile_test.0: [0.001, 300] lies before yield, on a line of 1.429 times",
+            ),
+            (
                 |s| tested(s, Some(300.0), &[[0.01, 400.0], [0.0101, 500.0]]),
                 "tensile_test.1: plastic strain 0.00764",
             ),
