@@ -324,6 +324,9 @@ pub struct Counts {
     pub plastic_iterations: usize,
     /// Changes of contact status.
     pub contact_changes: usize,
+    /// Increments that were not found at once: only with equilibrium and length one after the
+    /// other, with patience, or in fixed steps. What that took is part of the solves and iterations.
+    pub hard_increments: usize,
 }
 
 /// A published or exact value compared with the computed one.

@@ -7,7 +7,7 @@ use super::increment::{EndsAt, Increment, NoIncrement};
 use super::load_point::LoadPoint;
 use super::search::Search;
 use super::solver::Solver;
-use crate::error::{Error, Result};
+use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Stepping;
 use std::collections::HashSet;
 
@@ -50,7 +50,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         let mut crossings = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
         // A fixed increment at whose end no statuses are right is followed from change to change.
-        let mut stepping = self.rules.program.stepping;
+        let usual = self.rules.program.stepping;
+        let mut stepping = usual;
         let mut search = Search::FIRST;
         loop {
             let outcome = match stepping {
@@ -71,6 +72,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
             match outcome {
                 Ok(increment) => {
                     self.refuse_free_motion(&increment)?;
+                    let at_once = search == Search::FIRST && stepping == usual;
+                    self.solver.cost.counts.hard_increments += usize::from(!at_once);
                     return Ok((increment, most < left));
                 }
                 // The rate of a pair at its border turned within the increment: a shorter one shows
@@ -98,7 +101,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
                 Err(NoIncrement::Jumps) => corrections = MOST_CORRECTIONS,
                 Err(NoIncrement::Stopped) => return Err(stopped()),
                 Err(NoIncrement::Failed(error)) => return Err(error),
-                Err(NoIncrement::Undecided) if stepping == Stepping::Steps => {
+                Err(NoIncrement::Undecided) if stepping == Stepping::Steps && stepping == usual => {
                     stepping = Stepping::Events;
                 }
                 Err(NoIncrement::Undecided) => return Err(self.not_settled(end, most)),
@@ -120,7 +123,15 @@ impl<'s, 'm> Stepper<'s, 'm> {
                     }
                     if !worth_cutting {
                         let goal = self.solver.at.towards(end, most);
-                        return Err(self.not_found(&goal, &attempt));
+                        let error = self.not_found(&goal, &attempt);
+                        // Close to a limit load no length may be right: a fixed one needs none.
+                        let undecided = error.kind() == ErrorKind::Analysis;
+                        if undecided && stepping == Stepping::Events && stepping == usual {
+                            stepping = Stepping::Steps;
+                            (search, most) = (Search::FIRST, left);
+                            continue;
+                        }
+                        return Err(error);
                     }
                     most *= CUT;
                 }

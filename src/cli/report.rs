@@ -422,7 +422,7 @@ impl Report {
 
     fn cost(&mut self, results: &Results, wall_seconds: f64) {
         let counts = &results.counts;
-        let list = [
+        let mut list = vec![
             counted(results.history.len(), "increment"),
             counted(counts.factorizations, "factorization"),
             counted(counts.trailing_solves, "trailing solve"),
@@ -430,6 +430,10 @@ impl Report {
             counted(counts.plastic_iterations, "plastic iteration"),
             counted(counts.contact_changes, "contact change"),
         ];
+        if counts.hard_increments > 0 {
+            let hard = counted(counts.hard_increments, "increment");
+            list.push(format!("{hard} not found at once"));
+        }
         self.labelled("Counts", &list.join(", "));
         if results.timings.is_empty() {
             return;

@@ -192,6 +192,7 @@ pub fn results(mesh: &Mesh) -> Results {
             full_solves: 3,
             plastic_iterations: 12,
             contact_changes: 2,
+            hard_increments: 1,
         },
         quality,
         condition: 1e4,

@@ -103,7 +103,8 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "ranks": ranks,
         "counts": {
             "factorizations": 1, "trailing_solves": 40, "full_solves": 3,
-            "plastic_iterations": 12, "contact_changes": 2
+            "plastic_iterations": 12, "contact_changes": 2,
+            "hard_increments": 1
         },
         "factor": {
             "ordering": "CAMD", "factor_nonzeros": 1234, "trailing_nonzeros": 99,

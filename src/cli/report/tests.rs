@@ -83,6 +83,7 @@ fn full() -> Results {
             full_solves: 12,
             plastic_iterations: 345,
             contact_changes: 67,
+            hard_increments: 2,
         },
         quality: Quality {
             backward_error: 1.234e-16,

@@ -390,6 +390,10 @@ pub(super) fn cost(header: &RunHeader, results: &Results) -> Markup {
         ("full solves", counts.full_solves),
         ("plastic iterations", counts.plastic_iterations),
         ("changes of contact", counts.contact_changes),
+        (
+            "increments that were not found at once",
+            counts.hard_increments,
+        ),
     ];
     html! {
         div.wide tabindex="0" {
