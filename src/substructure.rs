@@ -20,6 +20,7 @@ mod rigid_slips;
 mod rows;
 mod singular;
 mod tied;
+mod tied_stiffness;
 
 pub(crate) use rows::{Entries, Rows};
 pub(crate) use tied::{Tied, Trace};
@@ -370,6 +371,12 @@ impl Substructure {
             beside,
         )?;
         Ok((recovered, motions))
+    }
+
+    /// Multiplications that putting leaders and followers of the contact rows together took: two
+    /// products with the weights by which leaders carry followers.
+    pub fn tying_multiplications(&self) -> usize {
+        self.tied.as_ref().map_or(0, Groups::multiplications)
     }
 
     /// Bytes held by the dense contact matrices: `T`, what of it is swept in the tableau, and

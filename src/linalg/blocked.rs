@@ -11,6 +11,54 @@ use rayon::prelude::*;
 
 /// Columns of a block.
 const BLOCK: usize = 96;
+/// Entries that a thread takes at a time.
+const ENTRIES: usize = 1 << 14;
+/// Share of the entries of a block that are not zero from which on its product is faster as that of
+/// a full matrix: what the kernel of such products gains over adding column to column.
+const FULL: f64 = 0.2;
+
+/// Columns of a length that a thread takes at a time: fewer take less than waking it.
+pub(crate) fn at_once(length: usize) -> usize {
+    ENTRIES / length.max(1) + 1
+}
+
+/// `a b` for a matrix `b` that is given by its columns, each the rows and values of its entries,
+/// and the number of multiplications.
+pub(crate) fn times(a: &DMatrix<f64>, b: &[Vec<(usize, f64)>]) -> (DMatrix<f64>, usize) {
+    let (m, n) = a.shape();
+    let mut product = DMatrix::zeros(m, b.len());
+    let strips = product.as_mut_slice().par_chunks_mut((BLOCK * m).max(1));
+    let multiplications = strips
+        .zip(b.par_chunks(BLOCK))
+        .map(|(product, b)| {
+            let mut product = DMatrixViewMut::from_slice(product, m, b.len());
+            let entries: usize = b.iter().map(Vec::len).sum();
+            if (entries as f64) < FULL * (n * b.len()) as f64 {
+                for (mut column, b) in product.column_iter_mut().zip(b) {
+                    b.iter()
+                        .for_each(|&(k, value)| column.axpy(value, &a.column(k), 1.0));
+                }
+                return m * entries;
+            }
+            let mut full = DMatrix::zeros(n, b.len());
+            for (j, b) in b.iter().enumerate() {
+                b.iter().for_each(|&(k, value)| full[(k, j)] += value);
+            }
+            product.gemm(1.0, a, &full, 0.0);
+            m * n * b.len()
+        })
+        .sum();
+    (product, multiplications)
+}
+
+/// The lower triangle of `a` becomes that of `a + a'`.
+pub(crate) fn add_transpose(a: &mut DMatrix<f64>) {
+    for j in 0..a.ncols() {
+        for i in j..a.nrows() {
+            a[(i, j)] += a[(j, i)];
+        }
+    }
+}
 
 /// The lower Cholesky factor of `a`, whose lower triangle is read; `None` where a pivot is not
 /// positive.
@@ -121,5 +169,32 @@ mod tests {
             }
         }
         assert!(cholesky(DMatrix::from_element(200, 200, 1.0)).is_none());
+    }
+
+    /// Columns with few and with many entries, in one block and in several.
+    #[test]
+    fn sparse_columns_are_multiplied_as_full_ones() {
+        let mut numbers = Numbers::new(7);
+        for (m, n, columns) in [(0, 3, 2), (3, 0, 2), (40, 30, 1), (25, 60, 300)] {
+            let a = DMatrix::from_vec(m, n, numbers.vector(m * n));
+            let mut entries = |j: usize| {
+                let count = if j < 96 { n.min(2) } else { n };
+                let rows = (0..count).map(|k| (k * 29 + j) % n);
+                rows.map(|k| (k, numbers.next())).collect()
+            };
+            let b: Vec<Vec<(usize, f64)>> = (0..columns).map(&mut entries).collect();
+            let mut full = DMatrix::zeros(n, columns);
+            for (j, b) in b.iter().enumerate() {
+                b.iter().for_each(|&(k, value)| full[(k, j)] += value);
+            }
+            let (product, multiplications) = times(&a, &b);
+            assert!((product - &a * full).amax() <= 2.0 * n as f64 * f64::EPSILON);
+            let [few, rest] = [columns.min(96), columns.saturating_sub(96)];
+            assert_eq!(multiplications, m * (few * n.min(2) + rest * n));
+        }
+        let mut a = DMatrix::from_vec(5, 5, numbers.vector(25));
+        let expected = &a + a.transpose();
+        add_transpose(&mut a);
+        assert_eq!(a.lower_triangle(), expected.lower_triangle());
     }
 }

@@ -4,7 +4,9 @@
 //! coupled in `C`. Two bodies of equally many contact freedoms need half the memory of the whole
 //! matrix, and a quarter of the work to form it.
 
+use super::blocked;
 use nalgebra::DMatrix;
+use rayon::prelude::*;
 
 /// `C = S_cc - S_cz S_zz^-1 S_zc` (force per displacement), `n_contact x n_contact`, symmetric to
 /// the last bit, as its diagonal blocks.
@@ -26,7 +28,7 @@ pub struct ContactBlock {
 
 impl ContactStiffness {
     /// Of blocks that hold each of the freedoms `0..n_contact` once.
-    pub(super) fn new(blocks: Vec<ContactBlock>) -> Self {
+    pub(crate) fn new(blocks: Vec<ContactBlock>) -> Self {
         let n = blocks.iter().map(|block| block.freedoms.len()).sum();
         let mut place = vec![(0, 0); n];
         for (b, block) in blocks.iter().enumerate() {
@@ -72,6 +74,31 @@ impl ContactStiffness {
             }
         }
         product
+    }
+
+    /// The part of some rows and columns.
+    pub(crate) fn part(&self, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
+        let mut part = DMatrix::zeros(rows.len(), columns.len());
+        self.add_part(rows, columns, &mut part);
+        part
+    }
+
+    /// Adds the part of some rows and columns to a matrix of their numbers.
+    pub(crate) fn add_part(&self, rows: &[usize], columns: &[usize], sum: &mut DMatrix<f64>) {
+        let mut row_of = vec![None; self.n_contact()];
+        for (i, &freedom) in rows.iter().enumerate() {
+            row_of[freedom] = Some(i);
+        }
+        let n = rows.len().max(1);
+        let sum = sum.as_mut_slice().par_chunks_mut(n).zip(columns);
+        sum.with_min_len(blocked::at_once(n))
+            .for_each(|(sum, &freedom)| {
+                for (row, entry) in self.column(freedom) {
+                    if let Some(i) = row_of[row] {
+                        sum[i] += entry;
+                    }
+                }
+            });
     }
 
     /// The stiffness of each group of freedoms that no block couples with others: `place` says the

@@ -184,6 +184,12 @@ impl Groups {
             .collect()
     }
 
+    /// Multiplications that putting leaders and followers together took.
+    pub(super) fn multiplications(&self) -> usize {
+        let groups = self.groups.iter();
+        groups.map(|group| group.tied.multiplications).sum()
+    }
+
     /// Numbers that the tied structures hold.
     pub(super) fn n_entries(&self) -> usize {
         self.groups.iter().map(|group| group.tied.n_entries()).sum()

@@ -32,6 +32,7 @@
 
 use super::rigid_slips::{RigidSlip, rigid_slips, take_rigid_slips};
 use super::rows::Rows;
+use super::tied_stiffness::TiedStiffness;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{ContactStiffness, blocked};
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn};
@@ -67,8 +68,6 @@ pub(super) struct SplitSlip {
 /// What is left of a motion, as a share of it, when that share is the round-off of taking the rest
 /// away.
 const ROUND_OFF: f64 = 1e-11;
-/// Entries that a thread takes at a time.
-const ENTRIES: usize = 1 << 14;
 
 /// The tied structure.
 pub(crate) struct Tied {
@@ -92,6 +91,8 @@ pub(crate) struct Tied {
     factor: Cholesky<f64, Dyn>,
     /// `L^-1 [Z R]' P'S`, unknowns by followers.
     coupling: DMatrix<f64>,
+    /// Multiplications that putting leaders and followers together took.
+    pub(super) multiplications: usize,
 }
 
 impl Tied {
@@ -123,43 +124,18 @@ impl Tied {
         let forces = stiffness.times(&lifted);
 
         let (n_w, n_a) = (kept.len(), motions.ncols());
-        // Unknowns that feel a force on each contact freedom, and shares of it.
-        let mut felt: Vec<Vec<(usize, f64)>> = vec![Vec::new(); n_contact];
-        for (i, &leader) in kept.iter().enumerate() {
+        let leaders = TiedStiffness::new(stiffness, &rows, &kept);
+        let mut tied = leaders.matrix.resize(n_w + n_a, n_w + n_a, 0.0);
+        for (k, &leader) in kept.iter().enumerate() {
             for &(freedom, weight) in &rows.moved[leader] {
-                felt[freedom].push((i, weight));
+                for a in 0..n_a {
+                    tied[(n_w + a, k)] += weight * forces[(freedom, a)];
+                }
             }
         }
-        // Adds a share of the column of a contact freedom to what the unknowns feel of it.
-        let add = |freedom: usize, share: f64, column: &mut [f64]| {
-            for (row, entry) in stiffness.column(freedom) {
-                for &(unknown, weight) in &felt[row] {
-                    column[unknown] += share * weight * entry;
-                }
-            }
-        };
-        let mut tied = DMatrix::zeros(n_w + n_a, n_w + n_a);
-        let columns = tied.as_mut_slice().par_chunks_mut((n_w + n_a).max(1));
-        let columns = columns.with_min_len(at_once(n_w + n_a));
-        columns.zip(&kept).for_each(|(column, &leader)| {
-            let (own, of_motions) = column.split_at_mut(n_w);
-            for &(freedom, weight) in &rows.moved[leader] {
-                add(freedom, weight, own);
-                for (a, force) in of_motions.iter_mut().enumerate() {
-                    *force += weight * forces[(freedom, a)];
-                }
-            }
-        });
-        let mut coupling = DMatrix::zeros(n_w + n_a, n);
-        let columns = coupling.as_mut_slice().par_chunks_mut((n_w + n_a).max(1));
-        let columns = columns.with_min_len(at_once(n_w + n_a));
-        columns.zip(&rows.follow).for_each(|(column, &freedom)| {
-            let (own, of_motions) = column.split_at_mut(n_w);
-            add(freedom, 1.0, own);
-            for (a, force) in of_motions.iter_mut().enumerate() {
-                *force = forces[(freedom, a)];
-            }
-        });
+        let mut coupling = leaders.coupling.resize_vertically(n_w + n_a, 0.0);
+        let of_motions = forces.select_rows(&rows.follow).transpose();
+        coupling.rows_mut(n_w, n_a).copy_from(&of_motions);
         // The product of many motions is that of matrices, which has a kernel of its own.
         let energy = lifted.transpose() * &forces;
         tied.view_mut((n_w, n_w), (n_a, n_a)).copy_from(&energy);
@@ -179,7 +155,7 @@ impl Tied {
         }
         let mut matrix = blocked::outer(&coupling.transpose(), |_| n_w + n_a);
         let columns = matrix.as_mut_slice().par_chunks_mut(n.max(1)).enumerate();
-        let columns = columns.with_min_len(at_once(n));
+        let columns = columns.with_min_len(blocked::at_once(n));
         columns.for_each(|(j, column)| {
             column.iter_mut().for_each(|entry| *entry = -*entry);
             for (freedom, entry) in stiffness.column(rows.follow[j]) {
@@ -204,6 +180,7 @@ impl Tied {
             part: part.to_vec(),
             factor,
             coupling,
+            multiplications: leaders.multiplications,
             rows,
         };
         Ok((tied, matrix))
@@ -446,9 +423,4 @@ fn take_rigid(column: &mut [f64], share: &mut [f64], rigid: &[Trace], part: &[us
             }
         }
     }
-}
-
-/// Columns of a length that a thread takes at a time: fewer take less than waking it.
-fn at_once(length: usize) -> usize {
-    ENTRIES / length.max(1) + 1
 }

@@ -97,6 +97,35 @@ fn pairs_that_bodies_join_are_dense_and_said_to_be() {
     assert_eq!(cost.memory_bytes, 4.0 * half.memory_bytes);
 }
 
+/// A coarse hard block that carries a fine soft one: the hard nodes have the gaps, and soft nodes
+/// follow all the others. Putting them together takes no more than two products of full matrices.
+#[test]
+fn followers_of_many_leaders_cost_two_products() {
+    let text = "kind = \"solid\"\n\
+        mesh.parts = [\n\
+        { body = \"soft\", brick = { x = [-6, 6], y = [-3, 3], z = [0, 3], elements = [16, 8, 2] } },\n\
+        { body = \"hard\", brick = { x = [-7, 7], y = [-4, 4], z = [-2, 0], elements = [6, 4, 2] } }]\n\
+        materials.soft = { youngs_modulus = 1e3, poissons_ratio = 0.0 }\n\
+        materials.hard = { youngs_modulus = 1e9, poissons_ratio = 0.0 }\n\
+        bodies = { soft.material = \"soft\", hard.material = \"hard\" }\n\
+        contact = [{ first = \"soft.bottom\", second = \"hard.top\" }]\n\
+        support = [{ on = \"hard.bottom\", fix = [\"x\", \"y\", \"z\"] },\n\
+        { on = \"soft.left\", fix = [\"x\"] }, { on = \"soft.front\", fix = [\"y\"] }]\n\
+        load = [{ on = \"soft.top\", pressure = 10.0 }]\n\
+        program.targets = [{ load_factor = 1.0 }]\n";
+    let (cost, structure) = structure(text);
+    let rows = cost.pairs;
+    let leaders = Model::new(&parse(text)).unwrap().rows.n_contact() - rows;
+    let taken = structure.tying_multiplications();
+    assert!(rows > 20 && leaders > 100, "{rows} {leaders}");
+    // The rows are those of hard slaves: more than each leader's own entry.
+    assert!(taken > 10 * leaders * leaders, "{taken}");
+    assert!(taken <= leaders * rows * (leaders + rows), "{taken}");
+    // Pairs of nodes: each leader has one follower.
+    let (pairs, single) = self::structure(&stacks(1, 21));
+    assert!(single.tying_multiplications() <= 2 * pairs.pairs.pow(2));
+}
+
 /// Beside others every stack does what it does alone: uniform pressure, its own.
 #[test]
 fn groups_do_not_feel_one_another() {
