@@ -10,7 +10,7 @@
 //! R = sum_k h_k (v'(K_pp u_k - f_k) - w' P_k) - t'(delta - g) - w' J - v' J_p
 //! ```
 //!
-//! Load `k` has the factor `h_k`, the prescribed displacements `u_k`, the forces `f_k` on
+//! Load `k`, or list of loads that change alike, has the factor `h_k`, the prescribed displacements `u_k`, the forces `f_k` on
 //! prescribed freedoms and the load vector `P_k` on free ones ([`crate::assembly::System::loads`]).
 //! `delta - g` is how far each pair has moved together; `J` and `J_p` are the initial loads of the
 //! plastic strains on free and on prescribed freedoms.
@@ -24,7 +24,7 @@ use crate::substructure::Trailing;
 /// What the force that moves a load's nodes is the sum of.
 pub(super) struct DrivingForce {
     load: usize,
-    /// Force of each load at factor 1 with all pairs tied.
+    /// Force of each list of loads that change alike at factor 1 with all pairs tied.
     of_loads: Vec<f64>,
     /// Force of each tied pair where the nodes move by 1.
     of_pairs: Vec<f64>,
@@ -50,11 +50,15 @@ impl DrivingForce {
             return Ok(None);
         }
         let size = case.magnitude;
-        let mut moved = loads.condensed[load].eliminated.clone();
+        let own = model.alike.iter().position(|alike| alike[..] == [load]);
+        let Some(own) = own else {
+            return Ok(None);
+        };
+        let mut moved = loads.condensed[own].eliminated.clone();
         structure
             .sub
             .recover(&mut moved, &vec![0.0; structure.n_pairs()]);
-        let all = structure.sub.recover_all(&loads.reduced[load], &moved)?;
+        let all = structure.sub.recover_all(&loads.reduced[own], &moved)?;
         cost.counts.full_solves += 1;
         let dot = |f: &Vec<f64>| -> f64 { all.iter().zip(f).map(|(u, f)| u * f).sum() };
         let held = system.on_leading.iter().zip(&system.loads);
@@ -63,7 +67,7 @@ impl DrivingForce {
         Ok(Some(DrivingForce {
             load,
             of_loads: held.map(|(held, f)| (held - dot(f)) / size).collect(),
-            of_pairs: (loads.condensed[load].forces.iter())
+            of_pairs: (loads.condensed[own].forces.iter())
                 .map(|force| force / size)
                 .collect(),
             moved,
@@ -84,7 +88,8 @@ impl Solver<'_> {
         let product = |(a, b): (&f64, &f64)| a * b;
         let delta = structure.delta(&self.at);
         let slip = delta.iter().zip(&self.now.gap).map(|(d, gap)| gap - d);
-        let of_loads = self.at.factors.iter().zip(&driving.of_loads).map(product);
+        let factors = structure.model.factors_of_alike(&self.at.factors);
+        let of_loads = factors.zip(&driving.of_loads).map(|(h, force)| h * force);
         let of_pairs = driving.of_pairs.iter().zip(slip).map(|(t, slip)| t * slip);
         let initial = self.now.initial.load.iter();
         let of_initial = driving.moved.iter().zip(initial).map(product);

@@ -19,7 +19,8 @@ impl Solver<'_> {
         let n = self.structure.gaps.initial.len();
         let mut u = initial.eliminated.clone();
         let mut q = initial.forces.clone();
-        for (load, &factor) in self.structure.loads.condensed.iter().zip(&point.factors) {
+        let factors = self.structure.model.factors_of_alike(&point.factors);
+        for (load, factor) in self.structure.loads.condensed.iter().zip(factors) {
             u.add(factor, &load.eliminated);
             for (q, t) in q.iter_mut().zip(&load.forces) {
                 *q += factor * t;

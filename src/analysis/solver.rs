@@ -13,7 +13,7 @@ use crate::assembly::System;
 use crate::contact::Tableau;
 use crate::error::Result;
 use crate::linalg::Backend;
-use crate::model::{Magnitude, Model};
+use crate::model::{LoadCase, Magnitude, Model};
 use serde::{Deserialize, Serialize};
 
 /// The structure in its current state.
@@ -167,16 +167,17 @@ impl<'m> Solver<'m> {
     /// Whether the load that is left up to `end` is no more than what round-off leaves in the
     /// contact forces.
     pub(super) fn is_round_off(&self, end: &LoadPoint) -> bool {
-        let factors = self.at.factors.iter().zip(&end.factors);
-        let loads = self.structure.model.loads.iter();
-        let left: f64 = loads
+        let model = self.structure.model;
+        let [from, to] = [&self.at, end].map(|at| model.factors_of_alike(&at.factors));
+        let left: f64 = (model.alike.iter())
             .zip(&self.structure.loads.condensed)
-            .zip(factors)
-            .map(|((load, condensed), (from, to))| {
-                let size = match load.measures {
+            .zip(from.zip(to))
+            .map(|((alike, condensed), (from, to))| {
+                let loads = || alike.iter().map(|&load| &model.loads[load]);
+                let size: f64 = match model.loads[alike[0]].measures {
                     Magnitude::Displacement => condensed.load.iter().map(|f| f.abs()).sum(),
                     Magnitude::Gap => condensed.forces.iter().map(|f| f.abs()).sum(),
-                    _ => load.size(),
+                    _ => loads().map(LoadCase::size).sum(),
                 };
                 (to - from).abs() * size
             })

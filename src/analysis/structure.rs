@@ -48,7 +48,7 @@ pub struct Structure<'m> {
     pub unit: f64,
 }
 
-/// Loads at factor 1.
+/// Loads at factor 1, those that change alike ([`Model::alike`]) together.
 #[derive(Default)]
 pub(super) struct Loads {
     /// Reduced.
@@ -221,11 +221,13 @@ impl<'m> Structure<'m> {
         self.loads.far = far.map(|w| self.sub.condense(w)).collect::<Result<_>>()?;
         let reduced = self.loads.reduced.iter();
         let condensed: Result<Vec<_>> = reduced.map(|l| self.sub.condense(l)).collect();
-        let condensed = condensed?.into_iter().zip(&self.model.loads);
-        let eliminated = condensed.map(|(load, case)| {
+        let condensed = condensed?.into_iter().zip(&self.model.alike);
+        let eliminated = condensed.map(|(load, alike)| {
             let mut out = self.eliminate(load, cost);
-            if !case.opens.is_empty() {
-                let gaps: Vec<f64> = self.model.pairs.iter().map(|pair| case.gap(pair)).collect();
+            let opening = || alike.iter().map(|&load| &self.model.loads[load]);
+            if opening().any(|case| !case.opens.is_empty()) {
+                let opened = |pair: &Pair| opening().map(|case| case.gap(pair)).sum();
+                let gaps: Vec<f64> = self.model.pairs.iter().map(opened).collect();
                 let forces = self.sub.slip_forces(&gaps);
                 out.forces
                     .iter_mut()
@@ -271,7 +273,8 @@ impl<'m> Structure<'m> {
     /// Condensed external load at a load point.
     pub fn external(&self, point: &LoadPoint) -> Trailing {
         let mut out = self.sub.zeros();
-        for (load, &factor) in self.loads.condensed.iter().zip(&point.factors) {
+        let factors = self.model.factors_of_alike(&point.factors);
+        for (load, factor) in self.loads.condensed.iter().zip(factors) {
             out.add(factor, &load.load);
         }
         out
@@ -279,7 +282,7 @@ impl<'m> Structure<'m> {
 
     /// Reduced external load at a load point.
     pub fn reduced_external(&self, point: &LoadPoint) -> Vec<f64> {
-        combination(self.model.freedoms.n, &self.loads.reduced, &point.factors)
+        combination(self.model, &self.loads.reduced, &point.factors)
     }
 
     /// The gap of a pair before anything moves: the initial one less the applied interference, with
@@ -298,12 +301,13 @@ impl<'m> Structure<'m> {
 
     /// What the force of tied pair `k` is the sum of at a load point without initial loads: `t` of
     /// each load, and `-T delta`.
-    pub(super) fn closed_force_terms(
-        &self,
-        point: &LoadPoint,
+    pub(super) fn closed_force_terms<'a>(
+        &'a self,
+        point: &'a LoadPoint,
         k: usize,
-    ) -> impl Iterator<Item = f64> {
-        let loads = self.loads.forces.iter().zip(&point.factors);
+    ) -> impl Iterator<Item = f64> + 'a {
+        let factors = self.model.factors_of_alike(&point.factors);
+        let loads = self.loads.forces.iter().zip(factors);
         let of_gaps = [
             -self.gaps.forces[0][k],
             point.interference * self.gaps.forces[1][k],
@@ -349,15 +353,17 @@ impl<'m> Structure<'m> {
     }
 }
 
-/// `sum factor * vector`, of the length `n`.
-pub(super) fn combination(n: usize, vectors: &[Vec<f64>], factors: &[f64]) -> Vec<f64> {
+/// `sum factor * vector` for a vector on all freedoms of each list of loads that change alike, and
+/// the factors of all loads.
+pub(super) fn combination(model: &Model, vectors: &[Vec<f64>], factors: &[f64]) -> Vec<f64> {
+    let factors = model.factors_of_alike(factors);
     let acting: Vec<_> = vectors
         .iter()
         .zip(factors)
-        .filter(|(_, f)| **f != 0.0)
+        .filter(|(_, f)| *f != 0.0)
         .collect();
     let sum = |i| acting.iter().fold(0.0, |sum, (v, f)| sum + *f * v[i]);
-    (0..n)
+    (0..model.freedoms.n)
         .into_par_iter()
         .with_min_len(GRAIN)
         .map(sum)

@@ -248,7 +248,7 @@ impl Solver<'_> {
     /// Applied loads, contact forces and initial loads on all freedoms.
     pub fn total_load(&self) -> Vec<f64> {
         let mut load = combination(
-            self.structure.model.freedoms.n,
+            self.structure.model,
             &self.structure.system.loads,
             &self.at.factors,
         );

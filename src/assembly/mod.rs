@@ -18,11 +18,11 @@ pub struct System {
     pub stiffness: Symmetric,
     /// Its infinity norm.
     pub norm: f64,
-    /// Load vector of each load at factor 1 (`n` each); those of prescribed displacements are
-    /// `-K_fp u_p`.
+    /// Load vector at factor 1 of each list of loads that change alike ([`Model::alike`]; `n`
+    /// each); those of prescribed displacements are `-K_fp u_p`.
     pub loads: Vec<Vec<f64>>,
-    /// Where the leading load prescribes displacements `v`: `v' (K_pp u_p - f_p)` of each load at
-    /// factor 1, the work on them of what holds all prescribed freedoms while no free one moves.
+    /// Where the leading load prescribes displacements `v`: `v' (K_pp u_p - f_p)` of each
+    /// list of loads at factor 1, the work on them of what holds all prescribed freedoms while no free one moves.
     pub on_leading: Vec<f64>,
 }
 
@@ -52,14 +52,14 @@ fn all(model: &Model) -> Elements<'_> {
 }
 
 fn loads(model: &Model) -> (Vec<Vec<f64>>, Vec<f64>) {
-    let forces = |load: &crate::model::LoadCase| {
+    let forces = |alike: &Vec<usize>| {
         let mut vector = vec![0.0; model.freedoms.n];
-        for &(freedom, force) in &load.forces {
+        for &(freedom, force) in alike.iter().flat_map(|&load| &model.loads[load].forces) {
             vector[freedom] += force;
         }
         vector
     };
-    let mut loads: Vec<Vec<f64>> = model.loads.iter().map(forces).collect();
+    let mut loads: Vec<Vec<f64>> = model.alike.iter().map(forces).collect();
     let on_leading = match model.freedoms.prescribed.is_empty() {
         true => vec![0.0; loads.len()],
         false => add_prescribed(model, &mut loads),
@@ -74,6 +74,10 @@ fn add_prescribed(model: &Model, loads: &mut [Vec<f64>]) -> Vec<f64> {
         .filter(|&e| model.slots_of(e).iter().any(is_prescribed))
         .collect();
     let leading = model.leading_load();
+    let mut list_of = vec![0; model.loads.len()];
+    for (list, alike) in model.alike.iter().enumerate() {
+        alike.iter().for_each(|&load| list_of[load] = list);
+    }
     let prescribed = |p: u32| model.freedoms.prescribed[p as usize];
     let moved = |slot| match slot {
         Slot::Prescribed(p) => Some(prescribed(p)).filter(|p| Some(p.load) == leading),
@@ -86,6 +90,7 @@ fn add_prescribed(model: &Model, loads: &mut [Vec<f64>]) -> Vec<f64> {
         for (j, slot) in slots.iter().enumerate() {
             let Slot::Prescribed(p) = *slot else { continue };
             let Prescribed { load, value } = prescribed(p);
+            let load = list_of[load];
             for (i, row) in slots.iter().enumerate() {
                 let force = matrix[packed(i, j)] * value;
                 if let Slot::Free(f) = *row {
@@ -96,9 +101,9 @@ fn add_prescribed(model: &Model, loads: &mut [Vec<f64>]) -> Vec<f64> {
             }
         }
     }
-    for (work, load) in on_leading.iter_mut().zip(&model.loads) {
+    for (&list, load) in list_of.iter().zip(&model.loads) {
         load.each_on_slots(&model.freedoms, |slot, force| {
-            *work -= moved(slot).map_or(0.0, |own| own.value * force);
+            on_leading[list] -= moved(slot).map_or(0.0, |own| own.value * force);
         });
     }
     on_leading

@@ -151,6 +151,13 @@ pub(super) fn resolve(
         .collect()
 }
 
+/// The load that the results are reported by: the first that varies, else the first.
+pub(super) fn leading(loads: &[LoadCase]) -> Option<usize> {
+    let varies = |load: &LoadCase| !matches!(load.history, History::Constant);
+    let first = (!loads.is_empty()).then_some(0);
+    loads.iter().position(varies).or(first)
+}
+
 /// Takes over a new numbering of the freedoms.
 pub(super) fn renumber(mut loads: Vec<LoadCase>, freedoms: &Freedoms) -> Vec<LoadCase> {
     for load in &mut loads {

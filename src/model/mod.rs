@@ -3,6 +3,7 @@
 //! Here names become indices and every inconsistency between scene and mesh is found. What comes
 //! after works with numbers only.
 
+mod alike;
 mod body_forces;
 mod builder;
 mod contact_basis;
@@ -75,6 +76,9 @@ pub struct Model {
     pub contacts: Vec<ContactSurface>,
     /// Loads.
     pub loads: Vec<LoadCase>,
+    /// Loads whose factors are always equal, as lists of places among the loads: each list acts on
+    /// the structure as one load vector.
+    pub alike: Vec<Vec<usize>>,
     /// Which bodies are held by contact alone.
     pub floating: FloatingBodies,
     /// How many copies of the model make the whole (loads and results named `load` are the
@@ -100,9 +104,12 @@ enum Origin {
 impl Model {
     /// The load that the results are reported by: the first that varies, else the first.
     pub fn leading_load(&self) -> Option<usize> {
-        let varies = |load: &LoadCase| !matches!(load.history, crate::scene::History::Constant);
-        let first = (!self.loads.is_empty()).then_some(0);
-        self.loads.iter().position(varies).or(first)
+        loads::leading(&self.loads)
+    }
+
+    /// The factor of each list of loads that change alike, from the factors of all loads.
+    pub fn factors_of_alike<'a>(&'a self, factors: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        self.alike.iter().map(|loads| factors[loads[0]])
     }
 
     /// Builds the model of a scene: makes or reads its mesh, resolves names, pairs surfaces.
@@ -212,6 +219,7 @@ impl Model {
             pairs,
             rows,
             contacts,
+            alike: alike::alike(&loads, loads::leading(&loads)),
             loads,
             floating,
             symmetry: scene.symmetry as f64,

@@ -1,8 +1,10 @@
 //! What an effect costs is paid by the scenes that ask for it.
 
-use crate::support::{load, parse, try_run};
+use crate::support::{close, largest, load, parse, run_on, try_run};
 use brinell::linalg::Backend;
+use brinell::model::Model;
 use brinell::results::{Counts, Effect, Results};
+use brinell::scene::{History, Load};
 
 const CYLINDER: [&str; 2] = [
     "mesh.cylinder_on_half_plane.resolution=6",
@@ -215,4 +217,50 @@ fn load_of(load: &str) -> brinell::scene::Scene {
     let file = folder.path().join("scene.toml");
     std::fs::write(&file, text).unwrap();
     brinell::scene::Scene::load_with(file, &changes).unwrap()
+}
+
+/// Loads of one history act as one: forces on forty nodes cost one solve beside that of the load
+/// which is reported, those of two histories cost two, and they do the same where these agree.
+#[test]
+fn loads_that_change_alike_are_solved_for_together() {
+    let scene = load(
+        "thick_cylinder",
+        &[
+            "mesh.parts.0.ring.elements=[6, 20]",
+            "bodies.tube.plastic=false",
+            "program.targets=[{ load_factor = 1.0 }]",
+            "reference=[]",
+        ],
+    );
+    let mut mesh = Model::new(&scene).unwrap().mesh.clone();
+    let nodes: Vec<usize> = (0..mesh.n_nodes()).step_by(3).take(40).collect();
+    for &node in &nodes {
+        mesh.node_sets.insert(format!("n{node}"), vec![node]);
+    }
+    let with = |histories: &[History]| {
+        let mut scene = scene.clone();
+        for (k, history) in (0..40).zip(histories.iter().cycle()) {
+            scene.load.push(Load {
+                on: format!("n{}", nodes[k]),
+                force: Some([0.01 * k as f64, -0.02].into()),
+                history: history.clone(),
+                ..Load::default()
+            });
+        }
+        run_on(&scene, mesh.clone())
+    };
+    let plain = run_on(&scene, mesh.clone());
+    let table = History::Table(vec![[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]);
+    let [one, two] = [
+        with(&[History::Proportional]),
+        with(&[History::Proportional, table]),
+    ];
+    let solves = [&plain, &one, &two].map(|results| results.counts.full_solves);
+    assert_eq!(solves, [0, 1, 2].map(|more| solves[0] + more));
+    let [one, two] = [&one, &two].map(|r| &r.states[0].fields.as_ref().unwrap().displacement);
+    let scale = largest(one.iter().copied());
+    for (a, b) in one.iter().zip(two) {
+        // Backward errors of two solutions, at a condition of some thousand.
+        close("displacement", *a, *b, scale, 1e-11);
+    }
 }

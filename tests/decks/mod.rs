@@ -3,6 +3,7 @@
 
 mod calculix;
 mod converted;
+mod local_axes;
 mod refusals;
 mod sets;
 

@@ -2,6 +2,7 @@
 
 mod arrays;
 mod dent;
+mod directions;
 mod loads;
 mod mirrors;
 mod numbering;

@@ -15,6 +15,10 @@ use crate::scene::{Displacement, Load, Support};
 use crate::space::Vector;
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Component of a unit vector up to which it is round-off: of sines and cosines in the deck's
+/// coordinates and of the cross products that axes are made with.
+const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
+
 /// Members that go through the same, by degree of freedom and what they go through.
 type Groups = BTreeMap<(u8, Vec<u64>), (Vec<u32>, Series, Place)>;
 
@@ -269,7 +273,8 @@ impl Draft<'_> {
             .filter_map(|k| Some((k, forces.remove(&k)?)))
             .collect();
         for ((node, axis), entry) in turned {
-            for (global, &share) in axes[&node][axis as usize].iter().enumerate() {
+            let shares = axes[&node][axis as usize].iter().enumerate();
+            for (global, &share) in shares.filter(|(_, share)| share.abs() > ROUND_OFF) {
                 let mut of_axis = entry.clone();
                 of_axis.series = Series::starting(0.0);
                 let sum = forces.entry((node, global as u8)).or_insert(of_axis);
