@@ -10,10 +10,10 @@
 //! R = sum_k h_k (v'(K_pp u_k - f_k) - w' P_k) - t'(delta - g) - w' J - v' J_p
 //! ```
 //!
-//! Load `k`, or list of loads that change alike, has the factor `h_k`, the prescribed displacements `u_k`, the forces `f_k` on
-//! prescribed freedoms and the load vector `P_k` on free ones ([`crate::assembly::System::loads`]).
-//! `delta - g` is how far each pair has moved together; `J` and `J_p` are the initial loads of the
-//! plastic strains on free and on prescribed freedoms.
+//! Load `k`, or list of loads that change alike, has the factor `h_k`, the prescribed displacements
+//! `u_k`, the forces `f_k` on prescribed freedoms and the load vector `P_k` on free ones
+//! ([`crate::assembly::System::loads`]). `delta - g` is how far each pair has moved together; `J`
+//! and `J_p` are the initial loads of the plastic strains on free and on prescribed freedoms.
 
 use super::solver::Solver;
 use super::structure::{Cost, Structure};

@@ -21,8 +21,9 @@ pub struct System {
     /// Load vector at factor 1 of each list of loads that change alike ([`Model::alike`]; `n`
     /// each); those of prescribed displacements are `-K_fp u_p`.
     pub loads: Vec<Vec<f64>>,
-    /// Where the leading load prescribes displacements `v`: `v' (K_pp u_p - f_p)` of each
-    /// list of loads at factor 1, the work on them of what holds all prescribed freedoms while no free one moves.
+    /// Where the leading load prescribes displacements `v`: `v' (K_pp u_p - f_p)` of each list of
+    /// loads at factor 1, the work on them of what holds all prescribed freedoms while no free one
+    /// moves.
     pub on_leading: Vec<f64>,
 }
 

@@ -8,6 +8,11 @@ pub type Frame = [Vector; 3];
 /// How far (sine of an angle) directions may be off right angles or a common line.
 pub(super) const ALIGNED: f64 = 1e-6;
 
+/// Whether two unit vectors lie along a common line.
+fn are_aligned(a: Vector, b: Vector) -> bool {
+    length(cross(a, b)) <= ALIGNED
+}
+
 /// The axes of a node: the contact normal first, where there is one; the directions that are held
 /// are spanned by some of the others. Global axes where these will do. In the plane the third axis
 /// is out of it.
@@ -25,14 +30,14 @@ pub(super) fn frame(
         axes.push(unit(2));
     }
     axes.extend(normal);
-    let is_global = |v: &Vector| (0..3).any(|d| v[d].abs() > 1.0 - ALIGNED);
+    let is_global = |v: &Vector| (0..3).any(|d| are_aligned(*v, unit(d)));
     let in_global_axes = normal.is_none() && held.iter().all(is_global);
     if in_global_axes {
         return Ok([unit(0), unit(1), unit(2)]);
     }
     for (k, &d) in held.iter().enumerate() {
         let off = |axis: &Vector| dot(*axis, d).abs();
-        if axes.iter().any(|axis| off(axis) > 1.0 - ALIGNED) {
+        if axes.iter().any(|axis| are_aligned(*axis, d)) {
             continue;
         }
         let rigid = if dimension == 2 {
@@ -43,12 +48,20 @@ pub(super) fn frame(
         if axes[..rigid].iter().any(|axis| off(axis) > ALIGNED) {
             return Err(k);
         }
-        // Of planes of symmetry at any angle the edge between them is held in what they span.
-        let rest = axes
-            .iter()
-            .fold(d, |rest, axis| along(rest, -dot(*axis, d), *axis));
+        // Of planes of symmetry at any angle the edge between them is held in what they span. Of
+        // a small angle the first difference leaves round-off over it, which a second takes off.
+        let less_axes = |d: Vector| {
+            let axes = axes.iter();
+            axes.fold(d, |rest, axis| along(rest, -dot(*axis, d), *axis))
+        };
+        let rest = less_axes(d);
         if length(rest) > ALIGNED {
-            axes.push(if rest == d { d } else { direction(rest) });
+            let is_across = rest == d;
+            axes.push(if is_across {
+                d
+            } else {
+                direction(less_axes(direction(rest)))
+            });
         }
     }
     if dimension == 2 {
@@ -110,6 +123,24 @@ mod tests {
             &frame(3, None, &[slanted, unit(0), unit(1)]).unwrap()
         ));
         assert_eq!(frame(3, Some(slanted), &[unit(0)]), Err(0));
+    }
+
+    /// A direction a milliradian off a global axis, or off another, is one of its own: the cosine
+    /// would take it for the same, and the sine would hold what is across it, too.
+    #[test]
+    fn a_small_angle_is_an_angle() {
+        for angle in [2e-6, 1e-3] {
+            let near = direction([angle, 1.0, 0.0]);
+            assert_eq!(frame(2, None, &[near]).unwrap()[0], near);
+            assert_eq!(frame(3, None, &[near]).unwrap()[0], near);
+            let both = frame(3, None, &[near, unit(1)]).unwrap();
+            assert!(is_frame(&both) && (both[2][2].abs() - 1.0).abs() < 1e-15);
+        }
+        let same = direction([1e-7, 1.0, 0.0]);
+        assert_eq!(
+            frame(3, None, &[same]).unwrap(),
+            [unit(0), unit(1), unit(2)]
+        );
     }
 
     #[test]

@@ -103,8 +103,10 @@ fn pairs_that_bodies_join_are_dense_and_said_to_be() {
 fn followers_of_many_leaders_cost_two_products() {
     let text = "kind = \"solid\"\n\
         mesh.parts = [\n\
-        { body = \"soft\", brick = { x = [-6, 6], y = [-3, 3], z = [0, 3], elements = [16, 8, 2] } },\n\
-        { body = \"hard\", brick = { x = [-7, 7], y = [-4, 4], z = [-2, 0], elements = [6, 4, 2] } }]\n\
+        { body = \"soft\", brick = { x = [-6, 6], y = [-3, 3], z = [0, 3],\n\
+        elements = [16, 8, 2] } },\n\
+        { body = \"hard\", brick = { x = [-7, 7], y = [-4, 4], z = [-2, 0],\n\
+        elements = [6, 4, 2] } }]\n\
         materials.soft = { youngs_modulus = 1e3, poissons_ratio = 0.0 }\n\
         materials.hard = { youngs_modulus = 1e9, poissons_ratio = 0.0 }\n\
         bodies = { soft.material = \"soft\", hard.material = \"hard\" }\n\
