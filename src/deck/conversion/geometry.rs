@@ -16,6 +16,8 @@ pub(crate) struct Geometry {
     pub(crate) is_used: Vec<bool>,
     /// Names of surfaces by those in the deck, in capitals.
     surface_names: BTreeMap<String, String>,
+    /// How often each name was asked for.
+    numbers: BTreeMap<String, usize>,
 }
 
 impl Geometry {
@@ -39,12 +41,20 @@ impl Geometry {
         name
     }
 
-    fn free_name(&self, name: &str) -> String {
-        let is_taken =
-            |name: &String| self.node_sets.contains_key(name) || self.surfaces.contains_key(name);
-        let numbered = (2..).map(|number| format!("{name}-{number}"));
-        let mut names = std::iter::once(name.to_string()).chain(numbered);
-        names.find(|name| !is_taken(name)).unwrap_or_default()
+    /// The name itself, or the first number behind it that is free: numbers only grow, so that a
+    /// line of thousands of sets is not gone through anew for each.
+    fn free_name(&mut self, name: &str) -> String {
+        let number = self.numbers.entry(name.to_string()).or_default();
+        loop {
+            *number += 1;
+            let name = match *number {
+                1 => name.to_string(),
+                number => format!("{name}-{number}"),
+            };
+            if !self.node_sets.contains_key(&name) && !self.surfaces.contains_key(&name) {
+                return name;
+            }
+        }
     }
 
     /// The nodes of a set that belong to elements.
