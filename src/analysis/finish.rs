@@ -1,6 +1,7 @@
 //! What a run leaves at its end, wherever that is.
 
 use super::program::Run;
+use super::stopwatch::Row;
 use super::{check, quality};
 use crate::results::{Quality, Results, Sizes};
 
@@ -11,6 +12,7 @@ const DOUBTFUL: f64 = 1e10;
 impl Run<'_, '_> {
     /// The results as far as they go.
     pub(super) fn finish(mut self) -> Results {
+        self.position.seconds.switch(Row::States);
         let model = self.solver.structure.model;
         let mut results = std::mem::take(&mut self.results);
         results.sizes = Sizes {
@@ -23,7 +25,7 @@ impl Run<'_, '_> {
             degree: model.mesh.degree(),
         };
         results.counts = self.solver.cost.counts;
-        let (seconds, first_yield) = (self.position.seconds, self.position.first_yield);
+        let first_yield = self.position.first_yield;
         results.first_yield = first_yield.point;
         results.factor = self.solver.structure.sub.cost();
         results.condition = self.solver.structure.condition;
@@ -71,30 +73,32 @@ impl Run<'_, '_> {
         }
         let qualities = judged.iter().map(|(_, q)| q);
         results.quality = qualities.fold(Quality::default(), |w, q| w.merge_worst(q));
-        for (name, seconds) in [
-            ("factorisation and condensation", seconds.condensation),
-            ("yield load", seconds.yield_load),
-            ("elastic increments", seconds.contact),
-            ("elastoplastic increments", seconds.plasticity),
-            ("states", seconds.states),
-            ("stresses", seconds.stresses),
-        ] {
-            results.timings.push((name.to_string(), seconds));
-        }
         results.cycles = self.cycles();
         results.ranks = self.solver.structure.system.stiffness.ranks();
         results.end_state = self.solver.end_state();
         let yields = first_yield.alpha.is_some() || first_yield.is_behind;
         results.effects = check::effects(model, yields, model.start.as_ref());
+        let structure = &self.solver.structure;
+        let bytes = [structure.sub.contact_bytes(), self.solver.zone.bytes()];
+        // To give back their memory takes its time, too.
+        drop((self.solver, self.zone));
+        let seconds = &mut self.position.seconds;
+        seconds.switch(Row::States);
+        for (row, name) in Row::ALL {
+            results
+                .timings
+                .push((name.to_string(), seconds.seconds(row)));
+        }
         for effect in &mut results.effects {
             match effect.name.as_str() {
                 "contact" => {
-                    effect.seconds = seconds.contact + seconds.yield_load;
-                    effect.memory_bytes = self.solver.structure.sub.contact_bytes();
+                    effect.seconds =
+                        seconds.seconds(Row::Contact) + seconds.seconds(Row::YieldLoad);
+                    effect.memory_bytes = bytes[0];
                 }
                 "plasticity" if effect.on => {
-                    effect.seconds = seconds.plasticity;
-                    effect.memory_bytes = self.solver.zone.bytes();
+                    effect.seconds = seconds.seconds(Row::Plasticity);
+                    effect.memory_bytes = bytes[1];
                 }
                 _ => {}
             }

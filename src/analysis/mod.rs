@@ -23,6 +23,7 @@
 //! | `indicator` | discretisation error of the stresses, element by element | |
 //! | `deformation` | whether strains and rotations are small | |
 //! | `check`, `seconds` | effects, cost and time before a run | |
+//! | `stopwatch` | what the time of a run was spent on | |
 
 mod acceleration;
 mod check;
@@ -78,6 +79,7 @@ mod starting;
 mod state;
 mod step_length;
 mod stepping;
+mod stopwatch;
 mod stress_field;
 mod stresses;
 mod stretch;

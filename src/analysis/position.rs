@@ -4,6 +4,7 @@ use super::cycles::CycleRecord;
 use super::deformation::Deformation;
 use super::drive::Drive;
 use super::recovery::Watched;
+use super::stopwatch::Stopwatch;
 use crate::results::YieldPoint;
 use serde::{Deserialize, Serialize};
 
@@ -33,8 +34,8 @@ pub(super) struct Position {
     pub(super) first_yield: FirstYield,
     /// Share of the program that was reported to lie behind: it never falls.
     pub(super) fraction: f64,
-    /// Time spent.
-    pub(super) seconds: Seconds,
+    /// What the time was spent on.
+    pub(super) seconds: Stopwatch,
     /// How far from small the states are.
     pub(super) deformation: Deformation,
 }
@@ -102,17 +103,6 @@ impl FirstYield {
         let [low, high] = self.elastic_range;
         from.min(to) >= low && from.max(to) <= high
     }
-}
-
-/// Seconds by effect.
-#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct Seconds {
-    pub(super) contact: f64,
-    pub(super) plasticity: f64,
-    pub(super) states: f64,
-    pub(super) stresses: f64,
-    pub(super) condensation: f64,
-    pub(super) yield_load: f64,
 }
 
 /// Share of the way between two load factors that lies behind; changes of contact lie evenly in the

@@ -12,6 +12,7 @@ use super::plastic::PlasticDrive;
 use super::position::{Position, Stage};
 use super::restart::CheckpointWriter;
 use super::solver::Solver;
+use super::stopwatch::Row;
 use super::targets::Start;
 use super::zone_choice;
 use super::zone_fit::ZoneFit;
@@ -104,7 +105,7 @@ impl<'m, 'o> Run<'m, 'o> {
             observer.warning(warning);
         }
         let mut run = Run::of(solver, ZoneFit::new(choice), results, observer);
-        run.position.seconds.condensation = start.elapsed().as_secs_f64();
+        run.position.seconds = run.position.seconds.running_since(start);
         run.begin()?;
         Ok(run)
     }
@@ -148,10 +149,13 @@ impl<'m, 'o> Run<'m, 'o> {
             Stage::Targets => self.observer.phase("load program"),
             _ => {}
         }
+        self.position.seconds.switch(Row::History);
         while let Some(event) = self.next()? {
             let increments = usize::from(matches!(event, Event::Increment(_)));
             let goes_on = self.record(event);
-            self.write_checkpoint(increments, !goes_on);
+            self.timed(Row::Checkpoints, |run| {
+                run.write_checkpoint(increments, !goes_on)
+            });
             if !goes_on {
                 return Err(stopped());
             }
@@ -192,6 +196,14 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
+    /// Does work that a row of the time table is about.
+    pub(super) fn timed<T>(&mut self, row: Row, work: impl FnOnce(&mut Self) -> T) -> T {
+        let before = self.position.seconds.switch(row);
+        let out = work(self);
+        self.position.seconds.switch(before);
+        out
+    }
+
     /// Passes an event on; whether the run goes on after it.
     fn record(&mut self, event: Event) -> bool {
         let row = match event {
@@ -217,23 +229,23 @@ impl<'m, 'o> Run<'m, 'o> {
     fn advance(&mut self, stop: f64) -> Result<Option<HistoryRow>> {
         let end = self.solver.structure.point(stop);
         let plastic = self.increments_are_plastic();
-        if plastic && self.position.drive.is_none() && self.follow_load()? {
+        if plastic
+            && self.position.drive.is_none()
+            && self.timed(Row::Zone, |run| run.follow_load())?
+        {
             self.end_search();
             return Ok(None);
         }
-        let begun = Instant::now();
-        let step = match self.position.drive.take() {
-            Some(drive) => self.step(drive, &end),
-            None => self.begin_drive(&end),
-        };
-        let seconds = &mut self.position.seconds;
         let effect = if plastic {
-            &mut seconds.plasticity
+            Row::Plasticity
         } else {
-            &mut seconds.contact
+            Row::Contact
         };
-        *effect += begun.elapsed().as_secs_f64();
-        let Step { increment, arrival } = step?;
+        let Step { increment, arrival } =
+            self.timed(effect, |run| match run.position.drive.take() {
+                Some(drive) => run.step(drive, &end),
+                None => run.begin_drive(&end),
+            })?;
         let row = increment.map(|report| self.row(&report));
         if row.is_some() {
             let cycle = self.labels.len().max(1) as f64;
@@ -400,9 +412,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         if !self.zone.choice.elements.is_empty() && (required || self.largest_factor().is_some()) {
             self.observer.phase("yield load");
-            let start = Instant::now();
-            let under_preload = self.find_yield(required)?;
-            self.position.seconds.yield_load += start.elapsed().as_secs_f64();
+            let under_preload = self.timed(Row::YieldLoad, |run| run.find_yield(required))?;
             if under_preload {
                 self.results.history.clear();
                 self.position.stage = Stage::Preload { again: true };
@@ -424,7 +434,7 @@ impl<'m, 'o> Run<'m, 'o> {
                 )),
             };
         }
-        self.fit_zone()?;
+        self.timed(Row::Zone, |run| run.fit_zone())?;
         self.observer.phase("load program");
         self.position.stage = Stage::Targets;
         Ok(())

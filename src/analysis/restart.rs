@@ -245,7 +245,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let mut run = Run::of(solver, zone, results, observer);
         run.path = record.sampler;
         run.position = position;
-        run.position.seconds.condensation += begin.elapsed().as_secs_f64();
+        run.position.seconds = run.position.seconds.running_since(begin);
         run.start = start;
         if let Some(search) = run.position.search {
             run.monitor = Some(run.monitor_of(search.scale)?);

@@ -7,12 +7,12 @@ use super::recovery::Watched;
 use super::seconds::gaps_are_alike;
 use super::solver::Solver;
 use super::state::State;
+use super::stopwatch::Row;
 use super::zone_choice;
 use crate::error::{Error, Result};
 use crate::results;
 use crate::scene::{Direction, DisplacementTarget, Kind, Stepping, Target};
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
 
 /// Where the way to a target starts: it is gone again where the zone was too small for it.
 #[derive(Serialize, Deserialize)]
@@ -80,12 +80,13 @@ impl<'m> Run<'m, '_> {
     /// and the way to the target is gone again. So it is if the state is elastic by the recovered
     /// stress and a Gauss point is beyond yield: the Gauss points are watched from then on.
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
-        let begun = Instant::now();
         let (target, label) = self.target();
-        let figures = self.solver.reading().figures(&label, target.fields)?;
-        let seconds = &mut self.position.seconds;
-        seconds.stresses += figures.stress_seconds;
-        seconds.states += begun.elapsed().as_secs_f64() - figures.stress_seconds;
+        let figures = self.timed(Row::States, |run| {
+            let figures = run.solver.reading().figures(&label, target.fields)?;
+            let seconds = &mut run.position.seconds;
+            seconds.hand_over(figures.stress_seconds, Row::Stresses);
+            Ok::<_, Error>(figures)
+        })?;
         self.monitor = None;
         let missed = figures.beyond_yield_outside;
         let start = self.start.take();

@@ -6,11 +6,11 @@ use super::packed::Ascending;
 use super::program::Run;
 use super::recovery::{Recovery, Watched};
 use super::solver::Solver;
+use super::stopwatch::Row;
 use super::zone_choice::{self, Choice, PREDICTED};
 use crate::error::Result;
 use crate::scene::History;
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
 
 /// Factor on the load from one stage of the zone to the next: what it saves in trailing solves
 /// against what a stage costs, a copy of the zone's part of the factor.
@@ -201,12 +201,12 @@ impl Run<'_, '_> {
         if choice == self.zone.choice {
             return Ok(());
         }
-        let start = Instant::now();
         self.zone.recovery = None;
-        self.solver
-            .set_zone(choice.elements.clone(), &choice.guard)?;
+        self.timed(Row::Condensation, |run| {
+            let elements = choice.elements.clone();
+            run.solver.set_zone(elements, &choice.guard)
+        })?;
         self.zone.choice = choice;
-        self.position.seconds.condensation += start.elapsed().as_secs_f64();
         Ok(())
     }
 }

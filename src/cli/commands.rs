@@ -110,19 +110,26 @@ fn compute(
     interrupt::listen(json_since, at_once(claim.as_ref()))?;
     let seconds = || start.elapsed().as_secs_f64();
     let mut progress = Progress::new(arguments.quiet, arguments.progress, start);
+    let mut laps = Laps { last: start };
+    let before = laps.next();
     let (scene, analysis, mut results) = match scene.accuracy {
         Some(_) => {
             let (backend, budget) = (common.solver.into(), arguments.budget);
-            let found = accuracy::reach(&scene, backend, extent, budget, &mut progress)?;
+            let mut found = accuracy::reach(&scene, backend, extent, budget, &mut progress)?;
+            let timings = &mut found.results.timings;
+            let of_last: f64 = timings.iter().map(|(_, seconds)| seconds).sum();
+            timings.push(("other meshes".to_string(), laps.next() - of_last));
             (found.scene, found.analysis, found.results)
         }
         None => {
+            let restart = restart.as_ref();
             let (analysis, results) =
-                once(&scene, arguments, restart.as_ref(), extent, &mut progress)?;
+                once(&scene, arguments, restart, extent, &mut progress, &mut laps)?;
             (scene, analysis, results)
         }
     };
     let model = analysis.model();
+    results.timings.insert(0, ("scene".to_string(), before));
     let computed = seconds();
     let header = header(model, common, computed);
     let out = claim.as_ref().map(|claim| claim.dir().to_path_buf());
@@ -133,9 +140,6 @@ fn compute(
         } else {
             claim.write_with_report(&header, model, &results)?;
         }
-        results
-            .timings
-            .push(("output".to_string(), seconds() - computed));
     }
     if let Some(path) = &arguments.dat {
         output::write_dat(path, model, &results)?;
@@ -144,12 +148,30 @@ fn compute(
     if let Some((_, out)) = places {
         restart::settle(out, &results)?;
     }
+    let total = seconds();
+    results
+        .timings
+        .push(("output".to_string(), total - computed));
     let text = if common.json {
         json(&output::summary(&header, &results))?
     } else {
-        report::results(&scene, &header, &results, seconds(), out.as_deref())
+        report::results(&scene, &header, &results, total, out.as_deref())
     };
     Ok((text, results))
+}
+
+/// A clock that is read once between two rows of the time table, so that these add up to the whole.
+struct Laps {
+    last: Instant,
+}
+
+impl Laps {
+    /// Seconds since it was last read.
+    fn next(&mut self) -> f64 {
+        let now = Instant::now();
+        let last = std::mem::replace(&mut self.last, now);
+        now.duration_since(last).as_secs_f64()
+    }
 }
 
 /// What is done before a second signal ends the program: the directory in the making goes.
@@ -169,13 +191,13 @@ fn once(
     restart: Option<&(&RestartArguments, Checkpoints)>,
     extent: Extent,
     progress: &mut Progress,
+    laps: &mut Laps,
 ) -> Result<(Analysis, Results)> {
     let backend = arguments.common.solver.into();
-    let start = Instant::now();
     progress.scene(scene);
     progress.start("mesh and model");
     let model = Model::new(scene)?;
-    let modelled = start.elapsed().as_secs_f64();
+    let modelled = laps.next();
     progress.model(model.freedoms.n, model.pairs.len());
     progress.start("assembly");
     let mut analysis = Analysis::new(model, backend)?;
@@ -186,12 +208,17 @@ fn once(
         }
         (Extent::Yield, _) => analysis.yield_load(progress)?,
     };
+    // Those of the run are rows already.
+    laps.next();
     reference::compare(analysis.model(), &mut results);
+    results
+        .timings
+        .push(("references".to_string(), laps.next()));
     if !arguments.no_estimate {
         let found = accuracy::estimate(scene, backend, &results, extent, progress);
         results
             .timings
-            .push(("error estimate".to_string(), found.seconds));
+            .push(("error estimate".to_string(), laps.next()));
         results.accuracy = Some(found);
     }
     results

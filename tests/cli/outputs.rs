@@ -1,6 +1,7 @@
 //! What good commands print and write.
 
 use super::{Folder, brinell, scene, stdout};
+use crate::support::{SMALL_BALL, SMALL_PUNCH};
 use serde_json::Value;
 
 #[test]
@@ -446,4 +447,48 @@ fn the_predicted_time_of_a_run_grows_with_its_mesh() {
         times > elements && times < elements.powf(1.5) * 3f64.powi(2),
         "{times} {elements}"
     );
+}
+
+/// Share of a run that may lie between two rows of its time table, and seconds of a machine that is
+/// busy with other things: rows end where the next begins.
+const BETWEEN: [f64; 2] = [0.01, 0.02];
+
+/// Every second of a run is in a row: where contacts are measured in each increment, where a zone
+/// is chosen and the structure factored again, with an estimate, with checkpoints.
+#[test]
+fn the_rows_of_the_time_table_add_up_to_the_whole() {
+    let check = |folder: &Folder, what: &str| {
+        let summary = folder.summary();
+        let timings = summary["timings"].as_object().unwrap();
+        let seconds = |value: &Value| value.as_f64().unwrap();
+        let total = seconds(&timings["total"]);
+        let rows = timings.iter().filter(|(name, _)| *name != "total");
+        let sum: f64 = rows.map(|(_, value)| seconds(value)).sum();
+        assert!(
+            (total - sum).abs() <= BETWEEN[0] * total + BETWEEN[1],
+            "{what}: {sum} of {total} in {timings:#?}"
+        );
+    };
+    let coarse = ["mesh.cylinder_on_half_plane.resolution=6"];
+    let ring = ["mesh.parts.0.ring.elements=[4, 4]"];
+    let runs: [(&str, &[&str], &[&str]); 5] = [
+        ("square_punch", &SMALL_PUNCH, &["--no-estimate"]),
+        ("ball_on_flat_3d", &SMALL_BALL, &["--no-estimate"]),
+        ("cylinder_on_half_plane", &coarse, &[]),
+        ("thick_cylinder", &ring, &["--accuracy=20%"]),
+        (
+            "thick_cylinder",
+            &ring,
+            &["--checkpoint=1", "--no-estimate"],
+        ),
+    ];
+    for (scene, changes, options) in runs {
+        let folder = Folder::with_changes(scene, &[]);
+        let set = changes.iter().flat_map(|change| ["--set", change]);
+        let words: Vec<&str> = set.chain(options.iter().copied()).collect();
+        let output = folder.brinell("run", &words);
+        let stderr = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{stderr}");
+        check(&folder, &format!("{scene} {options:?}"));
+    }
 }
