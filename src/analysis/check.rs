@@ -4,6 +4,7 @@ use super::{seconds, starting, zone_choice};
 use crate::assembly::assemble;
 use crate::error::Result;
 use crate::linalg::{Backend, Partition, Prediction};
+use crate::memory;
 use crate::model::{LoadCase, Magnitude, Model};
 use crate::results::{Effect, EndState, Sizes};
 use crate::substructure::ContactCost;
@@ -19,6 +20,9 @@ pub struct Check {
     pub sizes: Sizes,
     /// Cost of the factorisation, from the symbolic analysis.
     pub prediction: Prediction,
+    /// Memory that this process may still take, in bytes: what the run has to fit into. `None`
+    /// where the system does not report it.
+    pub available_bytes: Option<f64>,
     /// Cost of the dense part of contact, from the pairs that bodies join.
     pub contact: ContactCost,
     /// Rough time of one factorisation, at the speed that is typical of one core.
@@ -32,6 +36,14 @@ pub struct Check {
     pub blas: String,
     /// Things the user should know.
     pub notes: Vec<String>,
+}
+
+impl Check {
+    /// Whether the run fits into the memory that is there; `None` where that is not known.
+    pub fn fits(&self) -> Option<bool> {
+        let needed = self.prediction.memory_bytes;
+        self.available_bytes.map(|available| needed <= available)
+    }
 }
 
 /// Freedoms of the smaller of the two solids of which faer was measured to be faster on one thread
@@ -124,6 +136,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         effects: effects(model, plastic, start.as_ref()),
         sizes,
         prediction,
+        available_bytes: memory::available(),
         contact,
         predicted_seconds: factorisation,
         predicted_run_seconds: run,

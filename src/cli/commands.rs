@@ -246,7 +246,15 @@ fn predict(common: &CommonArguments, all_effects: bool) -> Result<()> {
         json(&check)?
     } else {
         report::check(&scene, &check, all_effects)
-    })
+    })?;
+    match check.fits() {
+        Some(false) => Err(Error::input(format!(
+            "{}: use a coarser mesh, a smaller zone or a machine with more memory, or raise the \
+             limit of this process (ulimit -v)",
+            report::fit(&check)
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// The scene with all that is put over it, `last` after the rest.

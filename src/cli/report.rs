@@ -70,6 +70,7 @@ pub(super) fn check(scene: &Scene, check: &Check, all_effects: bool) -> String {
     report.sizes(&check.sizes);
     report.factor(&check.prediction);
     report.ranks(&check.prediction, None);
+    report.labelled("Memory", &fit(check));
     report.labelled(
         "Predicted",
         &format!(
@@ -82,6 +83,20 @@ pub(super) fn check(scene: &Scene, check: &Check, all_effects: bool) -> String {
     report.effects(&check.effects, all_effects);
     report.list("Notes", &check.notes);
     report.text
+}
+
+/// Whether the run fits into the memory that is there, in one line.
+pub(super) fn fit(check: &Check) -> String {
+    let needed = bytes(check.prediction.memory_bytes);
+    match (check.available_bytes.map(bytes), check.fits()) {
+        (Some(available), Some(true)) => {
+            format!("the run fits: about {needed} of the {available} that are available")
+        }
+        (Some(available), _) => {
+            format!("the run does not fit: about {needed} are needed, {available} are available")
+        }
+        (None, _) => format!("about {needed}; how much is available is not known"),
+    }
 }
 
 /// `3 elements`, `1 element`.

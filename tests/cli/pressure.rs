@@ -90,6 +90,11 @@ fn memory_is_compared_with_what_is_available_before_the_factorisation() {
         for part in [what, " needs about ", " MB are available"] {
             assert!(stderr.contains(part), "no {part:?} in {stderr}");
         }
+        // So says the check, before anything is run.
+        let arguments = ["check", &scene, "--solver", solver, "--set", &set];
+        let (code, stderr) = limited("-v 560000", &arguments);
+        assert_eq!(code, Some(2), "{solver}: {stderr}");
+        assert!(stderr.contains("the run does not fit: about "), "{stderr}");
     }
 }
 

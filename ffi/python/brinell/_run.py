@@ -31,7 +31,7 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, th
 
 def check(scene, overrides=None, *, solver=None, **more):
     """What a run of the scene would do and cost, without running it: a dictionary with `effects`, `sizes`, `prediction`,
-    `predicted_seconds`, `predicted_run_seconds`, `notes`. Arguments as of `run`.
+    `available_bytes`, `predicted_seconds`, `predicted_run_seconds`, `notes`. Arguments as of `run`.
     """
     return _brinell.check(*_scene(scene, overrides, more), solver)
 

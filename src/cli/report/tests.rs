@@ -237,6 +237,7 @@ fn a_check_tells_effects_cost_and_notes() {
         effects: full.effects,
         sizes: full.sizes,
         prediction: full.factor,
+        available_bytes: Some(8e9),
         contact: Default::default(),
         predicted_seconds: 12.34,
         predicted_run_seconds: 56.78,
@@ -257,6 +258,24 @@ fn a_check_tells_effects_cost_and_notes() {
             .all(|line| line.chars().count() <= page_width())
     );
     assert!(!text.contains("no contact has one"), "{text}");
+    assert!(text.contains("\nMemory     the run fits: about "), "{text}");
+    let bytes = prediction.prediction.memory_bytes;
+    for (available, fits, said) in [
+        (Some(bytes), Some(true), "the run fits"),
+        (
+            Some(0.99 * bytes),
+            Some(false),
+            "the run does not fit: about ",
+        ),
+        (None, None, "how much is available is not known"),
+    ] {
+        let other = Check {
+            available_bytes: available,
+            ..prediction.clone()
+        };
+        assert_eq!(other.fits(), fits);
+        assert!(check(&scene(), &other, false).contains(said));
+    }
     let all = check(&scene(), &prediction, true);
     assert!(
         all.contains("no contact has one") && !all.contains("off: "),
