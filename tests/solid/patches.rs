@@ -1,10 +1,13 @@
 //! How patches of contact are read off the pressures, apart from how good these are.
 
+use crate::support::random::Random;
 use crate::support::{close, either, parse, run_on};
 use brinell::analysis::Analysis;
+use brinell::analytical::{HertzEllipse, contact_modulus};
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::progress::Silent;
+use brinell::results::{State, Status};
 use brinell::scene::Scene;
 use std::f64::consts::PI;
 
@@ -98,5 +101,98 @@ program.targets = [{{ load_factor = 1.0 }}]
         }
         let area = w * d * times[0] * times[1];
         close("area", patch.area, area, area, 1e-9);
+    }
+}
+
+/// A quarter of two curved bodies pressed together, the lower one of which may yield.
+fn pressed(upper: [f64; 2], resolution: usize, more: &str, targets: &str) -> Vec<State> {
+    let scene = parse(&format!(
+        r#"kind = "solid"
+symmetry = 4
+mesh.curved_bodies = {{ upper = {upper:?}, lower = [0.0, 0.0], resolution = {resolution}, {more} }}
+materials.steel = {{ youngs_modulus = 2.1e5, poissons_ratio = 0.3, yield_stress = 500.0 }}
+bodies = {{ upper = {{ material = "steel", plastic = false }}, lower.material = "steel" }}
+contact = [{{ first = "upper.contact", second = "lower.contact" }}]
+support = [
+  {{ on = "upper.symmetry_x", fix = ["x"] }}, {{ on = "lower.symmetry_x", fix = ["x"] }},
+  {{ on = "upper.symmetry_y", fix = ["y"] }}, {{ on = "lower.symmetry_y", fix = ["y"] }},
+  {{ on = "lower.bottom", fix = ["z"] }},
+]
+load = [{{ on = "upper.top", plane_force = {{ direction = "z", total = -1.0 }} }}]
+program = {{ unit = "yield", targets = [{targets}] }}
+"#
+    ));
+    let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
+    analysis.run(&mut Silent).unwrap().states
+}
+
+/// A round patch ends between its last closed pairs, of which half a face may be free, and its
+/// first open ones, elastic or plastic far beyond first yield, where the pressure stays up to the
+/// edge. A tenth of a face is how far pairs close beyond an edge or open within it.
+#[test]
+fn a_round_patch_ends_between_closed_and_open_pairs() {
+    for seed in 0..either(3, 40) {
+        let random = &mut Random::new(seed);
+        let resolution = 2 + random.below(3);
+        let most = random.within(4.0, 100.0);
+        let targets: Vec<String> = [0.3, 0.9, 0.2 * most, most]
+            .map(|factor| format!("{{ load_factor = {factor:?} }}"))
+            .to_vec();
+        let more = "far_size = 10.0, growth = 1.8, fine_depth = 1.0";
+        let states = pressed([10.0; 2], resolution, more, &targets.join(", "));
+        for state in &states {
+            let [patch] = &state.patches[..] else {
+                panic!("{seed} {}: {} patches", state.name, state.patches.len());
+            };
+            let force = patch.area * patch.mean_pressure;
+            close(
+                "force",
+                force,
+                state.contact_force,
+                state.contact_force,
+                1e-12,
+            );
+            let off = |status: Status| {
+                let pairs = state.pairs.iter().filter(move |pair| pair.status == status);
+                pairs.map(|pair| pair.position[0].hypot(pair.position[1]))
+            };
+            let last = off(Status::Closed).fold(0.0, f64::max);
+            let first = off(Status::Open).fold(f64::INFINITY, f64::min);
+            let face = state
+                .pairs
+                .iter()
+                .map(|pair| pair.area)
+                .fold(0.0, f64::max)
+                .sqrt();
+            let radius = state.half_width;
+            assert!(
+                radius > last - (0.5f64.sqrt() + 0.1) * face && radius < first + 0.1 * face,
+                "{seed} {}: {last} {radius} {first}, faces {face}",
+                state.name
+            );
+        }
+    }
+}
+
+/// Half widths of long ellipses, five elements over them, whatever the load: within a fortieth of
+/// an element in the root mean square, where pressures of single pairs at the edge put them off by
+/// a twentieth.
+#[test]
+fn half_widths_of_long_ellipses_are_those_of_hertz() {
+    for aspect in either(&[5.0][..], &[5.0, 9.0, 13.0, 18.0]) {
+        let upper = [10.0, 10.0 * f64::powf(*aspect, 1.5)];
+        let targets = "{ load_factor = 0.6 }, { load_factor = 0.65 }, { load_factor = 0.7 }, \
+                       { load_factor = 0.8 }, { load_factor = 0.9 }, { load_factor = 0.95 }";
+        let states = pressed(upper, 5, "", targets);
+        let modulus = contact_modulus(2.1e5, 0.3, 2.1e5, 0.3);
+        let radii = HertzEllipse::relative_radii(upper, [0.0; 2]).unwrap();
+        let hertz = HertzEllipse::new(radii, modulus).unwrap();
+        let off = states.iter().map(|state| {
+            let [a, b] = hertz.semi_axes(state.load);
+            state.half_width / a.min(b) - 1.0
+        });
+        let squares: Vec<f64> = off.map(|off| off * off).collect();
+        let mean = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        assert!(mean < 0.025 / 5.0, "{aspect}: {mean}");
     }
 }

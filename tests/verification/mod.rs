@@ -4,6 +4,7 @@
 mod back_stresses;
 mod body_forces;
 mod circular_punch;
+mod contact_edges;
 mod contact_patch;
 mod cycles;
 mod cyclic_element;

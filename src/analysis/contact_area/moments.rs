@@ -5,6 +5,11 @@ use nalgebra::{Matrix2, SymmetricEigen};
 /// Pieces along each side of a face that the edge is cut by.
 const PIECES: usize = 4;
 
+/// Corners of a convex polygon, in order.
+pub(super) type Polygon = Vec<[f64; 2]>;
+/// Corners of a triangle.
+pub(super) type Triangle = [[f64; 2]; 3];
+
 /// Moments of a patch's part of the model in its own two coordinates.
 #[derive(Clone, Copy)]
 pub(super) struct Moments {
@@ -14,7 +19,7 @@ pub(super) struct Moments {
     second: [[f64; 2]; 2],
 }
 
-/// Sums over the parts of faces where a level is positive.
+/// Sums over the parts of faces that belong to a patch.
 #[derive(Default)]
 pub(super) struct Sums {
     area: f64,
@@ -24,67 +29,8 @@ pub(super) struct Sums {
 
 impl Sums {
     /// The part of convex polygons where a function is positive.
-    pub(super) fn add_parts(&mut self, parts: &[Vec<[f64; 2]>], level: impl Fn([f64; 2]) -> f64) {
-        for corners in parts {
-            match corners.len() {
-                3 | 4 => self.add_face(corners, &level),
-                n => (2..n).for_each(|k| {
-                    self.add_face(&[corners[0], corners[k - 1], corners[k]], &level);
-                }),
-            }
-        }
-    }
-
-    /// The part of a face where a function is positive, by small straight pieces.
-    pub(super) fn add_face(&mut self, corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64) {
-        let n = PIECES;
-        let share = |i: usize| i as f64 / n as f64;
-        let mixed = |weights: &[f64]| {
-            [0, 1].map(|d| {
-                corners
-                    .iter()
-                    .zip(weights)
-                    .map(|(x, w)| w * x[d])
-                    .sum::<f64>()
-            })
-        };
-        let point = |i: usize, j: usize| {
-            let (s, t) = (share(i), share(j));
-            match corners.len() {
-                3 => mixed(&[1.0 - s - t, s, t]),
-                _ => mixed(&[(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]),
-            }
-        };
-        if corners.len() == 3 {
-            for i in 0..n {
-                for j in 0..n - i {
-                    let piece = [point(i, j), point(i + 1, j), point(i, j + 1)];
-                    self.add_triangle(piece, piece.map(&level));
-                    if i + j + 1 < n {
-                        let piece = [point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
-                        self.add_triangle(piece, piece.map(&level));
-                    }
-                }
-            }
-            return;
-        }
-        for i in 0..n {
-            for j in 0..n {
-                // Four triangles round the middle: no diagonal is preferred to the other, so mirror
-                // images have the same area.
-                let square = [
-                    point(i, j),
-                    point(i + 1, j),
-                    point(i + 1, j + 1),
-                    point(i, j + 1),
-                ];
-                let middle = [0, 1].map(|d| 0.25 * square.iter().map(|x| x[d]).sum::<f64>());
-                for k in 0..4 {
-                    let piece = [square[k], square[(k + 1) % 4], middle];
-                    self.add_triangle(piece, piece.map(&level));
-                }
-            }
-        }
+    pub(super) fn add_parts(&mut self, parts: &[Polygon], level: impl Fn([f64; 2]) -> f64) {
+        where_positive(parts, level, &mut |triangle| self.add_whole(triangle));
     }
 
     /// The part of a face where a function of its corners is positive.
@@ -95,30 +41,14 @@ impl Sums {
         for k in 0..n {
             let next = (k + 1) % n;
             let piece = [corners[k], corners[next], middle];
-            self.add_triangle(piece, [levels[k], levels[next], mean]);
-        }
-    }
-
-    fn add_triangle(&mut self, corners: [[f64; 2]; 3], levels: [f64; 3]) {
-        let mut inside: Vec<[f64; 2]> = Vec::with_capacity(4);
-        for k in 0..3 {
-            let (p, q) = (corners[k], corners[(k + 1) % 3]);
-            let (a, b) = (levels[k], levels[(k + 1) % 3]);
-            if a > 0.0 {
-                inside.push(p);
-            }
-            if (a > 0.0) != (b > 0.0) {
-                let t = a / (a - b);
-                inside.push([0, 1].map(|d| p[d] + t * (q[d] - p[d])));
-            }
-        }
-        for k in 2..inside.len() {
-            self.add_whole([inside[0], inside[k - 1], inside[k]]);
+            cut(piece, [levels[k], levels[next], mean], &mut |triangle| {
+                self.add_whole(triangle);
+            });
         }
     }
 
     /// `int x x' dA = A/12 (sum p p' + 9 c c')` over a triangle with the centroid c.
-    fn add_whole(&mut self, [p, q, r]: [[f64; 2]; 3]) {
+    fn add_whole(&mut self, [p, q, r]: Triangle) {
         let [a, b] = [q, r].map(|x| [x[0] - p[0], x[1] - p[1]]);
         let area = 0.5 * (a[0] * b[1] - a[1] * b[0]).abs();
         let center = [0, 1].map(|d| (p[d] + q[d] + r[d]) / 3.0);
@@ -149,6 +79,93 @@ impl Sums {
             center,
             second,
         }
+    }
+}
+
+/// Shows the part of convex polygons where a function is positive, triangle by triangle.
+pub(super) fn where_positive(
+    parts: &[Polygon],
+    level: impl Fn([f64; 2]) -> f64,
+    show: &mut dyn FnMut(Triangle),
+) {
+    for corners in parts {
+        match corners.len() {
+            3 | 4 => of_face(corners, &level, show),
+            n => (2..n).for_each(|k| {
+                of_face(&[corners[0], corners[k - 1], corners[k]], &level, show);
+            }),
+        }
+    }
+}
+
+/// The part of a face where a function is positive, by small straight pieces.
+fn of_face(corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64, show: &mut dyn FnMut(Triangle)) {
+    let n = PIECES;
+    let share = |i: usize| i as f64 / n as f64;
+    let mixed = |weights: &[f64]| {
+        [0, 1].map(|d| {
+            corners
+                .iter()
+                .zip(weights)
+                .map(|(x, w)| w * x[d])
+                .sum::<f64>()
+        })
+    };
+    let point = |i: usize, j: usize| {
+        let (s, t) = (share(i), share(j));
+        match corners.len() {
+            3 => mixed(&[1.0 - s - t, s, t]),
+            _ => mixed(&[(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t]),
+        }
+    };
+    if corners.len() == 3 {
+        for i in 0..n {
+            for j in 0..n - i {
+                let piece = [point(i, j), point(i + 1, j), point(i, j + 1)];
+                cut(piece, piece.map(&level), show);
+                if i + j + 1 < n {
+                    let piece = [point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)];
+                    cut(piece, piece.map(&level), show);
+                }
+            }
+        }
+        return;
+    }
+    for i in 0..n {
+        for j in 0..n {
+            // Four triangles round the middle: no diagonal is preferred to the other, so mirror
+            // images have the same area.
+            let square = [
+                point(i, j),
+                point(i + 1, j),
+                point(i + 1, j + 1),
+                point(i, j + 1),
+            ];
+            let middle = [0, 1].map(|d| 0.25 * square.iter().map(|x| x[d]).sum::<f64>());
+            for k in 0..4 {
+                let piece = [square[k], square[(k + 1) % 4], middle];
+                cut(piece, piece.map(&level), show);
+            }
+        }
+    }
+}
+
+/// The part of a triangle where what is linear between values at its corners is positive.
+fn cut(corners: Triangle, levels: [f64; 3], show: &mut dyn FnMut(Triangle)) {
+    let mut inside: Vec<[f64; 2]> = Vec::with_capacity(4);
+    for k in 0..3 {
+        let (p, q) = (corners[k], corners[(k + 1) % 3]);
+        let (a, b) = (levels[k], levels[(k + 1) % 3]);
+        if a > 0.0 {
+            inside.push(p);
+        }
+        if (a > 0.0) != (b > 0.0) {
+            let t = a / (a - b);
+            inside.push([0, 1].map(|d| p[d] + t * (q[d] - p[d])));
+        }
+    }
+    for k in 2..inside.len() {
+        show([inside[0], inside[k - 1], inside[k]]);
     }
 }
 
