@@ -28,8 +28,8 @@ mod moments;
 mod readings;
 mod topology;
 
-use super::mirror::Mirror;
-use crate::model::Model;
+use crate::model::mirror::Mirror;
+use crate::model::{ContactSurface, Model};
 use crate::results::ContactPatch;
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
 use fit::{Cloud, Known};
@@ -67,7 +67,7 @@ pub(super) fn patches(
             .filter(|&k| force[k] > vanishing)
             .collect();
         for members in topology.connected(&closed) {
-            let shape = Shape::new(model, &topology, pressure, members);
+            let shape = Shape::new(model, (surface, &topology), pressure, members);
             let (moments, other) = shape.readings();
             out.push(shape.read(contact, force, moments, other));
         }
@@ -111,11 +111,18 @@ struct Shape<'a> {
 impl<'a> Shape<'a> {
     fn new(
         model: &'a Model,
-        topology: &'a Topology<'a>,
+        (surface, topology): (&'a ContactSurface, &'a Topology<'a>),
         pressure: &'a [f64],
         members: BTreeSet<usize>,
     ) -> Self {
-        let (planes, opposite) = Mirror::of_pairs(model, members.iter().copied());
+        let ends_on = |plane: &&Mirror| {
+            let mut places = members
+                .iter()
+                .map(|&k| model.mesh.point(model.pairs[k].slave));
+            places.any(|x| plane.holds(x, surface.facet_length))
+        };
+        let ends = surface.mirrors.iter().filter(ends_on);
+        let (planes, opposite) = Mirror::at_right_angles(ends.copied());
         let mut normal = [0.0; 3];
         let mut origin = [0.0; 3];
         let mut area = 0.0;
@@ -252,6 +259,17 @@ impl<'a> Shape<'a> {
         images.into_iter().map(|x| self.place_of(x)).collect()
     }
 
+    /// How many mirror images make the whole, the model's part included, as far as the scene
+    /// declares them where it does; of a strip without end those across its width.
+    fn copies(&self) -> f64 {
+        let planes = self.planes.len();
+        let copies = match self.model.scene.symmetry {
+            1 => 1 << (planes - usize::from(self.endless.is_some())),
+            declared => (1 << planes).min(declared),
+        };
+        copies as f64
+    }
+
     /// Half axes, the larger first.
     fn semi_axes(&self, moments: &Moments) -> [f64; 2] {
         let Some((length, _)) = self.endless else {
@@ -269,8 +287,7 @@ impl<'a> Shape<'a> {
         moments: Moments,
         other: Option<Moments>,
     ) -> ReadPatch {
-        // A plane of symmetry of a model that is the whole is a wall.
-        let copies = (1usize << self.planes.len()).min(self.model.scene.symmetry) as f64;
+        let copies = self.copies();
         let in_space =
             |[x, y]: [f64; 2], from: Vector| along(along(from, x, self.axes[0]), y, self.axes[1]);
         let pole = moments.center;

@@ -72,15 +72,15 @@ impl Patch<'_> {
         next.then_some(axis)
     }
 
-    /// Whether a pair ends its surface on a symmetry plane (both nodes are held along the surface)
-    /// or beside the axis.
+    /// Whether a pair ends its surface on a plane of symmetry or beside the axis.
     pub(super) fn is_symmetric(&self, k: usize) -> bool {
         if self.axis_beside(k).is_some() {
             return true;
         }
         let pair = &self.model.pairs[k];
-        (k == self.range.start || k + 1 == self.range.end)
-            && pair.is_held_along(&self.model.freedoms)
+        let x = self.model.mesh.point(pair.slave);
+        let mut mirrors = self.model.contacts[pair.contact].mirrors_at(x);
+        (k == self.range.start || k + 1 == self.range.end) && mirrors.next().is_some()
     }
 
     /// Where contact ends beyond pair `last`, along the surface in direction `way`, read from the

@@ -193,7 +193,10 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
     }
     // A patch that has left the symmetry plane is still measured from there, the nearer one if both
     // ends lie on one.
-    let on_symmetry = |k: usize| pairs[k].is_held_along(&model.freedoms);
+    let on_symmetry = |k: usize| {
+        let x = model.mesh.point(pairs[k].slave);
+        surface.mirrors_at(x).next().is_some()
+    };
     let near_begin = from - pairs[0].arc <= pairs[last].arc - to;
     let pole = if near_begin { 0 } else { last };
     if !on_symmetry(pole) {
@@ -261,9 +264,7 @@ mod tests {
     #[test]
     fn an_arc_without_a_symmetry_plane_is_told_from_its_middle() {
         let mut model = disc(&["mesh.disc_in_plate.resolution=24"]);
-        for node in model.pairs[0].clone().nodes() {
-            model.freedoms.slots[node][1] = crate::model::Slot::Free(0);
-        }
+        model.contacts[0].mirrors.clear();
         let found = contact_arc(&model, 0, [2, 7].map(|k| model.pairs[k].arc)).unwrap();
         let half = 0.5 * between(&model, 2, 7);
         assert!((found[0] + half).abs() < 1e-9 && (found[1] - half).abs() < 1e-9);

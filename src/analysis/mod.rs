@@ -54,7 +54,6 @@ mod local_yield;
 mod loose;
 mod maximum;
 mod measure;
-mod mirror;
 mod neighbours;
 mod outgrown;
 mod packed;

@@ -3,8 +3,8 @@
 //! # Source
 //! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
-use super::mirror::Reflection;
 use super::patch_fit::{CUBIC, Frame, PatchFit};
+use crate::model::mirror::Reflection;
 use std::collections::HashMap;
 
 /// Least pivot of the scaled normal equations.

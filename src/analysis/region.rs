@@ -1,9 +1,8 @@
 //! The region round a contact in which yielding is looked for.
 
-use super::mirror::Mirror;
-use crate::model::Model;
+use crate::model::mirror::Mirror;
+use crate::model::{ContactSurface, Model};
 use crate::space::{Vector, difference, length};
-use std::ops::Range;
 
 /// How far a region reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,17 +43,14 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// Round the pairs of a contact. In the plane round the box of their nodes. In space round what
+    /// Round a contact. In the plane round the box of their nodes. In space round what
     /// is left of it, mirror images at planes of symmetry included, when half its smaller width is
     /// taken off on all sides: the middle of a round surface, the middle line of a long one. A
     /// trailing solve of solids costs by the size of the zone.
-    pub(super) fn round(model: &Model, pairs: Range<usize>, reach: Reach) -> Self {
+    pub(super) fn round(model: &Model, contact: &ContactSurface, reach: Reach) -> Self {
         let solid = model.mesh.is_solid();
-        let (mirrors, opposite) = if solid {
-            Mirror::of_pairs(model, pairs.clone())
-        } else {
-            (Vec::new(), Vec::new())
-        };
+        let planes = contact.mirrors.iter().filter(|_| solid);
+        let (mirrors, opposite) = Mirror::at_right_angles(planes.copied());
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut take = |x: Vector| {
             for d in 0..3 {
@@ -62,7 +58,7 @@ impl Region {
                 high[d] = high[d].max(x[d]);
             }
         };
-        for pair in &model.pairs[pairs.clone()] {
+        for pair in &model.pairs[contact.range.clone()] {
             for node in pair.nodes() {
                 let x = model.mesh.point(node);
                 take(x);

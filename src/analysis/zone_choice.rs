@@ -74,7 +74,7 @@ pub fn zone_freedoms(model: &Model, elements: &[usize]) -> Vec<usize> {
 fn regions(model: &Model, reach: Reach) -> Vec<Region> {
     let contacts = model.contacts.iter();
     contacts
-        .map(|contact| Region::round(model, contact.range.clone(), reach))
+        .map(|contact| Region::round(model, contact, reach))
         .collect()
 }
 

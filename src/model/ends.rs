@@ -7,7 +7,7 @@
 
 mod solid;
 
-use super::{ContactSurface, Freedoms, Pair};
+use super::{ContactSurface, Pair};
 use crate::mesh::{Facet, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -23,16 +23,11 @@ struct End {
 }
 
 /// Finds [`ContactSurface::goes_on`] of each contact.
-pub(super) fn find(
-    mesh: &Mesh,
-    freedoms: &Freedoms,
-    pairs: &[Pair],
-    contacts: &mut [ContactSurface],
-) {
+pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
     if mesh.is_solid() {
         return solid::find(mesh, pairs, contacts);
     }
-    let ends = ends(freedoms, pairs, contacts);
+    let ends = ends(contacts);
     if ends.is_empty() {
         return;
     }
@@ -75,8 +70,9 @@ pub(super) fn find(
     }
 }
 
-/// Ends of all contacts but those on symmetry planes and the axis of revolution.
-fn ends(freedoms: &Freedoms, pairs: &[Pair], contacts: &[ContactSurface]) -> Vec<End> {
+/// Ends of all contacts but those on the axis of revolution. At a plane of symmetry the boundary
+/// turns away by a right angle.
+fn ends(contacts: &[ContactSurface]) -> Vec<End> {
     let mut out = Vec::new();
     for (contact, surface) in contacts.iter().enumerate() {
         let range = surface.range.clone();
@@ -92,8 +88,7 @@ fn ends(freedoms: &Freedoms, pairs: &[Pair], contacts: &[ContactSurface]) -> Vec
                 .axis
                 .as_ref()
                 .is_some_and(|axis| axis.begins == begins);
-            let on_symmetry = pairs[end].is_held_along(freedoms);
-            if !on_axis && !on_symmetry {
+            if !on_axis {
                 out.push(End {
                     contact,
                     last: end,

@@ -21,6 +21,7 @@ mod heat;
 mod held;
 mod initial_strain;
 mod loads;
+pub(crate) mod mirror;
 mod motions;
 mod names;
 mod pairs;
@@ -54,6 +55,7 @@ use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
 use crate::space::Vector;
 use given::Given;
+use mirror::Mirror;
 use names::Entry;
 use rayon::prelude::*;
 pub(crate) use recipe::Recipe;
@@ -200,12 +202,12 @@ impl Model {
             &mut warnings,
         )?;
         let loads = loads::renumber(loads, &freedoms);
-        ends::find(&mesh, &freedoms, &pairs, &mut contacts);
+        ends::find(&mesh, &pairs, &mut contacts);
         let yield_by_depth = yield_depth::resolve(scene, &mesh, &materials, &contacts)?;
         if matches!(origin, Origin::Scene) {
             warnings.extend(mesh::generate::contact_size::warning(scene));
         }
-        Ok(Model {
+        let mut model = Model {
             scene: scene.clone(),
             continuum: Continuum {
                 kind,
@@ -226,7 +228,12 @@ impl Model {
             warnings,
             start: None,
             origin,
-        })
+        };
+        let mirrors = Mirror::of_contacts(&model);
+        for (contact, mirrors) in model.contacts.iter_mut().zip(mirrors) {
+            contact.mirrors = mirrors;
+        }
+        Ok(model)
     }
 
     /// Displacements of all nodes in global axes, from free freedoms and load factors.

@@ -8,8 +8,8 @@ mod matching;
 pub(super) mod mortar;
 pub(super) mod ties;
 
-use super::freedoms::{Freedoms, Slot};
 use super::given::Given;
+use super::mirror::Mirror;
 use super::names::Entry;
 use crate::error::{Error, Result};
 use crate::mesh::surface::PAIRING;
@@ -72,13 +72,6 @@ impl Pair {
         let masters = self.masters.iter().map(|&(node, _)| node);
         masters.chain([self.slave])
     }
-
-    /// Whether the slave, and the node that faces it, are held along the surface, as on a plane of
-    /// symmetry of a plane model.
-    pub(crate) fn is_held_along(&self, freedoms: &Freedoms) -> bool {
-        let held = |node: usize| freedoms.slots[node][1] == Slot::Fixed;
-        held(self.slave) && self.faced().is_none_or(held)
-    }
 }
 
 /// A contact of the scene.
@@ -113,6 +106,16 @@ pub struct ContactSurface {
     /// Arc lengths along the slave surface of a plane model between which the other surface covers
     /// it, where that is not known from the pairs.
     pub extent: Option<[f64; 2]>,
+    /// Planes of symmetry on which it ends.
+    pub(crate) mirrors: Vec<Mirror>,
+}
+
+impl ContactSurface {
+    /// The planes of symmetry on which it ends at a place.
+    pub(crate) fn mirrors_at(&self, x: Vector) -> impl Iterator<Item = &Mirror> {
+        let is_on = move |mirror: &&Mirror| mirror.holds(x, self.facet_length);
+        self.mirrors.iter().filter(is_on)
+    }
 }
 
 /// A pair on the axis of revolution whose slave belongs to a quadratic element. Its consistent
@@ -258,6 +261,7 @@ fn surface_of(
         covered: pieces.covered,
         slivers: pieces.slivers,
         extent: extent(entries.mesh, surface, &pairs[start..], &found.covered),
+        mirrors: Vec::new(),
     }
 }
 

@@ -51,6 +51,7 @@ fn areas_agree_with_the_load_and_the_largest_pressure() {
 #[test]
 fn anchors_are_no_planes_of_symmetry() {
     let (w, d) = (4.0, 3.0);
+    let depth = d;
     let text = |supports: &str| {
         format!(
             r#"kind = "solid"
@@ -75,11 +76,20 @@ program.targets = [{{ load_factor = 1.0 }}]
                    { on = "low.left", fix = ["x"] }, { on = "low.front", fix = ["y"] }"#;
     let one = r#"{ on = "upp.left", fix = ["x"] }, { on = "low.left", fix = ["x"] },
                  { on = "upp.p", fix = ["y"] }"#;
+    let edges = r#"{ on = "upp.e", fix = ["x"] }, { on = "low.e", fix = ["x"] },
+                   { on = "upp.p", fix = ["y"] }"#;
+    let off = r#"{ on = "upp.left", fix = ["x"] }, { on = "low.left", fix = ["x"] },
+                 { on = "upp.q", fix = ["y"] }"#;
+    let upper = r#"{ on = "upp.left", fix = ["x"] }, { on = "upp.front", fix = ["y"] }"#;
     for (supports, times, symmetry) in [
         (corner, [1.0, 1.0], 1),
         (apart, [1.0, 1.0], 1),
         (one, [2.0, 1.0], 2),
         (faces, [2.0, 2.0], 4),
+        (edges, [1.0, 1.0], 1),
+        (upper, [1.0, 1.0], 1),
+        (off, [2.0, 1.0], 1),
+        (faces, [2.0, 2.0], 1),
     ] {
         let scene = parse(&format!("symmetry = {symmetry}\n{}", text(supports)));
         // The nodes are named on the mesh of a scene without them.
@@ -91,6 +101,12 @@ program.targets = [{{ load_factor = 1.0 }}]
             assert_eq!(nodes.len(), 1);
             mesh.node_sets.insert(name.to_string(), nodes);
         }
+        for (name, of) in [("upp.e", "upp.bottom"), ("low.e", "low.top")] {
+            let nodes = mesh.set_nodes(of).unwrap();
+            let edge = nodes.into_iter().filter(|&node| mesh.point(node)[0] == 0.0);
+            let edge = edge.collect();
+            mesh.node_sets.insert(name.to_string(), edge);
+        }
         let results = run_on(&scene, mesh);
         let [patch] = &results.states[0].patches[..] else {
             panic!("not one patch");
@@ -101,6 +117,17 @@ program.targets = [{{ load_factor = 1.0 }}]
         }
         let area = w * d * times[0] * times[1];
         close("area", patch.area, area, area, 1e-9);
+        close("force", patch.force, 10.0 * area, 10.0 * area, 1e-6);
+        let centre = [0, 1].map(|d| {
+            if times[d] > 1.0 {
+                0.0
+            } else {
+                0.5 * [w, depth][d]
+            }
+        });
+        for (found, expected) in patch.centroid.iter().zip(centre) {
+            close("centroid", *found, expected, w, 1e-9);
+        }
     }
 }
 

@@ -22,6 +22,7 @@ mod initial_state;
 mod nafems_cb1;
 mod over_temperature;
 mod pin_in_hole;
+mod planes_of_symmetry;
 mod quality;
 mod run;
 mod shakedown;

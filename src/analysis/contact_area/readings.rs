@@ -4,7 +4,7 @@ use super::edge::{Edge, EdgeFace};
 use super::fit::{Cloud, Known};
 use super::moments::{Moments, Polygon, Sums, mirror};
 use super::{Shape, middle};
-use crate::analysis::mirror::Mirror;
+use crate::model::mirror::Mirror;
 use crate::space::dot;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -5,9 +5,10 @@
 //! would leave out what is known of the other side, and would put a maximum that lies on the plane
 //! beside it.
 
+use super::{ContactSurface, Model, Pair, Slot};
 use crate::mesh::Facet;
-use crate::model::{ContactSurface, Model, Slot};
 use crate::space::{Vector, along, cross, difference, direction, dot, length as length_of};
+use std::collections::BTreeSet;
 
 /// Sine of the angle up to which directions, and share of a facet's length up to which places, are
 /// the same.
@@ -17,9 +18,9 @@ const ON_PLANE: f64 = 1e-6;
 
 /// Directions across the contact normal in which the node of a pair is held.
 fn held(model: &Model, node: usize) -> impl Iterator<Item = Vector> + '_ {
-    let slots = model.freedoms.slots[node];
+    let slots = model.freedoms.of_node(node);
     let axes = model.freedoms.local(node);
-    (1..3)
+    (1..slots.len())
         .filter(move |&i| Conditions::is_held(model, slots[i]))
         .map(move |i| axes[i])
 }
@@ -36,19 +37,17 @@ pub struct Mirror {
 pub struct Reflection([Vector; 3]);
 
 impl Mirror {
-    /// The planes on which contacts of solids end: both nodes of each pair there are held across
-    /// them. A node that is held by itself, so that a body stays in place, bounds nothing. First
-    /// those at right angles to one another, then those opposite to one of these: between the two
-    /// the contact goes on without end.
-    pub fn of_pairs(
-        model: &Model,
-        pairs: impl Iterator<Item = usize>,
-    ) -> (Vec<Mirror>, Vec<Mirror>) {
-        let (mut out, mut opposite): (Vec<Mirror>, Vec<Mirror>) = (Vec::new(), Vec::new());
-        let mut known: Vec<Mirror> = Vec::new();
-        for k in pairs {
-            let pair = &model.pairs[k];
-            let contact = &model.contacts[pair.contact];
+    /// The planes of symmetry on which each contact ends: an end of its surface lies on them, and
+    /// they bound all its bodies. A node that is held by itself, so that a body stays in place,
+    /// bounds nothing.
+    pub(super) fn of_contacts(model: &Model) -> Vec<Vec<Mirror>> {
+        let of_contact = |contact| Self::of_contact(model, contact);
+        model.contacts.iter().map(of_contact).collect()
+    }
+
+    fn of_contact(model: &Model, contact: &ContactSurface) -> Vec<Mirror> {
+        let (mut out, mut known) = (Vec::new(), Vec::<Mirror>::new());
+        for pair in &model.pairs[contact.range.clone()] {
             let x = model.mesh.point(pair.slave);
             // Round-off of places on one plane is far below the size of a facet.
             let near = ON_PLANE * contact.facet_length;
@@ -64,48 +63,99 @@ impl Mirror {
                     continue;
                 }
                 known.push(mirror);
-                if !mirror.ends(model, contact, near) {
+                let Some(mirror) = mirror.at_end(model, contact, near) else {
                     continue;
-                }
-                // Mirror images of mirror images agree for planes at right angles.
-                if out.iter().all(|other| mirror.is_normal_to(other)) {
+                };
+                let mut bodies = bodies_at(model, contact).into_iter();
+                if bodies.all(|body| mirror.bounds(model, body, near)) {
                     out.push(mirror);
-                    continue;
                 }
-                let parallel = |other: &Mirror| length_of(cross(normal, other.normal)) < SAME;
-                if out.iter().any(parallel)
-                    && opposite.iter().all(|other| mirror.is_normal_to(other))
-                {
-                    opposite.push(mirror);
-                }
+            }
+        }
+        out
+    }
+
+    /// Of some planes those at right angles to one another, the first ones first, and those
+    /// opposite to one of these: between the two a contact goes on without end. Mirror images of
+    /// mirror images agree for planes at right angles.
+    pub fn at_right_angles(planes: impl Iterator<Item = Mirror>) -> (Vec<Mirror>, Vec<Mirror>) {
+        let (mut out, mut opposite): (Vec<Mirror>, Vec<Mirror>) = (Vec::new(), Vec::new());
+        for plane in planes {
+            let is_parallel = |other: &Mirror| length_of(cross(plane.normal, other.normal)) < SAME;
+            if out.iter().all(|other| plane.is_normal_to(other)) {
+                out.push(plane);
+            } else if out.iter().any(is_parallel)
+                && opposite.iter().all(|other| plane.is_normal_to(other))
+            {
+                opposite.push(plane);
             }
         }
         (out, opposite)
     }
 
-    /// Whether a contact ends on the plane: its pairs lie on one side of it, an edge of a face lies
-    /// in it, and all pairs there are held across it.
-    fn ends(&self, model: &Model, contact: &ContactSurface, near: f64) -> bool {
-        let off = |node: usize| self.beyond(model.mesh.point(node));
-        let beyond = |k: usize| off(model.pairs[k].slave);
-        let is_on = |k: usize| beyond(k).abs() <= near;
-        let is_held = |node: usize| {
-            let slot = Conditions::slot(model, node, self.normal);
+    /// The plane with its normal away from a contact that ends on it: its pairs lie on one side,
+    /// and in a solid an edge of a face lies in it.
+    fn at_end(self, model: &Model, contact: &ContactSurface, near: f64) -> Option<Mirror> {
+        let beyond = |k: usize| self.beyond(model.mesh.point(model.pairs[k].slave));
+        let mut off = contact
+            .range
+            .clone()
+            .map(beyond)
+            .filter(|off| off.abs() > near);
+        let is_before = off.next()? < 0.0;
+        if off.any(|off| (off < 0.0) != is_before) {
+            return None;
+        }
+        let is_edge = |face: &Vec<usize>| face.iter().filter(|k| beyond(**k).abs() <= near).count();
+        let sign = if is_before { 1.0 } else { -1.0 };
+        let mirror = Mirror {
+            normal: along([0.0; 3], sign, self.normal),
+            offset: sign * self.offset,
+        };
+        (!model.kind.is_solid() || contact.faces.iter().any(|face| is_edge(face) >= 2))
+            .then_some(mirror)
+    }
+
+    /// Whether a body ends on the plane, with all that it has of it held across. Whatever else acts
+    /// there acts on the mirror image alike; but where a facet does not move along the plane,
+    /// either, the body is clamped there, unless the scene declares a symmetry.
+    fn bounds(&self, model: &Model, body: u32, near: f64) -> bool {
+        let mesh = &model.mesh;
+        let ours = |element: &usize| mesh.element_body[*element] == body;
+        let elements: Vec<usize> = (0..mesh.n_elements()).filter(ours).collect();
+        let off = |node: usize| self.beyond(mesh.point(node));
+        let is_held = |node: usize, along: Vector| {
+            let slot = Conditions::slot(model, node, along);
             slot.is_some_and(|slot| Conditions::is_held(model, slot))
         };
-        let mut sides = [false; 2];
-        for k in contact.range.clone() {
-            let pair = &model.pairs[k];
-            let faced = || pair.masters.iter().map(|&(node, _)| node);
-            let mut there = faced().filter(|&node| off(node).abs() <= near).peekable();
-            if !is_on(k) {
-                sides[usize::from(beyond(k) > 0.0)] = true;
-            } else if !is_held(pair.slave) || there.peek().is_none() || !there.all(is_held) {
-                return false;
-            }
+        let stays =
+            |node: usize| off(node) < -near || (off(node) <= near && is_held(node, self.normal));
+        let nodes = |&element: &usize| mesh.nodes(element).iter().map(|&node| node as usize);
+        if !elements.iter().flat_map(nodes).all(stays) {
+            return false;
         }
-        let has_edge = |face: &Vec<usize>| face.iter().filter(|k| is_on(**k)).count() >= 2;
-        sides != [true; 2] && contact.faces.iter().any(has_edge)
+        let touching = elements
+            .iter()
+            .filter(|e| nodes(e).any(|node| off(node) >= -near));
+        let facets = touching.flat_map(|&element| {
+            (0..mesh.shapes[element].n_facets()).map(move |local| Facet { element, local })
+        });
+        let is_there = |facet: &Facet| mesh.facet_nodes(*facet).all(|node| off(node) >= -near);
+        let mut there = facets.filter(is_there).peekable();
+        let is_axis = model.kind.is_axisymmetric()
+            && self.offset.abs() <= near
+            && self.normal[1].abs() < SAME;
+        let is_clamped = |facet: Facet| {
+            let first = mesh.facet_nodes(facet).next().unwrap_or(0);
+            let axes = model
+                .freedoms
+                .local(first)
+                .into_iter()
+                .take(model.freedoms.per_node);
+            let mut along = axes.filter(|axis| length_of(cross(*axis, self.normal)) > SAME);
+            along.any(|axis| mesh.facet_nodes(facet).all(|node| is_held(node, axis)))
+        };
+        there.peek().is_some() && (model.scene.symmetry > 1 || is_axis || !there.any(is_clamped))
     }
 
     /// The unit vector across it.
@@ -128,6 +178,11 @@ impl Mirror {
     /// Whether two planes are at right angles.
     pub fn is_normal_to(&self, other: &Mirror) -> bool {
         dot(self.normal, other.normal).abs() < SAME
+    }
+
+    /// Whether a point lies on it, beside facets of a length.
+    pub fn holds(&self, x: Vector, facet_length: f64) -> bool {
+        self.beyond(x).abs() <= ON_PLANE * facet_length
     }
 
     /// Distance of a point beyond the plane.
@@ -278,6 +333,23 @@ pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Ve
     }
     let mirrors = out.into_iter().filter(|(_, is_mirror)| *is_mirror);
     mirrors.map(|(mirror, _)| mirror).collect()
+}
+
+/// The bodies in a contact.
+fn bodies_at(model: &Model, contact: &ContactSurface) -> BTreeSet<u32> {
+    let mut in_contact = vec![false; model.mesh.n_nodes()];
+    let pairs = &model.pairs[contact.range.clone()];
+    pairs
+        .iter()
+        .flat_map(Pair::nodes)
+        .for_each(|node| in_contact[node] = true);
+    let touches = |element: &usize| {
+        let mut own = model.mesh.nodes(*element).iter();
+        own.any(|node| in_contact[*node as usize])
+    };
+    let elements = (0..model.mesh.n_elements()).filter(touches);
+    let bodies = elements.map(|element| model.mesh.element_body[element]);
+    bodies.collect()
 }
 
 /// A facet of an element.
