@@ -214,6 +214,9 @@ pub struct State {
     pub alpha: f64,
     /// Total load (as in [`YieldPoint::load`]).
     pub load: f64,
+    /// Whether the scene gives that load, so that it has no error.
+    #[serde(default)]
+    pub load_is_given: bool,
     /// Sum of all contact forces.
     pub contact_force: f64,
     /// Maximum contact pressure.
@@ -248,6 +251,9 @@ pub struct State {
     pub max_equivalent_plastic_strain: f64,
     /// Area (axisymmetric or solid: volume) of the whole whose Gauss points have plastic strain.
     pub plastic_zone_size: f64,
+    /// Size of a layer of Gauss points along the border of that: no finer is it known.
+    #[serde(default)]
+    pub plastic_zone_layer: f64,
     /// Work done on the plastic strains of the whole, `sum_g w_g int_0^p sigma_y(p) dp` with the
     /// equivalent plastic strain `p` of each Gauss point; in the plane per unit thickness.
     #[serde(default)]

@@ -200,17 +200,18 @@ fn of_meshes(
         .filter_map(|(ratio, values)| Some((*ratio, value_of(values, &quantity.path)?)));
     let values: Vec<(f64, f64)> = own.chain(there).collect();
     let found = by_asymptotic(&values, formal_order(quantity.key(), degree));
+    let error = found.map(|f| (f.uncertainty + quantity.reading).max(quantity.least));
     // What changes by no more than the algebra leaves shows no order.
     let is_same = |value: &(f64, f64)| (value.1 - quantity.value).abs() <= algebraic;
     if values.len() > 1 && values.iter().all(is_same) {
         return OfMeshes {
-            error: found.map(|f| f.uncertainty + quantity.reading),
+            error,
             order: None,
             limit: None,
         };
     }
     OfMeshes {
-        error: found.map(|f| f.uncertainty + quantity.reading),
+        error,
         order: found.and_then(|f| f.order),
         limit: found.and_then(|f| f.limit),
     }

@@ -15,6 +15,8 @@ pub struct Quantity {
     pub scale: f64,
     /// What the reading of it off the pressures may be wrong by: of half widths, else 0.
     pub reading: f64,
+    /// What its error is no smaller than: of plastic zones a layer of Gauss points, else 0.
+    pub least: f64,
 }
 
 impl Quantity {
@@ -59,7 +61,7 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
         .flat_map(known)
         .collect();
     let mut out: Vec<Quantity> = Vec::new();
-    let mut add = |prefix: &str, key: &str, value: f64, reading: &EdgeReading| {
+    let mut add = |prefix: &str, key: &str, value: f64, reading: &EdgeReading, least: f64| {
         if value.is_finite() {
             let is_read = key == "half_width";
             out.push(Quantity {
@@ -67,20 +69,34 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
                 value,
                 scale: 0.0,
                 reading: if is_read { reading.error } else { 0.0 },
+                least,
             });
         }
     };
     for quantity in &known {
         if let (Some(first), Some(field)) = (&results.first_yield, quantity.at_yield) {
             let value = (field.get)(first);
-            add("yield", quantity.key, value, &first.half_width_reading);
+            add("yield", quantity.key, value, &first.half_width_reading, 0.0);
         }
     }
     for state in &results.states {
         let prefix = format!("states.{}", state.name);
-        for quantity in &known {
+        // A load that the scene gives has no error.
+        let is_open =
+            |quantity: &&&results::Quantity| quantity.key != "load" || !state.load_is_given;
+        for quantity in known.iter().filter(is_open) {
             let value = (quantity.in_state.get)(state);
-            add(&prefix, quantity.key, value, &state.half_width_reading);
+            let least = match quantity.key {
+                "plastic_zone_size" => state.plastic_zone_layer,
+                _ => 0.0,
+            };
+            add(
+                &prefix,
+                quantity.key,
+                value,
+                &state.half_width_reading,
+                least,
+            );
         }
     }
     let mut scales: BTreeMap<String, f64> = BTreeMap::new();

@@ -87,6 +87,7 @@ mod tangent;
 mod targets;
 mod yield_load;
 mod zone;
+mod zone_border;
 mod zone_choice;
 mod zone_fit;
 

@@ -3,6 +3,7 @@
 
 use super::element_stresses::{ElementStresses, Shown};
 use super::zone::ZoneOf;
+use super::zone_border::{self, Yielded};
 use crate::material::PlasticState;
 use crate::model::{Model, Pair, Slot};
 use crate::space::{Vector, difference, dot};
@@ -25,6 +26,8 @@ pub(super) struct Stresses {
     pub(super) plastic_points: Vec<usize>,
     /// Volume of the Gauss points that have yielded.
     pub(super) plastic_volume: f64,
+    /// Volume of a layer of points along the border of what has yielded.
+    pub(super) plastic_layer: f64,
     /// Work on their plastic strains.
     pub(super) plastic_work: f64,
     /// Largest distance of such a point below a contact surface, along the normal there.
@@ -47,6 +50,7 @@ impl Stresses {
             shown: of_elements.shown,
             plastic_points: vec![0; model.mesh.bodies.len()],
             plastic_volume: 0.0,
+            plastic_layer: 0.0,
             plastic_work: 0.0,
             plastic_depth: 0.0,
             plastic_strain: 0.0,
@@ -79,6 +83,7 @@ impl Stresses {
         elements: &[usize],
     ) {
         let has_yielded = |past: &PlasticState<S>| past.equivalent > 0.0;
+        let mut yielded = Vec::new();
         for (place, &e) in elements.iter().enumerate() {
             let history = zone.states(place);
             if !history.iter().any(has_yielded) {
@@ -101,7 +106,11 @@ impl Stresses {
                     self.plastic_strain = self.plastic_strain.max(past.equivalent);
                 }
             }
+            let volume = gradients.weights().iter().sum();
+            let count = history.iter().filter(|past| has_yielded(past)).count();
+            yielded.push(Yielded::new(e, volume, D, [count, history.len()]));
         }
+        self.plastic_layer = zone_border::layer(model, &yielded);
     }
 }
 

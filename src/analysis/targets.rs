@@ -10,8 +10,9 @@ use super::state::State;
 use super::stopwatch::Row;
 use super::zone_choice;
 use crate::error::{Error, Result};
+use crate::model::Magnitude;
 use crate::results;
-use crate::scene::{Direction, DisplacementTarget, Kind, Stepping, Target};
+use crate::scene::{Direction, DisplacementTarget, Kind, Stepping, Target, Unit};
 use serde::{Deserialize, Serialize};
 
 /// Where the way to a target starts: it is gone again where the zone was too small for it.
@@ -75,18 +76,30 @@ impl<'m> Run<'m, '_> {
         (target, self.labels[index].clone())
     }
 
+    /// Whether a load factor alone says how large the reported load is: neither the yield load nor
+    /// the answer to a displacement or gap is in it.
+    fn gives_load(&self) -> bool {
+        let model = self.model();
+        let leading = model
+            .leading_load()
+            .map(|leading| model.loads[leading].measures);
+        let is_applied = |of: Magnitude| !matches!(of, Magnitude::Displacement | Magnitude::Gap);
+        model.scene.program.unit != Unit::Yield && leading.is_some_and(is_applied)
+    }
+
     /// Takes the state at a target that was reached. The guard layer only sees what grows out of
     /// the zone: if the state shows stress beyond yield elsewhere, the zone is widened to there,
     /// and the way to the target is gone again. So it is if the state is elastic by the recovered
     /// stress and a Gauss point is beyond yield: the Gauss points are watched from then on.
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
         let (target, label) = self.target();
-        let figures = self.timed(Row::States, |run| {
+        let mut figures = self.timed(Row::States, |run| {
             let figures = run.solver.reading().figures(&label, target.fields)?;
             let seconds = &mut run.position.seconds;
             seconds.hand_over(figures.stress_seconds, Row::Stresses);
             Ok::<_, Error>(figures)
         })?;
+        figures.state.load_is_given = target.load_factor.is_some() && self.gives_load();
         self.monitor = None;
         let missed = figures.beyond_yield_outside;
         let start = self.start.take();

@@ -6,5 +6,6 @@ mod estimate;
 mod families;
 mod file_mesh;
 mod indicator;
+mod plastic_zone;
 mod solid;
 mod study;

@@ -100,6 +100,8 @@ pub fn results(mesh: &Mesh) -> Results {
         plastic_points_by_body: vec![3, 4],
         max_equivalent_plastic_strain: 0.02,
         plastic_zone_size: 0.004,
+        plastic_zone_layer: 0.0,
+        load_is_given: false,
         plastic_work: 0.7,
         plastic_depth: 0.0123,
         energy_error: Some(0.05),
