@@ -178,15 +178,16 @@ impl<'m> Structure<'m> {
         cost.counts.full_solves += self.system.loads.iter().filter(|load| acts(load)).count();
         self.reduce_far_boundary(cost)?;
         self.condense_loads(cost)?;
-        let motions = &self.model.floating.motions;
-        let forces = self.loads.condensed.iter().zip(&self.model.loads);
-        let forces = forces.map(|(load, case)| {
+        let forces = self.loads.condensed.iter().zip(&self.model.alike);
+        let forces = forces.map(|(load, alike)| {
             let mut forces = load.forces.clone();
             // Heat pushes no body away: what round-off leaves of it is not carried by anything.
-            if !motions
-                .iter()
-                .any(|motion| motion.is_driven_by(&case.forces))
-            {
+            let acting = || {
+                let loads = alike.iter().map(|&load| &self.model.loads[load]);
+                loads.flat_map(|load| &load.forces)
+            };
+            let mut motions = self.model.floating.motions.iter();
+            if !motions.any(|motion| motion.is_driven_by(acting())) {
                 self.sub.balance(&mut forces);
             }
             forces

@@ -52,10 +52,8 @@ impl RigidMotion {
     }
 
     /// Whether forces on free freedoms (freedom, force) do work on the motion.
-    pub fn is_driven_by(&self, forces: &[(usize, f64)]) -> bool {
-        let works = forces
-            .iter()
-            .map(|&(freedom, force)| force * self.at(freedom));
+    pub fn is_driven_by<'f>(&self, forces: impl Iterator<Item = &'f (usize, f64)>) -> bool {
+        let works = forces.map(|&(freedom, force)| force * self.at(freedom));
         let (work, size) = works.fold((0.0, 0.0), |(sum, size), w: f64| (sum + w, size + w.abs()));
         work.abs() > NO_WORK * size
     }

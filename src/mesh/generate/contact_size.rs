@@ -6,6 +6,7 @@ use super::cylinder::{PLANE_FAR_SIZE, ROUND_FAR_SIZE};
 use super::{ContactSize, WIDEST};
 use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
+use crate::root;
 use crate::scene::{
     CylinderOnHalfPlane, Direction, Displacement, DisplacementTarget, History, Load, Plastic,
     Scene, Unit,
@@ -15,6 +16,11 @@ use std::f64::consts::PI;
 /// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off
 /// beside their edge.
 const ROOM: f64 = 1.15;
+/// Mean pressure under a ball over the yield stress where yielding is fully developed.
+///
+/// # Source
+/// D. Tabor, The Hardness of Metals (1951), chapter 4.
+const FULLY_PLASTIC: f64 = 3.0;
 /// Largest square of the contact radius over `2 R h` with the depth `h`: the pile-up of a material
 /// without hardening.
 ///
@@ -32,7 +38,7 @@ pub(crate) fn of(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<ContactSize> 
     let half_width = match p.half_width {
         Some(given) => given,
         None => first_yield(scene, p)?
-            .map(|(width, _)| width)
+            .map(|first| first.half_width)
             .ok_or_else(|| {
                 Error::input(
                     "mesh.cylinder_on_half_plane: no body has a yield stress, so the contact half \
@@ -96,33 +102,81 @@ impl Hertz {
         }
     }
 
-    /// Half width and load at first yield.
-    fn at_yield(&self, nu: f64, y: f64) -> (f64, f64) {
-        match self {
+    fn at_yield(&self, nu: f64, yield_stress: f64) -> FirstYield {
+        let y = yield_stress;
+        let (half_width, load) = match self {
             Hertz::Line(line) => (line.yield_half_width(nu, y), line.yield_load(nu, y)),
             Hertz::Point(point) => (point.yield_contact_radius(nu, y), point.yield_load(nu, y)),
+        };
+        FirstYield {
+            half_width,
+            load,
+            yield_stress,
+            poissons_ratio: nu,
         }
     }
 
-    /// The widest contact under a load, where the weaker body yields at the half width and load
-    /// `first`: the mean pressure only rises with the load (from 1.1 to 3 times the yield stress
-    /// under a ball), so that the area rises no faster.
-    fn widest(&self, load: f64, first: Option<(f64, f64)>) -> f64 {
+    /// How wide the contact is expected to become under a load. Under a ball of radius `R` that is
+    /// where the load is the area times the smallest of three mean pressures: Hertz' one, that of a
+    /// plastic core in an elastic body, and that of fully developed yielding. Over the yield stress
+    /// `Y` the second one is
+    ///
+    /// ```text
+    /// 2/3 (2 + ln((E* a/(R Y) + 4 (1 - 2 nu))/(6 (1 - nu)))).
+    /// ```
+    ///
+    /// # Source
+    /// K. Johnson, Contact Mechanics (1985), eq. (6.36).
+    fn expected(&self, load: f64, first: Option<FirstYield>) -> f64 {
+        let (Hertz::Point(_), Some(first)) = (self, first.filter(|first| load > first.load)) else {
+            return self.widest(load, first);
+        };
+        // Hertz' mean pressure grows with the radius.
+        let at_yield = first.load / (PI * first.half_width.powi(2));
+        let force = |a: f64| {
+            let hertz = at_yield * a / first.half_width;
+            let nu = first.poissons_ratio;
+            // E* a/R is 3 pi/4 of Hertz' mean pressure.
+            let strain = 0.75 * PI * hertz / first.yield_stress;
+            let core = (strain + 4.0 * (1.0 - 2.0 * nu)) / (6.0 * (1.0 - nu));
+            let plastic = (2.0 / 3.0 * (2.0 + core.ln())).min(FULLY_PLASTIC);
+            PI * a * a * hertz.min(plastic * first.yield_stress)
+        };
+        ROOM * root::of(
+            |a| force(a) - load,
+            first.half_width,
+            self.widest(load, Some(first)),
+        )
+    }
+
+    /// The widest contact under a load, where the weaker body yields at `first`: the mean pressure
+    /// only rises with the load (from 1.1 to 3 times the yield stress under a ball), so that the
+    /// area rises no faster.
+    fn widest(&self, load: f64, first: Option<FirstYield>) -> f64 {
         let elastic = ROOM * self.half_width(load);
-        let Some((width, at)) = first.filter(|(_, at)| load > *at) else {
+        let Some(first) = first.filter(|first| load > first.load) else {
             return elastic;
         };
-        let area = load / at;
+        let area = load / first.load;
         elastic.max(match self {
-            Hertz::Line(_) => width * area,
-            Hertz::Point(_) => width * area.sqrt(),
+            Hertz::Line(_) => first.half_width * area,
+            Hertz::Point(_) => first.half_width * area.sqrt(),
         })
     }
 }
 
-/// Half width and load at first yield of the weaker of the two bodies; `None` where neither has a
+/// First yield of a body in contact.
+#[derive(Clone, Copy)]
+struct FirstYield {
+    half_width: f64,
+    load: f64,
+    yield_stress: f64,
+    poissons_ratio: f64,
+}
+
+/// First yield of the weaker of the two bodies; `None` where neither has a
 /// yield stress. A body that is kept elastic still has the yield stress that the mesh is made for.
-fn first_yield(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<Option<(f64, f64)>> {
+fn first_yield(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<Option<FirstYield>> {
     weaker(scene, p, |_| true)
 }
 
@@ -130,7 +184,7 @@ fn weaker(
     scene: &Scene,
     p: &CylinderOnHalfPlane,
     counts: impl Fn(Plastic) -> bool,
-) -> Result<Option<(f64, f64)>> {
+) -> Result<Option<FirstYield>> {
     let hertz = Hertz::of(scene, p)?;
     let of = |name: &String| {
         let body = scene.bodies.get(name).filter(|b| counts(b.plastic))?;
@@ -139,13 +193,17 @@ fn weaker(
         Some(hertz.at_yield(material.poissons_ratio, yield_stress))
     };
     let bodies = p.names.iter().filter_map(of);
-    Ok(bodies.reduce(|a, b| if b.0 < a.0 { b } else { a }))
+    Ok(bodies.reduce(|a, b| if b.half_width < a.half_width { b } else { a }))
 }
 
 /// The widest contact of the load program; `None` where its loads do not say.
 fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64> {
-    let [by_load, by_depth] = widest(scene, p, half_width)?;
-    Some(by_load.max(by_depth))
+    let most = Largest::of(scene, p, half_width)?;
+    let by_load = most
+        .hertz
+        .widest(most.force, most.first)
+        .max(ROOM * most.asked);
+    Some(by_load.max((2.0 * PILE_UP * p.radius * most.depth).sqrt()))
 }
 
 /// What the user should know before a run whose contact may become wider than its candidates, if
@@ -156,7 +214,11 @@ pub(crate) fn warning(scene: &Scene) -> Option<String> {
     let ContactSize {
         half_width, reach, ..
     } = of(scene, p).ok()?;
-    let [wanted, _] = widest(scene, p, half_width)?;
+    let most = Largest::of(scene, p, half_width)?;
+    let wanted = most
+        .hertz
+        .expected(most.force, most.first)
+        .max(ROOM * most.asked);
     let given = p.contact_width.unwrap_or(0.0).max(p.fine_width) * half_width;
     let candidates = reach.max(given).min(WIDEST * p.radius);
     if wanted <= candidates {
@@ -181,40 +243,57 @@ pub(crate) fn warning(scene: &Scene) -> Option<String> {
     ))
 }
 
-/// Upper bounds of the widest contact of the load program: by forces and half widths asked for, and
-/// by displacements.
-fn widest(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<[f64; 2]> {
-    let hertz = Hertz::of(scene, p).ok()?;
-    let first = weaker(scene, p, |plastic| plastic != Plastic::No).ok()?;
-    let program = &scene.program;
-    let targets = || program.targets.iter();
-    let largest =
-        |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, |m, v| m.max(v.abs()));
-    let factor = largest(&mut targets().filter_map(|t| t.load_factor));
-    let size = far_size(scene, p) * half_width;
-    let mut force = 0.0;
-    let mut depth = largest(&mut targets().map(|t| asked_for(t.displacement.as_ref())));
-    for load in &scene.load {
-        let times = match &load.history {
-            History::Proportional if program.unit == Unit::Yield => {
-                // Multiples of the yield load, whatever the load's own size.
-                force = first.map_or(force, |(_, at)| factor * at);
-                continue;
-            }
-            History::Proportional => factor,
-            History::Constant => 1.0,
-            History::Table(rows) => largest(&mut rows.iter().map(|row| row[1])),
-        };
-        force += times * normal_force(scene, p, load, size);
-        depth += times * prescribed(load.displacement.as_ref());
+/// What a load program asks of a contact at most.
+struct Largest {
+    hertz: Hertz,
+    /// First yield of the weaker body that may yield.
+    first: Option<FirstYield>,
+    /// Force.
+    force: f64,
+    /// Half width that a target asks for.
+    asked: f64,
+    /// Displacement of the bodies towards each other.
+    depth: f64,
+}
+
+impl Largest {
+    /// `None` where the loads do not say.
+    fn of(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<Self> {
+        let hertz = Hertz::of(scene, p).ok()?;
+        let first = weaker(scene, p, |plastic| plastic != Plastic::No).ok()?;
+        let program = &scene.program;
+        let targets = || program.targets.iter();
+        let largest =
+            |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, |m, v| m.max(v.abs()));
+        let factor = largest(&mut targets().filter_map(|t| t.load_factor));
+        let size = far_size(scene, p) * half_width;
+        let mut force = 0.0;
+        let mut depth = largest(&mut targets().map(|t| asked_for(t.displacement.as_ref())));
+        for load in &scene.load {
+            let times = match &load.history {
+                History::Proportional if program.unit == Unit::Yield => {
+                    // Multiples of the yield load, whatever the load's own size.
+                    force = first.map_or(force, |first| factor * first.load);
+                    continue;
+                }
+                History::Proportional => factor,
+                History::Constant => 1.0,
+                History::Table(rows) => largest(&mut rows.iter().map(|row| row[1])),
+            };
+            force += times * normal_force(scene, p, load, size);
+            depth += times * prescribed(load.displacement.as_ref());
+        }
+        depth += largest(&mut scene.contact.iter().map(|c| c.interference));
+        let at_yield = first.map_or(half_width, |first| first.half_width);
+        let asked = largest(&mut targets().filter_map(|t| t.half_width)) * at_yield;
+        Some(Largest {
+            hertz,
+            first,
+            force,
+            asked,
+            depth,
+        })
     }
-    depth += largest(&mut scene.contact.iter().map(|c| c.interference));
-    let at_yield = first.map_or(half_width, |(width, _)| width);
-    let asked = largest(&mut targets().filter_map(|t| t.half_width)) * at_yield;
-    Some([
-        hertz.widest(force, first).max(ROOM * asked),
-        (2.0 * PILE_UP * p.radius * depth).sqrt(),
-    ])
 }
 
 /// Displacement along y that a target asks for. Not inlined, as [`prescribed`].
