@@ -331,7 +331,8 @@ pub struct Counts {
     /// Changes of contact status.
     pub contact_changes: usize,
     /// Increments that were not found at once: only with equilibrium and length one after the
-    /// other, with patience, or in fixed steps. What that took is part of the solves and iterations.
+    /// other, with patience, or in fixed steps. What that took is part of the solves and
+    /// iterations.
     pub hard_increments: usize,
 }
 

@@ -30,6 +30,10 @@ const SMALL: usize = 1000;
 /// Most elements of a mesh that a run of solids is compared with: in space the time grows with the
 /// sixth power of the fineness.
 const SOLID: usize = 16 * SMALL;
+/// The same for runs on meshes from files, which have finer companions alone and in steps of two:
+/// in the plane the second subdivision, in space the first one, takes 64 times the run.
+const FROM_FILE: usize = 4 * SMALL;
+const SOLID_FROM_FILE: usize = 2 * SMALL;
 
 /// A scene with another mesh of its family.
 #[derive(Debug, Clone)]
@@ -62,10 +66,10 @@ pub fn member(scene: &Scene, ratio: f64) -> Result<Level, String> {
 pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
     let pairs = fewest_pairs(results);
     let elements = results.sizes.elements;
-    let (readable, finest) = match (scene.kind.is_solid(), elements <= SMALL) {
-        (true, _) => (READABLE_PATCH, (elements as f64 / SOLID as f64).cbrt()),
-        (false, true) => (READABLE, 0.25),
-        (false, false) => (READABLE, 0.5),
+    let finest = finest(scene, elements);
+    let readable = match scene.kind.is_solid() {
+        true => READABLE_PATCH,
+        false => READABLE,
     };
     let can_be_read = |ratio: f64| pairs.is_none_or(|n| n as f64 >= ratio * readable as f64);
     let nearer = scene.kind.is_solid().then_some(NEARER);
@@ -78,6 +82,10 @@ pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
             continue;
         };
         let differs = |other: f64| level.ratio.max(other) / level.ratio.min(other) >= LEAST_RATIO;
+        // A file is subdivided in steps of two, whatever ratio is asked for.
+        if scene.mesh.file.is_some() && level.ratio < finest {
+            continue;
+        }
         let is_new = differs(1.0) && levels.iter().all(|l| differs(l.ratio));
         if is_new && Model::new(&level.scene).is_ok() {
             levels.push(level);
@@ -88,6 +96,41 @@ pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
     }
     levels.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
     levels
+}
+
+/// Least element size of companions, over that of a run with so many elements.
+fn finest(scene: &Scene, elements: usize) -> f64 {
+    let from_file = scene.mesh.file.is_some();
+    if scene.kind.is_solid() {
+        let most = if from_file { SOLID_FROM_FILE } else { SOLID };
+        return (elements as f64 / most as f64).cbrt();
+    }
+    let most = if from_file { FROM_FILE } else { 16 * SMALL };
+    if 16 * elements <= most { 0.25 } else { 0.5 }
+}
+
+/// What the estimate of errors of a mesh from a file with so many elements takes, in words.
+pub fn planned(scene: &Scene, elements: usize) -> Option<String> {
+    scene.mesh.file.as_ref()?;
+    let of_one = if scene.kind.is_solid() { 8 } else { 4 };
+    let finest = finest(scene, elements);
+    let meshes = match finest {
+        _ if finest <= 0.25 => format!(
+            "subdivided once and twice, to {of_one} and {} times",
+            of_one * of_one
+        ),
+        _ if finest <= 0.5 => format!("subdivided once, to {of_one} times"),
+        _ => {
+            return Some(
+                "subdivided the mesh would take many times the run: its errors are estimated by \
+                 the energy norm of the recovered stress alone"
+                    .to_string(),
+            );
+        }
+    };
+    Some(format!(
+        "the estimate of errors runs the mesh {meshes} its elements; `--no-estimate` leaves it out"
+    ))
 }
 
 /// The fewest closed pairs on one side of a contact: at first yield and in the state that carries

@@ -47,7 +47,7 @@ mod study;
 mod verdict;
 
 pub use crate::memory::available as available_memory;
-pub use companions::{Level, companions, member};
+pub use companions::{Level, companions, member, planned};
 pub use demand::{Reached, reach};
 pub use estimate::estimate;
 pub use extrapolation::{Extrapolation, extrapolate};

@@ -241,7 +241,10 @@ fn predict(common: &CommonArguments, all_effects: bool) -> Result<()> {
     }
     let scene = prepare(common, None)?;
     let model = Model::new(&scene)?;
-    let check: Check = analysis::check(&model, common.solver.into())?;
+    let mut check: Check = analysis::check(&model, common.solver.into())?;
+    check
+        .notes
+        .extend(accuracy::planned(&scene, check.sizes.elements));
     print(&if common.json {
         json(&check)?
     } else {

@@ -5,6 +5,8 @@ use crate::accuracy::demand::reached;
 use crate::accuracy::estimate::estimated;
 use crate::accuracy::families::from_file;
 use crate::support;
+use crate::support::msh::{Body, Msh};
+use crate::support::random::Random;
 use brinell::accuracy::{Extent, Knob, Plan, Study, study};
 use brinell::analytical::{Plane, ThickCylinder};
 use brinell::linalg::Backend;
@@ -221,4 +223,64 @@ fn a_contact_from_a_file_keeps_its_pairs_and_gaps() {
     let found = reached(&file, "3 %", Extent::Yield);
     let c = found.results.first_yield.unwrap().load;
     assert!((c / b - 1.0).abs() < 0.03 + 1e-3, "{c} {b}");
+}
+
+/// The estimate of a mesh from a file is a small multiple of the run, or the energy norm alone:
+/// `planned` says which before it starts, and it is what is done.
+#[test]
+fn the_estimate_of_a_file_is_bounded_and_told_before() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("block.msh");
+    let block = |cells: [usize; 2], solid: bool| {
+        let mut msh = Msh::default();
+        let body = Body {
+            name: "b",
+            width: 1.0,
+            cells,
+            heights: [&|_| 0.0, &|_| 1.0],
+            kink: None,
+            grading: 1.0,
+            jitter: 0.0,
+        };
+        let random = &mut Random::new(1);
+        let (kind, held, load) = match solid {
+            true => {
+                body.solid(&mut msh, false, 1, random);
+                ("solid", "\"x\", \"y\", \"z\"", "[0.0, 3.0, 1.0]")
+            }
+            false => {
+                body.plane(&mut msh, false, 1, random);
+                ("plane_strain", "\"x\", \"y\"", "[3.0, 1.0]")
+            }
+        };
+        std::fs::write(&file, msh.text()).unwrap();
+        support::parse(&format!(
+            "kind = \"{kind}\"\nmesh.file = {file:?}\nbodies.b.material = \"m\"\n\
+             support = [{{ on = \"b bottom\", fix = [{held}] }}]\n\
+             load = [{{ on = \"b top\", traction = {load} }}]\n\
+             [materials.m]\nyoungs_modulus = 1000.0\npoissons_ratio = 0.3\n\
+             [program]\ntargets = [{{ load_factor = 1.0 }}]\n"
+        ))
+    };
+    for (cells, solid, ratios, words) in [
+        (
+            [25, 10],
+            false,
+            &[0.25, 0.5][..],
+            "once and twice, to 4 and 16 times",
+        ),
+        ([25, 11], false, &[0.5], "once, to 4 times"),
+        ([5, 10], true, &[0.5], "once, to 8 times"),
+        ([5, 11], true, &[], "the energy norm"),
+    ] {
+        let scene = block(cells, solid);
+        let elements = cells[0] * cells[1] * if solid { cells[0] } else { 1 };
+        let said = brinell::accuracy::planned(&scene, elements).unwrap();
+        assert!(said.contains(words), "{said}");
+        let (_, accuracy) = estimated(&scene, Extent::Program);
+        let found: Vec<f64> = accuracy.companions.iter().map(|c| c.ratio).collect();
+        assert_eq!(found, ratios, "{cells:?}");
+        let by_norm = accuracy.method == EstimateMethod::EnergyNorm;
+        assert_eq!(by_norm, ratios.is_empty());
+    }
 }

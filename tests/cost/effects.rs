@@ -178,7 +178,8 @@ fn preloads_and_prescribed_displacements_of_nothing_are_off() {
              support = [{{ on = \"b.left\", fix = {held} }}]\n\
              load = [{{ on = \"b.right\", traction = [1.0, 0.0] }}{more}]\n\
              [materials.m]\nyoungs_modulus = 1.0\npoissons_ratio = 0.3\nyield_stress = 0.5\n\
-             plastic_modulus = 0.5\nthermal_expansion = 1.0\n[program]\ntargets = [{{ load_factor = 1.0 }}]\n{end}"
+             plastic_modulus = 0.5\nthermal_expansion = 1.0\n\
+             [program]\ntargets = [{{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]\n{end}"
         )
     };
     let run = |text: String| try_run(&parse(&text), Backend::default()).unwrap();

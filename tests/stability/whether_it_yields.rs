@@ -132,6 +132,41 @@ program.targets = [{{ load_factor = 1.0 }}]
     }
 }
 
+/// Plates one element thick, bent in cylinders: `M = Y h^2/(6 sqrt(1 - nu + nu^2))` per width at
+/// first yield in plane strain, 1.5 times as much and more when fully plastic.
+#[test]
+fn a_plate_one_element_thick_yields() {
+    let (force, thickness) = (5.5, 0.5f64);
+    for element in ["hex8", "hex20"] {
+        for cells in [[24, 1, 1], [24, 3, 1], [24, 1, 2]] {
+            let text = format!(
+                r#"kind = "solid"
+mesh.parts = [{{ body = "b", element = "{element}", brick = {{ x = [0, 10], y = [0, 2],
+               z = [0, {thickness}], elements = {cells:?} }} }}]
+materials.m.youngs_modulus = 200e3
+materials.m.poissons_ratio = 0.3
+materials.m.yield_stress = {YIELD}
+materials.m.plastic_modulus = 2000
+bodies.b.material = "m"
+support = [{{ on = "b.left", fix = ["x", "y", "z"] }}, {{ on = "b.front", fix = ["y"] }},
+           {{ on = "b.back", fix = ["y"] }}]
+load = [{{ on = "b.right", traction = [0.0, 0.0, {force}] }}]
+program.targets = [{{ load_factor = 1.0 }}]
+"#
+            );
+            let results = run(&text);
+            let alpha = results.first_yield.expect("it yields").alpha;
+            let moment = YIELD * thickness.powi(2) / 6.0 / (1.0f64 - 0.3 + 0.09).sqrt();
+            let exact = moment / (force * thickness * 10.0);
+            assert!(results.states[0].plastic_points > 0, "{text}");
+            // In the middle of two layers is half of the stress at the surface; the clamped edge
+            // has more than the plate.
+            let share = alpha / exact;
+            assert!((0.5..2.0).contains(&share), "{element} {cells:?}: {share}");
+        }
+    }
+}
+
 /// What holds a model: sets with the axes along which they do not move.
 type Held = &'static [(&'static str, &'static [&'static str])];
 
