@@ -7,7 +7,7 @@ use crate::accuracy::families::from_file;
 use crate::support;
 use crate::support::msh::{Body, Msh};
 use crate::support::random::Random;
-use brinell::accuracy::{Extent, Knob, Plan, Study, study};
+use brinell::accuracy::{Extent, Knob, Plan, Study, estimate, planned, study};
 use brinell::analytical::{Plane, ThickCylinder};
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -275,9 +275,11 @@ fn the_estimate_of_a_file_is_bounded_and_told_before() {
     ] {
         let scene = block(cells, solid);
         let elements = cells[0] * cells[1] * if solid { cells[0] } else { 1 };
-        let said = brinell::accuracy::planned(&scene, elements).unwrap();
+        let said = planned(&scene, elements).unwrap();
         assert!(said.contains(words), "{said}");
-        let (_, accuracy) = estimated(&scene, Extent::Program);
+        let results = support::run(&scene);
+        let backend = Backend::default();
+        let accuracy = estimate(&scene, backend, &results, Extent::Program, &mut Silent);
         let found: Vec<f64> = accuracy.companions.iter().map(|c| c.ratio).collect();
         assert_eq!(found, ratios, "{cells:?}");
         let by_norm = accuracy.method == EstimateMethod::EnergyNorm;
