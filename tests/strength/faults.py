@@ -185,7 +185,7 @@ f(40, "analysis/elastic.rs", "let t = before + share * (self.path.t() - before);
   "let t = " + x(40, "share * self.path.t()", "before + share * (self.path.t() - before)") + ";",
   "analysis", "the load of first yield is interpolated from the start of the stretch, not from the last event",
   "verification (yield_load, hertz_line, run), unit analysis")
-f(41, "analysis/mirror.rs",
+f(41, "model/mirror.rs",
   "let is_loaded = |other: &Side| other.nodes.iter().all(|&n| conditions.loaded[n]);",
   "let is_loaded = |other: &Side| {\n    let mut loads = other.nodes.iter().map(|&n| conditions.loaded[n]);\n"
   "    if " + on(41) + " { loads.any(|l| l) } else { loads.all(|l| l) }\n};",
@@ -215,7 +215,7 @@ f(47, "analysis/contact_patch.rs",
   "let bracket = [distance - 0.5 * spacing, distance + " + x(47, "0.5", "1.0") + " * spacing];",
   "analysis", "the edge of contact is never sought in the outer half of the element that it ends in",
   "verification (hertz_line, hertz_point, hertz_line_history), unit analysis")
-f(48, "analysis/contact_area.rs", "(1usize << self.planes.iter().filter(on).count()) as f64",
+f(48, "analysis/contact_area/readings.rs", "(1usize << self.planes.iter().filter(on).count()) as f64",
   x(48, "1.0", "(1usize << self.planes.iter().filter(on).count()) as f64"),
   "analysis", "areas of pairs on planes of symmetry are not doubled when a patch in space is read",
   "solid (patches, hertz), unit analysis::contact_area")
@@ -234,10 +234,10 @@ f(52, "analysis/zone_choice.rs", ".map(|&e| !core[e])",
   ".map(|&e| !core[e] && !" + on(52) + ")",
   "analysis", "no element of the plastic zone is a guard: the zone is not made larger when its rim yields",
   "verification (run), stability (elsewhere, flow), unit analysis")
-f(53, "analysis/measure.rs", "_ => sum(&self.contact_forces()) * self.structure.model.symmetry,",
-  "_ => sum(&self.contact_forces()) * " + x(53, "1.0", "self.structure.model.symmetry") + ",",
-  "analysis", "the load of a displacement-driven run is that of the meshed part, not of all its copies",
-  "verification, invariance (loads, mirrors), stability (prescribed)")
+f(53, "analysis/measure.rs", "sum * model.symmetry",
+  "sum * " + x(53, "1.0", "model.symmetry"),
+  "analysis", "the load of a run that a gap drives is that of the meshed part, not of all its copies",
+  "verification (gap_load), invariance (loads, mirrors), stability (prescribed)")
 f(54, "analysis/zone/points.rs", "self.back.put(points, &history.back, from);",
   "if !" + on(54) + " {\n            self.back.put(points, &history.back, from);\n        }",
   "analysis", "going back to an earlier state leaves the strains of fading back stresses as they are",
