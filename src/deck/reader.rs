@@ -5,7 +5,7 @@ mod mesh;
 mod properties;
 mod volume;
 
-use super::data::Account;
+use super::data::{Account, Condition};
 use super::fields::Fields;
 use super::keyword::{Keyword, Use};
 use super::source::{Line, Source};
@@ -24,6 +24,8 @@ pub(super) struct Reader<'t> {
     /// The surface interaction that what is read belongs to.
     interaction: Option<String>,
     is_in_step: bool,
+    /// Displacements that stand before the first step, and are reached over it.
+    of_first_step: Vec<Condition>,
 }
 
 impl<'t> Reader<'t> {
@@ -34,6 +36,7 @@ impl<'t> Reader<'t> {
             material: None,
             interaction: None,
             is_in_step: false,
+            of_first_step: Vec::new(),
         }
     }
 

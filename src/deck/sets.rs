@@ -99,7 +99,8 @@ impl Deck {
         Ok(())
     }
 
-    /// Numbers of `GENERATE`. Looked up one by one where they are few, else among those there are.
+    /// Numbers of `GENERATE`: those between its ends that there are, as CalculiX takes them.
+    /// Looked up one by one where they are few, else found among all.
     fn range(
         &self,
         what: What,
@@ -108,20 +109,22 @@ impl Deck {
         out: &mut Vec<u32>,
     ) -> Result<()> {
         let (_, index, labels) = self.table(what);
-        let thing = what.words()[0];
-        if (last - first) / step >= labels.len() as u64 {
-            let message = format!(
-                "GENERATE from {first} to {last} by {step} names more {thing}s than the {} there \
-                 are",
-                labels.len()
-            );
-            return Err(self.error(at.0, at.1, message));
+        let before = out.len();
+        if (last - first) / step < labels.len() as u64 {
+            let named = (first..=last).step_by(step as usize);
+            out.extend(named.filter_map(|label| index.get(label)));
+        } else {
+            let is_named = |label: &u64| {
+                (first..=last).contains(label) && (label - first).is_multiple_of(step)
+            };
+            let named = labels.iter().filter(|label| is_named(label));
+            out.extend(named.filter_map(|&label| index.get(label)));
         }
-        for label in (first..=last).step_by(step as usize) {
-            let found = index
-                .get(label)
-                .ok_or_else(|| self.error(at.0, at.1, format!("there is no {thing} {label}")))?;
-            out.push(found);
+        if out.len() == before {
+            let thing = what.words()[0];
+            let message =
+                format!("GENERATE from {first} to {last} by {step}: there is no such {thing}");
+            return Err(self.error(at.0, at.1, message));
         }
         Ok(())
     }

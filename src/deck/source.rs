@@ -57,6 +57,19 @@ struct Open {
     line: u32,
 }
 
+impl Open {
+    /// The beginning of a file, behind the mark that Windows puts before UTF-8.
+    fn new(file: u32, text: &[u8]) -> Self {
+        const MARK: &[u8] = b"\xef\xbb\xbf";
+        let at = if text.starts_with(MARK) {
+            MARK.len()
+        } else {
+            0
+        };
+        Open { file, at, line: 0 }
+    }
+}
+
 /// The lines of a deck. `*INCLUDE` is followed here: what comes after it does not see it.
 pub(super) struct Source<'t> {
     texts: Vec<Cow<'t, [u8]>>,
@@ -70,14 +83,10 @@ pub(super) struct Source<'t> {
 impl<'t> Source<'t> {
     pub(super) fn new(text: Cow<'t, [u8]>, name: &str, folder: Option<&Path>) -> Self {
         Source {
+            open: vec![Open::new(0, &text)],
             texts: vec![text],
             files: Files(vec![name.to_string()]),
             folder: folder.map(Path::to_path_buf),
-            open: vec![Open {
-                file: 0,
-                at: 0,
-                line: 0,
-            }],
             ahead: None,
         }
     }
@@ -172,10 +181,15 @@ impl<'t> Source<'t> {
         let Some(given) = given.filter(|given| !given.is_empty()) else {
             return refused("no file is named; write *INCLUDE, INPUT=FILE".to_string());
         };
-        let path = match &self.folder {
+        let beside = |given: &str| match &self.folder {
             Some(folder) => folder.join(given),
             None => PathBuf::from(given),
         };
+        let mut path = beside(given);
+        // Folders as Windows writes them.
+        if given.contains('\\') && !path.exists() {
+            path = beside(&given.replace('\\', "/"));
+        }
         let name = path.display().to_string();
         let is_open = |open: &Open| self.files.0[open.file as usize] == name;
         if self.open.iter().any(is_open) {
@@ -186,11 +200,7 @@ impl<'t> Source<'t> {
         }
         let text = files::read("read the included file", &path, None)
             .map_err(|error| error.within(format!("{place}: *INCLUDE")))?;
-        self.open.push(Open {
-            file: self.texts.len() as u32,
-            at: 0,
-            line: 0,
-        });
+        self.open.push(Open::new(self.texts.len() as u32, &text));
         self.texts.push(Cow::Owned(text));
         self.files.0.push(name);
         Ok(())

@@ -6,6 +6,7 @@ mod converted;
 mod local_axes;
 mod refusals;
 mod sets;
+mod variants;
 
 use brinell::analysis::Analysis;
 use brinell::deck::{self, Options};

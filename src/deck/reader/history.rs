@@ -96,6 +96,7 @@ impl Reader<'_> {
         self.deck.program.steps.push(Step {
             place: keyword.place,
             period: 1.0,
+            conditions: std::mem::take(&mut self.of_first_step),
             ..Step::default()
         });
         // A line of words may describe the step.
@@ -206,6 +207,10 @@ impl Reader<'_> {
     pub(super) fn add(&mut self, condition: Condition) {
         match self.current_step() {
             Some(step) => self.deck.program.steps[step].conditions.push(condition),
+            // A displacement before the first step is reached over that step.
+            None if condition.kind == Kind::Boundary && condition.value != 0.0 => {
+                self.of_first_step.push(condition);
+            }
             None => self.deck.program.initial.push(condition),
         }
     }
@@ -217,13 +222,6 @@ impl Reader<'_> {
             let on = target(&mut row)?;
             let (ranges, value) = freedoms(&mut row)?;
             row.end()?;
-            let is_initial = !self.is_in_step;
-            if is_initial && value != 0.0 {
-                return Err(row.place.error(format!(
-                    "the value {} stands before the first step; put it into a *STEP",
-                    exact(value)
-                )));
-            }
             for range in ranges {
                 self.add(Condition {
                     kind: Kind::Boundary,
