@@ -67,6 +67,14 @@ impl Pair {
         }
     }
 
+    /// Makes an overlap in the mesh an interference, and returns it; 0 where there is none.
+    fn overlap_interferes(&mut self) -> f64 {
+        let overlap = (-self.gap).max(0.0);
+        self.gap += overlap;
+        self.interference += overlap;
+        overlap
+    }
+
     /// The nodes of both surfaces.
     pub fn nodes(&self) -> impl Iterator<Item = usize> + '_ {
         let masters = self.masters.iter().map(|&(node, _)| node);
@@ -189,6 +197,16 @@ pub(super) fn resolve(
         };
         for pair in &mut found.pairs {
             pair.take_off_round_off(mesh);
+        }
+        if contact.overlap {
+            let deepest = found.pairs.iter_mut().map(Pair::overlap_interferes);
+            let deepest = deepest.fold(0.0, f64::max);
+            if deepest > 0.0 {
+                notes.push(format!(
+                    "{what}: the surfaces overlap by up to {deepest:.4e} in the mesh: an \
+                     interference, applied before the load program"
+                ));
+            }
         }
         for pair in &found.pairs {
             if let Some(other) = slave_of.insert(pair.slave, index) {

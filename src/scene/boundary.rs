@@ -33,6 +33,10 @@ pub struct Contact {
     /// Interference: taken off every initial gap, applied gradually before the load program.
     #[serde(default)]
     pub interference: f64,
+    /// Whether the surfaces may overlap in the mesh: by as much as they do, pair by pair, they
+    /// interfere. By default an overlap is an error.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub overlap: bool,
 }
 
 /// Two surfaces that stay together, across and along: whether their nodes face each other or not,

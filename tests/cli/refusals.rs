@@ -304,7 +304,7 @@ fn bodies_that_overlap_in_the_mesh() {
         &["mesh.parts.1.block.y=[0.9,2.0]"],
         &[],
         2,
-        &["nodes 54 and 45 overlap by 1.000e-1", "interference"],
+        &["nodes 54 and 45 overlap by 1.000e-1", "`overlap = true`"],
     );
 }
 

@@ -1,7 +1,15 @@
 //! Decks as other programs and systems write them: they say the same in other ways.
 
 use super::{folder, run};
+use brinell::deck::{self, Options};
+use brinell::model::Model;
 use brinell::results::Results;
+use std::path::Path;
+
+fn run_with(path: &Path, overrides: &[&str]) -> brinell::Result<Model> {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Model::new(&deck::load_with(path, &overrides, Options::default())?)
+}
 
 /// Runs a deck with some of its text replaced, beside the files that it includes.
 fn changed(name: &str, changes: &[(&str, &str)]) -> Results {
@@ -78,4 +86,72 @@ fn included_files_may_lie_behind_backslashes() {
             "INPUT=parts\\included_nodes.inc",
         )],
     );
+}
+
+/// Blocks that overlap in the mesh press each other apart: of the heights `h` and stiffness `E`
+/// between fixed ends, without Poisson's effect, with `E d/(h_1 + h_2)`. Their nodes face each
+/// other or not.
+#[test]
+fn an_overlap_in_the_mesh_is_an_interference() {
+    let overlap = 0.01;
+    for [lower, upper] in [[4, 4], [4, 3], [3, 5]] {
+        let mut nodes = String::from("*NODE\n");
+        let mut elements = String::new();
+        let mut sets = String::new();
+        let blocks = [
+            (0, "LOW", lower, 0.0, 1.0),
+            (100, "UPP", upper, 1.0 - overlap, 2.0),
+        ];
+        for (first, name, n, from, to) in blocks {
+            for (row, y) in [(0, from), (1, to)] {
+                for i in 0..=n {
+                    let x = i as f64 / n as f64;
+                    nodes += &format!("{}, {x:?}, {y:?}\n", first + 20 * row + i + 1);
+                }
+            }
+            elements += &format!("*ELEMENT, TYPE=CPS4, ELSET={name}\n");
+            for i in 1..=n {
+                let [a, b] = [first + i, first + i + 20];
+                elements += &format!("{a}, {a}, {}, {}, {b}\n", a + 1, b + 1);
+            }
+            sets += &format!("*SOLID SECTION, ELSET={name}, MATERIAL=M\n1.\n");
+            for (side, face, row) in [("BOTTOM", "S1", 0), ("TOP", "S3", 20)] {
+                sets += &format!("*SURFACE, NAME={name}_{side}\n{name}, {face}\n");
+                let ends = format!("{}, {}", first + row + 1, first + row + n + 1);
+                sets += &format!("*NSET, NSET={name}_{side}_NODES, GENERATE\n{ends}\n");
+            }
+        }
+        let text = format!(
+            "{nodes}{elements}*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n{sets}\
+             *SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD\n\
+             *CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE\nUPP_BOTTOM, LOW_TOP\n\
+             *BOUNDARY\nLOW_BOTTOM_NODES, 1, 2\nUPP_TOP_NODES, 1, 2\n\
+             *STEP\n*STATIC\n*END STEP\n"
+        );
+        let beside = tempfile::tempdir().unwrap();
+        let path = beside.path().join("overlap.inp");
+        std::fs::write(&path, text).unwrap();
+        let (model, results) = run(&path, &[]);
+        assert!(
+            model
+                .warnings
+                .iter()
+                .any(|text| text.contains("overlap by up to 1.0000e-2")),
+            "{:?}",
+            model.warnings
+        );
+        let exact = 1000.0 * overlap / (2.0 + overlap);
+        let force = results.states[0].contact_force;
+        assert!(
+            (force / exact - 1.0).abs() < 1e-9,
+            "{lower}, {upper}: {force}"
+        );
+        // Whoever does not say so is told.
+        let apart = run_with(
+            &path,
+            &["contact.0.overlap=false", "contact.0.interference=0.1"],
+        )
+        .unwrap_err();
+        assert!(apart.message().contains("`overlap = true`"), "{apart}");
+    }
 }

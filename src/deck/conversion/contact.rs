@@ -31,6 +31,7 @@ impl Draft<'_> {
                 self.adjust(pair, within, [&slave, &master], &mut contact, account);
             }
             self.clear(pair, &mut contact, account);
+            contact.overlap = contact.gap.is_none();
             let key = format!("contact.{}", self.contacts.len());
             self.places.insert(key, self.deck.files.show(pair.place));
             self.contacts.push(contact);

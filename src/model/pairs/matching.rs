@@ -114,10 +114,11 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
                 mesh.node_label(faced)
             )));
         }
-        if pair.gap < -1e-9 * facet_length && contact.gap.is_none() {
+        let may_overlap = contact.overlap || contact.gap.is_some();
+        if pair.gap < -1e-9 * facet_length && !may_overlap {
             return Err(Error::input(format!(
-                "nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or state \
-                 the overlap as `interference` with `gap = 0`",
+                "nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or say \
+                 `overlap = true` where that is an interference",
                 mesh.node_label(faced),
                 mesh.node_label(pair.slave),
                 -pair.gap

@@ -367,7 +367,8 @@ impl Sides<'_> {
         let (mesh, contact) = (self.entries.mesh, self.entries.contact);
         self.check_apart(pairs)?;
         let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
-        let Some(deepest) = deepest.filter(|pair| pair.gap < -TOUCHING * facet_length) else {
+        let overlaps = |pair: &&Pair| pair.gap < -TOUCHING * facet_length && !contact.overlap;
+        let Some(deepest) = deepest.filter(overlaps) else {
             return Ok(());
         };
         let place = format!(
@@ -385,8 +386,8 @@ impl Sides<'_> {
                  `spheres`, `cylinders`, `tori`), give `gap`, or use quadratic elements"
             ),
             false => format!(
-                "{place}; move the bodies apart, or state the overlap as `interference` with `gap \
-                 = 0`"
+                "{place}; move the bodies apart, or say `overlap = true` where that is an \
+                 interference"
             ),
         }))
     }

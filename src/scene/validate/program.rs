@@ -148,7 +148,7 @@ impl Checks {
         let shrunk = scene
             .contact
             .iter()
-            .any(|contact| contact.interference != 0.0)
+            .any(|contact| contact.interference != 0.0 || contact.overlap)
             || (scene.mesh.disc_in_plate.as_ref()).is_some_and(|disc| disc.interference != 0.0);
         self.require(
             !scene.load.is_empty() || shrunk,
