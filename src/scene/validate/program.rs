@@ -150,10 +150,13 @@ impl Checks {
             .iter()
             .any(|contact| contact.interference != 0.0 || contact.overlap)
             || (scene.mesh.disc_in_plate.as_ref()).is_some_and(|disc| disc.interference != 0.0);
+        let mut bodies = scene.bodies.values();
+        let brought_along = bodies.any(|body| body.brought_along().next().is_some());
         self.require(
-            !scene.load.is_empty() || shrunk,
+            !scene.load.is_empty() || shrunk || brought_along || scene.start_from.is_some(),
             "load",
-            "there is no load and no interference: nothing happens; add a [[load]]",
+            "there is no load, no interference and no initial stress: nothing happens; add a \
+             [[load]]",
         );
     }
 
