@@ -258,7 +258,7 @@ fn contact_supports_and_loads() {
             ),
             (
                 |s| s.load.clear(),
-                "load: there is no load and no interference",
+                "load: there is no load, no interference and no initial stress",
             ),
             (
                 |s| {
