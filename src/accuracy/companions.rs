@@ -109,24 +109,27 @@ fn finest(scene: &Scene, elements: usize) -> f64 {
     if 16 * elements <= most { 0.25 } else { 0.5 }
 }
 
-/// What the estimate of errors of a mesh from a file with so many elements takes, in words.
+/// What the estimate of errors of a run on a mesh from a file with so many elements takes, in
+/// words; `None` for other meshes, and where the scene demands an accuracy.
 pub fn planned(scene: &Scene, elements: usize) -> Option<String> {
-    scene.mesh.file.as_ref()?;
-    let of_one = if scene.kind.is_solid() { 8 } else { 4 };
+    scene
+        .mesh
+        .file
+        .as_ref()
+        .filter(|_| scene.accuracy.is_none())?;
+    let once = if scene.kind.is_solid() { 8 } else { 4 };
     let finest = finest(scene, elements);
-    let meshes = match finest {
-        _ if finest <= 0.25 => format!(
-            "subdivided once and twice, to {of_one} and {} times",
-            of_one * of_one
-        ),
-        _ if finest <= 0.5 => format!("subdivided once, to {of_one} times"),
-        _ => {
-            return Some(
-                "subdivided the mesh would take many times the run: its errors are estimated by \
-                 the energy norm of the recovered stress alone"
-                    .to_string(),
-            );
-        }
+    let meshes = if finest <= 0.25 {
+        format!(
+            "subdivided once and twice, to {once} and {} times",
+            once * once
+        )
+    } else if finest <= 0.5 {
+        format!("subdivided once, to {once} times")
+    } else {
+        let text = "subdivided the mesh would take many times the run: its errors are estimated by \
+                    the energy norm of the recovered stress alone";
+        return Some(text.to_string());
     };
     Some(format!(
         "the estimate of errors runs the mesh {meshes} its elements; `--no-estimate` leaves it out"

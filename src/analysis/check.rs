@@ -286,17 +286,17 @@ fn earlier_run(model: &Model, start: Option<&EndState>) -> Effect {
 
 fn prescribed_displacements(model: &Model) -> Effect {
     let loads = model.loads.iter();
-    let asked = loads.filter(|load| load.measures == Magnitude::Displacement);
-    let (asked, acting) = asked.fold((false, Vec::new()), |(_, mut acting), load| {
-        acting.extend(load.acts().then_some(load.name.as_str()));
-        (true, acting)
-    });
-    let why = match (asked, acting.is_empty()) {
-        (false, _) => "no load prescribes one".to_string(),
-        (true, true) => "all that loads prescribe are zero: they hold as supports do".to_string(),
-        (true, false) => format!("by {}: the force that it takes is found", acting.join(", ")),
+    let prescribing = |load: &&LoadCase| load.measures == Magnitude::Displacement;
+    let asked: Vec<&LoadCase> = loads.filter(prescribing).collect();
+    let acting = asked.iter().filter(|load| load.acts());
+    let acting: Vec<&str> = acting.map(|load| load.name.as_str()).collect();
+    let why = match (asked.is_empty(), acting.is_empty()) {
+        (true, _) => "no load prescribes one".to_string(),
+        (false, true) => "all that loads prescribe are zero: they hold as supports do".to_string(),
+        (false, false) => format!("by {}: the force that it takes is found", acting.join(", ")),
     };
-    effect_asked_for("prescribed displacements", asked, !acting.is_empty(), why)
+    let name = "prescribed displacements";
+    effect_asked_for(name, !asked.is_empty(), !acting.is_empty(), why)
 }
 
 fn cycles(model: &Model) -> Effect {

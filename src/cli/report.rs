@@ -454,8 +454,8 @@ impl Report {
             return;
         }
         let mut table = Table::new(&[(Text, "phase"), (Number, "time"), (Number, "share")]);
-        // A phase that did not run took exactly no time.
-        for (phase, time) in results.timings.iter().filter(|(_, time)| *time > 0.0) {
+        // What is less than half of the last digit shown says nothing.
+        for (phase, time) in results.timings.iter().filter(|(_, time)| *time >= 5e-4) {
             let share = 100.0 * time / wall_seconds.max(*time);
             table.row([phase.clone(), seconds(*time), format!("{share:.0} %")]);
         }
