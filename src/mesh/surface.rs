@@ -8,6 +8,9 @@ use std::collections::BTreeMap;
 /// Two nodes pair if their distance across the normal is below this share of a facet's length.
 pub const PAIRING: f64 = 1e-5;
 
+/// Cosine of the angle between neighbouring facets of a smooth line, at least: of a circle of ten.
+const SMOOTH: f64 = 0.8;
+
 /// The nodes of a surface, mid-side nodes included: in space ascending, in the plane in order.
 ///
 /// # Errors
@@ -124,35 +127,89 @@ pub(crate) fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>
 
 /// Outward unit normals of a surface at some of its nodes.
 ///
-/// Exact where the surface's [`Curve`](super::Curve) is known. Otherwise the mean of the normals of
-/// the facets that meet at the node, weighted with their areas; the normal of a curved facet is
-/// that at the node. A node that is not on the surface gets zeros.
+/// Exact where the surface's [`Curve`](super::Curve) is known, and in the inner nodes of flat
+/// facets where these lie on a circle or a sphere, however long each is: at a node where the edges
+/// `e` meet, straight facets have the weights `1 / |e|^2` and flat faces `1 / |e_1|^2 |e_2|^2` (of
+/// their area vectors). At the end of a line of straight facets, a circle through the next normal
+/// is continued. The normal of a curved facet is that at the node; several have the weights of
+/// their areas. A node that is not on the surface gets zeros.
+///
+/// # Source
+/// N. Max, *Weights for computing vertex normals from facet normals* (1999),
+/// doi:10.1080/10867651.1999.10487501.
 pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<Vector> {
-    match surface.curve {
-        Some(curve) => (nodes.iter())
-            .map(|&node| curve.normal(mesh.point(node)))
-            .collect(),
-        None => {
-            let mut sums: BTreeMap<usize, Vector> = BTreeMap::new();
-            for &facet in &surface.facets {
-                add_areas(mesh, facet, &mut sums);
-            }
-            nodes
-                .iter()
-                .map(|node| sums.get(node).map_or([0.0; 3], |&sum| direction(sum)))
-                .collect()
-        }
+    if let Some(curve) = surface.curve {
+        let points = nodes.iter().map(|&node| mesh.point(node));
+        return points.map(|x| curve.normal(x)).collect();
     }
+    let mut sums: BTreeMap<usize, Vector> = BTreeMap::new();
+    for &facet in &surface.facets {
+        add_areas(mesh, facet, &mut sums);
+    }
+    let mut normals: BTreeMap<usize, Vector> = sums
+        .into_iter()
+        .map(|(node, sum)| (node, direction(sum)))
+        .collect();
+    if !mesh.is_solid() {
+        continue_to_the_ends(mesh, surface, &mut normals);
+    }
+    let known = |node| normals.get(node).copied().unwrap_or_default();
+    nodes.iter().map(known).collect()
 }
 
-/// Adds the area vectors of a facet at its nodes.
+/// Adds the weighted area vectors of a facet at its nodes.
 fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
     let reference = mesh.facet_reference(facet);
     let points: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
-    for (node, &place) in mesh.facet_nodes(facet).zip(reference.nodes) {
+    let n = mesh.facet_corners(facet);
+    let is_flat = points.len() == n;
+    for (i, (node, &place)) in mesh.facet_nodes(facet).zip(reference.nodes).enumerate() {
         let area = reference.area(&(reference.functions)(place), &points);
+        let edge = |j: usize| difference(points[j % n], points[i]);
+        let [next, last] = [edge(i + 1), edge(i + n - 1)];
+        let squares = dot(next, next) * dot(last, last);
+        let weight = match (is_flat, n) {
+            (false, _) => 1.0,
+            _ if squares == 0.0 => 0.0,
+            (true, 2) => 1.0 / dot(next, next),
+            (true, _) => length(cross(next, last)) / (length(area) * squares),
+        };
         let sum = sums.entry(node).or_default();
-        (0..3).for_each(|d| sum[d] += area[d]);
+        (0..3).for_each(|d| sum[d] += weight * area[d]);
+    }
+}
+
+/// Gives the end of a line of straight facets the normal at the other end of its facet, mirrored:
+/// that of a circle through both. Not where the line has a corner there.
+fn continue_to_the_ends(mesh: &Mesh, surface: &Surface, normals: &mut BTreeMap<usize, Vector>) {
+    let mut facets_at: BTreeMap<usize, Vec<Facet>> = BTreeMap::new();
+    for &facet in &surface.facets {
+        for node in mesh.facet_nodes(facet) {
+            facets_at.entry(node).or_default().push(facet);
+        }
+    }
+    let way = |facet: Facet| {
+        let ends: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
+        direction(difference(ends[1], ends[0]))
+    };
+    for facets in facets_at.values().filter(|facets| facets.len() == 1) {
+        let ends: Vec<usize> = mesh.facet_nodes(facets[0]).collect();
+        let &[a, b] = ends.as_slice() else {
+            continue;
+        };
+        for (end, inner) in [(a, b), (b, a)] {
+            let (of_end, of_inner) = (&facets_at[&end], &facets_at[&inner]);
+            if of_end.len() != 1 || of_inner.len() != 2 {
+                continue;
+            }
+            let way_here = way(facets[0]);
+            let turn = dot(way(of_inner[0]), way(of_inner[1]));
+            if turn >= SMOOTH {
+                let (normal, along) = (normals[&inner], dot(normals[&inner], way_here));
+                let mirrored = std::array::from_fn(|d| normal[d] - 2.0 * along * way_here[d]);
+                normals.insert(end, mirrored);
+            }
+        }
     }
 }
 

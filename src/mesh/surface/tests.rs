@@ -68,7 +68,7 @@ fn a_closed_piece_beside_an_open_one_is_found() {
 }
 
 #[test]
-fn averaged_normals_are_weighted_with_length_and_point_outward() {
+fn averaged_normals_are_weighted_and_point_outward() {
     let mut mesh = two_squares();
     // The right square is three times as wide.
     mesh.coordinates[4] = 4.0;
@@ -77,11 +77,91 @@ fn averaged_normals_are_weighted_with_length_and_point_outward() {
     let normals = normals(&mesh, &bottom_and_right, &[0, 1, 2, 5, 3]);
     assert_eq!(normals[0], [0.0, -1.0, 0.0]);
     assert_eq!(normals[1], [0.0, -1.0, 0.0]);
+    // The shorter of two edges counts more; a corner is no circle that its end continues.
     let length = 10f64.sqrt();
-    assert!((normals[2][0] - 1.0 / length).abs() < 1e-15);
-    assert!((normals[2][1] + 3.0 / length).abs() < 1e-15);
+    assert!((normals[2][0] - 3.0 / length).abs() < 1e-15);
+    assert!((normals[2][1] + 1.0 / length).abs() < 1e-15);
     assert_eq!(normals[3], [1.0, 0.0, 0.0]);
     assert_eq!(normals[4], [0.0; 3], "not on the surface");
+}
+
+/// Nodes on a circle and on a sphere, unlike facets: a body that turns about the centre changes no
+/// gap.
+#[test]
+fn normals_of_round_surfaces_are_those_of_circles_and_spheres() {
+    let mut random = [0.31, 0.87, 0.12, 0.66, 0.45, 0.93, 0.28, 0.74]
+        .iter()
+        .cycle();
+    let mut next = |low: f64, high: f64| low + (high - low) * random.next().unwrap();
+    let mut mesh = Mesh {
+        dimension: 2,
+        bodies: vec!["a".to_string()],
+        ..Mesh::default()
+    };
+    // A ring of eight quadrangles over 200 degrees, its inner side the surface.
+    let mut angle = 0.3;
+    for _ in 0..=8 {
+        for radius in [2.0, 3.0] {
+            mesh.coordinates
+                .extend([radius * f64::cos(angle), radius * f64::sin(angle)]);
+        }
+        angle += next(0.2, 0.7);
+    }
+    for k in 0..8u32 {
+        mesh.push_element(Shape::Quad4, 0, &[2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2]);
+    }
+    let inner: Vec<(usize, usize)> = (0..8usize).map(|k| (k, 3)).collect();
+    let inner = surface(&inner);
+    let nodes: Vec<usize> = (0..=8).map(|k| 2 * k).collect();
+    for (&node, normal) in nodes.iter().zip(normals(&mesh, &inner, &nodes)) {
+        let [x, y, _] = mesh.point(node);
+        let off = length(difference(normal, [-x / 2.0, -y / 2.0, 0.0]));
+        assert!(off < 1e-14, "{node}: {off}");
+    }
+
+    // A patch of three by three faces of a sphere, the lower side of hexahedra.
+    let mut solid = Mesh {
+        dimension: 3,
+        bodies: vec!["a".to_string()],
+        ..Mesh::default()
+    };
+    let at: [Vec<f64>; 2] = [0, 1].map(|_| {
+        (0..4)
+            .map(|i| 0.2 * f64::from(i) + next(0.0, 0.1))
+            .collect()
+    });
+    for up in [0.0, 1.0] {
+        for x in &at[0] {
+            for y in &at[1] {
+                let z = -(4.0 - x * x - y * y).sqrt();
+                solid
+                    .coordinates
+                    .extend([*x, *y, if up > 0.0 { 0.0 } else { z }]);
+            }
+        }
+    }
+    let node = |i: usize, j: usize, up: usize| 16 * up + 4 * i + j;
+    for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+        let ring = |up| {
+            [
+                node(i, j, up),
+                node(i + 1, j, up),
+                node(i + 1, j + 1, up),
+                node(i, j + 1, up),
+            ]
+        };
+        let nodes: Vec<u32> = (ring(0).into_iter().chain(ring(1)))
+            .map(|n| n as u32)
+            .collect();
+        solid.push_element(Shape::Hex8, 0, &nodes);
+    }
+    let lower: Vec<(usize, usize)> = (0..9).map(|e| (e, 0)).collect();
+    for (i, j) in [(1, 1), (1, 2), (2, 1), (2, 2)] {
+        let x = solid.point(node(i, j, 0));
+        let normal = normals(&solid, &surface(&lower), &[node(i, j, 0)])[0];
+        let off = length(difference(normal, x.map(|x| x / 2.0)));
+        assert!(off < 1e-14, "{i} {j}: {normal:?} {x:?}");
+    }
 }
 
 #[test]
