@@ -30,9 +30,9 @@ use crate::contact::{PairBlock, PairMatrix, Tableau};
 use crate::error::Result;
 use crate::linalg::{self, Backend, Condensed, Partition, Recovered, ZonePart};
 use crate::memory;
-use crate::model::Model;
+use crate::model::{Model, Work};
 use groups::Groups;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use singular::name_freedom;
 
 /// A load (or displacement) on zone and contact freedoms, these in the order of
@@ -197,16 +197,16 @@ impl Substructure {
         Tableau::new(self.contact_matrix.clone())
     }
 
-    /// Takes from forces on the pairs what round-off lets them do on rigid motions that contact
-    /// alone can hold: of forces that are in balance with themselves, as those of plastic strains.
-    pub(crate) fn balance(&self, forces: &mut [f64]) {
-        for (pairs, slips) in self.rigid_slips(|_| true) {
-            let of_pairs = DVector::from_iterator(pairs.len(), pairs.iter().map(|&k| forces[k]));
-            let unbalanced = &slips * slips.tr_mul(&of_pairs);
-            for (&k, force) in pairs.iter().zip(unbalanced.iter()) {
-                forces[k] -= force;
-            }
-        }
+    /// The matrix T of the contact problem.
+    pub(crate) fn pair_matrix(&self) -> &PairMatrix {
+        &self.contact_matrix
+    }
+
+    /// Makes forces on the pairs do the work on rigid motions of floating bodies that is known of
+    /// each: none those that balance themselves, as those of plastic strains. The largest change.
+    pub(crate) fn balance(&self, forces: &mut [f64], work: &[Work]) -> f64 {
+        let groups = self.tied.as_ref();
+        groups.map_or(0.0, |groups| groups.balance(forces, work))
     }
 
     /// The pairs of each group asked for that rigid motions of floating bodies move, and the

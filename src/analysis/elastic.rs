@@ -11,6 +11,10 @@ use crate::root::{self, Accuracy};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
+/// Share of the largest force that springs bear once their body has moved by ten times the
+/// deformation.
+const MOVES_FAR: f64 = 1e-7;
+
 /// Follows contact along a straight piece of the load path with the plastic strains frozen.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ElasticPath {
@@ -33,6 +37,7 @@ impl ElasticPath {
             *q += t;
         }
         solver.move_loose_bodies(end)?;
+        solver.add_springs(&mut q0);
         let terms = solver.structure.closed_forces_size(&start);
         let gaps = solver.structure.delta(&start);
         let gap_scale = gaps.iter().fold(0.0f64, |m, d| m.max(d.abs()));
@@ -67,7 +72,8 @@ impl ElasticPath {
     /// # Errors
     /// A load that drives a body away from every contact.
     pub fn turn(&mut self, solver: &mut Solver) -> Result<()> {
-        if self.path.turn(&mut solver.tableau).is_err() {
+        let lost = self.path.turn(&mut solver.tableau).is_err();
+        if lost || solver.springs_hold_a_body() || solver.springs_bear(MOVES_FAR) {
             *self = ElasticPath::new(solver, &self.end.clone())?;
         } else {
             solver.cost.counts.contact_changes += self.path.changes;

@@ -3,7 +3,9 @@
 use super::program::Run;
 use super::stopwatch::Row;
 use super::{check, quality};
-use crate::results::{Quality, Results, Sizes};
+use crate::model::Model;
+use crate::number::significant;
+use crate::results::{PairState, Quality, Results, Sizes, State, Status};
 
 /// Lower bound of the condition from which it is estimated without being asked for: six digits of a
 /// displacement may be left.
@@ -29,7 +31,7 @@ impl Run<'_, '_> {
         results.first_yield = first_yield.point;
         results.factor = self.solver.structure.sub.cost();
         results.condition = self.solver.structure.condition;
-        let tolerances = quality::tolerances(model);
+        let tolerances = quality::tolerances(model, self.solver.structure.unbalanced);
         let states = results.states.iter().map(|s| (s.name.as_str(), s.quality));
         let judged: Vec<(&str, Quality)> =
             states.chain(self.at_yield.map(|q| ("yield", q))).collect();
@@ -47,6 +49,10 @@ impl Run<'_, '_> {
             results.warnings.push(text);
         }
         if let Some(text) = self.position.deformation.warning() {
+            self.observer.warning(&text);
+            results.warnings.push(text);
+        }
+        for text in never_closed(model, &results.states) {
             self.observer.warning(&text);
             results.warnings.push(text);
         }
@@ -105,4 +111,33 @@ impl Run<'_, '_> {
         }
         results
     }
+}
+
+/// Warnings of contacts none of whose pairs is closed in any state.
+fn never_closed(model: &Model, states: &[State]) -> Vec<String> {
+    let contacts = model.contacts.iter().enumerate();
+    let open = contacts.filter_map(|(index, contact)| {
+        let pairs = || {
+            states
+                .iter()
+                .flat_map(|s| s.pairs.iter().map(move |pair| (s, pair)))
+        };
+        let mut own = pairs().filter(|(_, pair)| pair.contact == index).peekable();
+        own.peek()?;
+        let closed = |(_, pair): &(&State, &PairState)| pair.status == Status::Closed;
+        if pairs().any(|of| of.1.contact == index && closed(&of)) {
+            return None;
+        }
+        let nearest = own.min_by(|a, b| a.1.gap.total_cmp(&b.1.gap))?;
+        Some(format!(
+            "contact {} (`{}` on `{}`) is open in every state: its smallest gap is {}, in state \
+             `{}`; do the surfaces look at each other, and does the load close it?",
+            index + 1,
+            contact.names[0],
+            contact.names[1],
+            significant(nearest.1.gap, 4),
+            nearest.0.name
+        ))
+    });
+    open.collect()
 }

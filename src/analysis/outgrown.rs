@@ -2,6 +2,7 @@
 //! to be believed.
 
 use super::drive::{Arrival, IncrementReport, Step};
+use super::loose::NOTHING;
 use super::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Kind;
@@ -14,14 +15,18 @@ impl Solver<'_> {
     /// The step that an accepted increment is; the one before it ended at load factor `from`.
     ///
     /// # Errors
-    /// [`ErrorKind::Outgrown`] where contact has reached an end of the candidates beyond which the
-    /// bodies go on.
+    /// A load that drives a body away from every contact; [`ErrorKind::Outgrown`] where contact has
+    /// reached an end of the candidates beyond which the bodies go on.
     pub(super) fn accepted(
-        &self,
+        &mut self,
         from: f64,
         report: IncrementReport,
         arrival: Option<Arrival>,
     ) -> Result<Step> {
+        self.refuse_driven_bodies()?;
+        if arrival.is_some() {
+            self.let_springs_go(NOTHING);
+        }
         match self.outgrown_at() {
             Some(pair) => Err(self.outgrown(pair, from)),
             None => Ok(Step {

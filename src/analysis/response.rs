@@ -30,6 +30,7 @@ impl Solver<'_> {
             q[k] += point.interference * self.structure.gaps.forces[1][k]
                 - self.structure.gaps.forces[0][k];
         }
+        self.add_springs(&mut q);
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         self.tableau.solve(&q, &mut gap, &mut force);
         // Displacements serve for strains: rigid motions, however large, are left out.

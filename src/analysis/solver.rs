@@ -11,17 +11,21 @@ use super::structure::{Cost, Structure};
 use super::zone::Zone;
 use crate::assembly::System;
 use crate::contact::Tableau;
+use crate::contact::springs::{Springs, with_springs};
 use crate::error::Result;
 use crate::linalg::Backend;
 use crate::model::{LoadCase, Magnitude, Model};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The structure in its current state.
 pub struct Solver<'m> {
     /// The structure.
     pub structure: Structure<'m>,
-    /// Contact matrix with the statuses of the pairs.
+    /// Contact matrix, with springs, and the statuses of the pairs.
     pub tableau: Tableau,
+    /// What keeps bodies where they are that nothing holds and nothing drives.
+    pub springs: Arc<[Springs]>,
     /// Elements that may yield, with their history.
     pub zone: Zone,
     /// Current load point.
@@ -86,6 +90,7 @@ impl<'m> Solver<'m> {
         let structure = Structure::new(model, system, backend, within, elements, &mut cost)?;
         let mut solver = Solver {
             tableau: structure.sub.tableau(),
+            springs: Arc::default(),
             zone: Zone::new(model, &structure.elements, guard, &structure.places),
             at: LoadPoint::unloaded(model.loads.len()),
             now: Equilibrium::none(&structure.sub.zeros(), structure.n_pairs()),
@@ -111,12 +116,44 @@ impl<'m> Solver<'m> {
             gap: structure.gaps.initial.clone(),
             ..Equilibrium::none(&structure.sub.zeros(), structure.n_pairs())
         };
+        self.set_springs(&Arc::default());
         let open: Vec<bool> = self.now.gap.iter().map(|g| *g > 0.0).collect();
         self.tableau.reset(&open);
         self.border.clear();
         self.predictor.last_step.fill(0.0);
         self.predictor.pace = None;
         self.fresh = true;
+    }
+
+    /// Puts these springs in the place of those at hand, the statuses being the same; false (and
+    /// nothing changed) where they are of another structure.
+    pub(super) fn set_springs(&mut self, springs: &Arc<[Springs]>) -> bool {
+        if !springs.iter().all(|own| own.fit(self.structure.n_pairs())) {
+            return false;
+        }
+        let same = self.springs.len() == springs.len();
+        let mut both = self.springs.iter().zip(springs.iter());
+        let as_stiff = same && both.all(|(a, b)| a.as_stiff_as(b));
+        self.springs = Arc::clone(springs);
+        if !as_stiff {
+            self.build_tableau();
+        }
+        true
+    }
+
+    /// Builds the tableau anew with the same statuses.
+    fn build_tableau(&mut self) {
+        let open = self.tableau.open().to_vec();
+        let matrix = with_springs(self.structure.sub.pair_matrix(), &self.springs);
+        self.tableau = Tableau::new(matrix);
+        self.tableau.reset(&open);
+    }
+
+    /// Adds to the forces `q` of closed pairs what springs exert on them.
+    pub(super) fn add_springs(&self, q: &mut [f64]) {
+        for springs in self.springs.iter() {
+            springs.add_at_rest(q);
+        }
     }
 
     /// Changes the zone to the given elements. State, statuses and history are kept.
@@ -126,9 +163,7 @@ impl<'m> Solver<'m> {
     pub fn set_zone(&mut self, elements: Vec<usize>, guard: &[bool]) -> Result<()> {
         let before = self.structure.elements.clone();
         if self.structure.set_zone(elements, &mut self.cost)? {
-            let open = self.tableau.open().to_vec();
-            self.tableau = self.structure.sub.tableau();
-            self.tableau.reset(&open);
+            self.build_tableau();
         }
         let structure = &self.structure;
         let mut zone = Zone::new(

@@ -6,6 +6,7 @@ use super::load_point::LoadPoint;
 use super::packed;
 use super::solver::Solver;
 use super::zone::History;
+use crate::contact::springs::Springs;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -20,6 +21,8 @@ pub(super) struct State {
     pub(super) fresh: bool,
     /// Which pairs are open.
     pub(super) open: Vec<bool>,
+    /// What keeps bodies where they are that nothing holds and nothing drives.
+    pub(super) springs: Arc<[Springs]>,
     /// Pairs at the border of their condition.
     pub(super) border: Vec<usize>,
     /// Number of the zone among those that were chosen in the run.
@@ -57,6 +60,7 @@ impl Solver<'_> {
             equilibrium: self.now.clone(),
             fresh: self.fresh,
             open: self.tableau.open().to_vec(),
+            springs: Arc::clone(&self.springs),
             border: self.border.clone(),
             zone: self.structure.zone_number,
             elements: Arc::clone(&self.structure.elements),
@@ -79,12 +83,14 @@ impl Solver<'_> {
             self.now.initial = self.structure.eliminate(initial, &mut self.cost);
             self.fresh = false;
         }
+        self.set_springs(&state.springs);
         self.restore_statuses(&state.open, &state.border);
     }
 
     /// Goes back to an elastic state from others that were only looked at: the contact matrix is
     /// swept anew.
     pub(super) fn restore_elastic(&mut self, state: &State) {
+        self.set_springs(&state.springs);
         self.tableau.reset(&state.open);
         self.restore(state);
     }

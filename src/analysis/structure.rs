@@ -8,7 +8,7 @@ use super::zone_choice::zone_freedoms;
 use crate::assembly::System;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
-use crate::model::{Model, Pair};
+use crate::model::{Model, Pair, Work};
 use crate::results::Counts;
 use crate::substructure::{Substructure, Trailing};
 use rayon::prelude::*;
@@ -34,6 +34,9 @@ pub struct Structure<'m> {
     /// ([`Substructure::condition`]): an inaccurate one is not forgotten when another zone asks for
     /// the next.
     pub condition: f64,
+    /// Share of the forces on tied pairs that elimination left out of balance with the loads on
+    /// floating bodies, at most: its round-off.
+    pub unbalanced: f64,
     /// Where zone and contact freedoms are.
     pub places: Places,
     /// Elements of the zone, ascending.
@@ -110,6 +113,7 @@ impl<'m> Structure<'m> {
         let initial: Vec<f64> = model.pairs.iter().map(|p| p.gap).collect();
         let mut structure = Structure {
             condition: sub.condition(),
+            unbalanced: 0.0,
             places: places(model, &sub),
             factored: within.into(),
             elements: within.into(),
@@ -178,20 +182,7 @@ impl<'m> Structure<'m> {
         cost.counts.full_solves += self.system.loads.iter().filter(|load| acts(load)).count();
         self.reduce_far_boundary(cost)?;
         self.condense_loads(cost)?;
-        let forces = self.loads.condensed.iter().zip(&self.model.alike);
-        let forces = forces.map(|(load, alike)| {
-            let mut forces = load.forces.clone();
-            // Heat pushes no body away: what round-off leaves of it is not carried by anything.
-            let acting = || {
-                let loads = alike.iter().map(|&load| &self.model.loads[load]);
-                loads.flat_map(|load| &load.forces)
-            };
-            let mut motions = self.model.floating.motions.iter();
-            if !motions.any(|motion| motion.is_driven_by(acting())) {
-                self.sub.balance(&mut forces);
-            }
-            forces
-        });
+        let forces = self.loads.condensed.iter().map(|load| load.forces.clone());
         self.loads.forces = forces.collect();
         Ok(())
     }
@@ -223,11 +214,12 @@ impl<'m> Structure<'m> {
         let reduced = self.loads.reduced.iter();
         let condensed: Result<Vec<_>> = reduced.map(|l| self.sub.condense(l)).collect();
         let condensed = condensed?.into_iter().zip(&self.model.alike);
+        let mut unbalanced = self.unbalanced;
         let eliminated = condensed.map(|(load, alike)| {
             let mut out = self.eliminate(load, cost);
-            let opening = || alike.iter().map(|&load| &self.model.loads[load]);
-            if opening().any(|case| !case.opens.is_empty()) {
-                let opened = |pair: &Pair| opening().map(|case| case.gap(pair)).sum();
+            let of_alike = || alike.iter().map(|&load| &self.model.loads[load]);
+            if of_alike().any(|case| !case.opens.is_empty()) {
+                let opened = |pair: &Pair| of_alike().map(|case| case.gap(pair)).sum();
                 let gaps: Vec<f64> = self.model.pairs.iter().map(opened).collect();
                 let forces = self.sub.slip_forces(&gaps);
                 out.forces
@@ -235,9 +227,16 @@ impl<'m> Structure<'m> {
                     .zip(forces)
                     .for_each(|(t, force)| *t -= force);
             }
+            let acting = || of_alike().flat_map(|load| &load.forces);
+            let motions = self.model.floating.motions.iter();
+            let work: Vec<Work> = motions.map(|motion| motion.work_of(acting())).collect();
+            let left = self.sub.balance(&mut out.forces, &work);
+            let largest = out.forces.iter().fold(0.0f64, |m, t| m.max(t.abs()));
+            unbalanced = unbalanced.max(left / largest.max(f64::MIN_POSITIVE));
             out
         });
         self.loads.condensed = eliminated.collect();
+        self.unbalanced = unbalanced;
         self.loads.driving = DrivingForce::new(self, cost)?;
         Ok(())
     }

@@ -65,10 +65,12 @@ impl Solver<'_> {
     /// # Errors
     /// A load that drives a body away from every contact.
     pub fn solve_contact_at(&mut self, point: &LoadPoint) -> Result<()> {
+        self.move_loose_bodies(point)?;
         let mut q = self.structure.closed_forces(point);
         for (q, t) in q.iter_mut().zip(&self.now.initial.forces) {
             *q += t;
         }
+        self.add_springs(&mut q);
         let n = q.len();
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         let outcome = contact::solve(&mut self.tableau, &q, &mut gap, &mut force);

@@ -9,7 +9,8 @@
 //! ```
 //!
 //! A linear program in as many unknowns as there are motions. No load is needed to find it, so
-//! that none can be too small beside the round-off of `T g`.
+//! that none can be too small beside the round-off of `T g`. A motion that the load does not drive
+//! (a roller between two plates, sideways) has no place of least work: it stays where it is.
 //!
 //! # Source
 //! The gradient projection method: J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed.,
@@ -21,63 +22,49 @@ use std::collections::BTreeSet;
 
 /// Share of the terms of a sum that is its round-off.
 const ROUND_OFF: f64 = 1e-11;
-
 /// Moves the pairs of a group by rigid motions, whose displacements are the columns of `slips`
-/// (orthonormal), to where the load rate `q` takes them. As many pairs as there are motions then
-/// have no gap: where the load does not drive a motion, the nearest pair ends it.
+/// (orthonormal), to where the load rate `q`, a sum of `terms`, takes them. What the load does not
+/// drive stays where it is: returned are the motions that nothing drives and no pair without gap
+/// then holds (`motions x free ones`, orthonormal).
 ///
 /// # Errors
 /// [`Unbounded`] where no pair stops a motion that the load drives.
 pub(crate) fn come_to_rest(
     slips: &DMatrix<f64>,
-    q: &DVector<f64>,
+    [q, terms]: [&DVector<f64>; 2],
     gap: &mut DVector<f64>,
-) -> Result<(), Unbounded> {
+) -> Result<DMatrix<f64>, Unbounded> {
     let pull = -slips.tr_mul(q);
-    let small = ROUND_OFF * slips.abs().tr_mul(&q.abs()).norm();
+    let size = |q: &DVector<f64>| slips.abs().tr_mul(&q.abs()).norm();
+    let of_terms = 8.0 * f64::EPSILON * (q.len() as f64).sqrt();
+    let small = (ROUND_OFF * size(q)).max(of_terms * size(terms));
     let mut touching: Vec<usize> = Vec::new();
     let mut seen = BTreeSet::new();
     loop {
         let qr = slips.select_rows(&touching).transpose().qr();
         let held = qr.q();
         let held_pull = held.tr_mul(&pull);
-        let left = &pull - &held * &held_pull;
-        let driven = left.norm() > small;
-        let way = if driven {
-            left
-        } else {
+        let way = &pull - &held * &held_pull;
+        if way.norm() <= small {
             // Pairs that would have to pull are let go, unless that leads in a circle.
             let pulling = qr.r().solve_upper_triangular(&held_pull).and_then(|force| {
                 let of_pairs = touching.iter().zip(force.iter()).enumerate();
                 let pulling = of_pairs.filter(|(_, (k, f))| *f * slips.row(**k).norm() > small);
                 pulling.min_by_key(|(_, (k, _))| **k).map(|(i, _)| i)
             });
-            if let Some(i) = pulling.filter(|_| seen.insert(touching.clone())) {
-                touching.remove(i);
-                continue;
+            match pulling.filter(|_| seen.insert(touching.clone())) {
+                Some(i) => {
+                    touching.remove(i);
+                    continue;
+                }
+                None => return Ok(complement(&held)),
             }
-            match free_motion(&held) {
-                Some(way) => way,
-                None => break,
-            }
-        };
+        }
         // Those that touch stay where they are, whatever round-off says.
         let mut moves = slips * &way;
         touching.iter().for_each(|&k| moves[k] = 0.0);
-        let (step, k) = match (next(slips, &way, &moves, gap, 1.0), driven) {
-            (Some(ahead), true) => ahead,
-            (None, true) => return Err(Unbounded { pair: moves.imax() }),
-            (ahead, false) => {
-                let back = next(slips, &way, &moves, gap, -1.0);
-                let both = [ahead, back.map(|(step, k)| (-step, k))]
-                    .into_iter()
-                    .flatten();
-                match both.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) {
-                    Some(nearest) => nearest,
-                    None => break,
-                }
-            }
-        };
+        let (step, k) =
+            next(slips, &way, &moves, gap).ok_or_else(|| Unbounded { pair: moves.imax() })?;
         gap.axpy(step, &moves, 1.0);
         touching.push(k);
         for &k in &touching {
@@ -85,33 +72,35 @@ pub(crate) fn come_to_rest(
         }
         gap.apply(|g| *g = g.max(0.0));
     }
-    Ok(())
 }
 
-/// The pair that closes first along `sign` times the way, and the share of the way until then; of
-/// equals the least.
+/// The pair that closes first along the way, and the share of the way until then; of equals the
+/// least.
 fn next(
     slips: &DMatrix<f64>,
     way: &DVector<f64>,
     moves: &DVector<f64>,
     gap: &DVector<f64>,
-    sign: f64,
 ) -> Option<(f64, usize)> {
-    let closing = |k: &usize| -sign * moves[*k] > ROUND_OFF * slips.row(*k).norm() * way.norm();
+    let closing = |k: &usize| -moves[*k] > ROUND_OFF * slips.row(*k).norm() * way.norm();
     let steps = (0..gap.len()).filter(closing);
     let steps = steps.map(|k| (gap[k] / moves[k].abs(), k));
     steps.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// A motion that the orthonormal `held` leave free: the unit vector of which they hold least.
-fn free_motion(held: &DMatrix<f64>) -> Option<DVector<f64>> {
+/// An orthonormal basis of what is orthogonal to the orthonormal columns of `held`.
+fn complement(held: &DMatrix<f64>) -> DMatrix<f64> {
     let m = held.nrows();
-    if held.ncols() >= m {
-        return None;
+    let mut left = DMatrix::identity(m, m) - held * held.transpose();
+    let mut basis = DMatrix::zeros(m, m - held.ncols());
+    for mut column in basis.column_iter_mut() {
+        // `left` is a projection: the column of its largest diagonal entry is its longest.
+        let most = left.diagonal().imax();
+        let longest = left.column(most).normalize();
+        left -= &longest * longest.transpose();
+        column.copy_from(&longest);
     }
-    let free = DMatrix::identity(m, m) - held * held.transpose();
-    let most = free.diagonal().imax();
-    Some(free.column(most).into_owned())
+    basis
 }
 
 #[cfg(test)]
@@ -127,14 +116,17 @@ mod tests {
         let from = DVector::from_vec(vec![0.3, 0.2, 1.0]);
         let rest = |q: [f64; 3]| {
             let mut gap = from.clone();
-            come_to_rest(&slips, &DVector::from_row_slice(&q), &mut gap).map(|()| gap)
+            let q = DVector::from_row_slice(&q);
+            let found = come_to_rest(&slips, [&q, &q], &mut gap);
+            found.map(|free| (gap, free.ncols()))
         };
-        let into = rest([1.0, 2.0, 0.0]).expect("both walls hold it");
-        assert_eq!(into.as_slice(), [0.0, 0.0, 1.0]);
-        // Nothing drives it along the first wall: it goes to where the second holds it too.
-        let onto_one = rest([1.0, 0.0, 0.0]).expect("the first wall holds it");
-        assert_eq!(onto_one.as_slice(), [0.0, 0.0, 1.0]);
-        assert_eq!(rest([0.0; 3]), Ok(into));
+        let at = |gap: [f64; 3]| DVector::from_row_slice(&gap);
+        let into = rest([1.0, 2.0, 0.0]);
+        assert_eq!(into, Ok((at([0.0, 0.0, 1.0]), 0)));
+        // Nothing drives it along the first wall.
+        let onto_one = rest([1.0, 0.0, 0.0]);
+        assert_eq!(onto_one, Ok((at([0.0, 0.2, 1.0]), 1)));
+        assert_eq!(rest([0.0; 3]), Ok((from.clone(), 2)));
         assert_eq!(rest([1.0, -2.0, 0.0]), Err(Unbounded { pair: 1 }));
     }
 
@@ -155,7 +147,7 @@ mod tests {
             let from = DVector::from_row_slice(&gaps[..n]);
             let q = DVector::from_row_slice(&q[..n]);
             let mut gap = from.clone();
-            let found = come_to_rest(&slips, &q, &mut gap);
+            let found = come_to_rest(&slips, [&q, &q], &mut gap);
             let t = DMatrix::identity(n, n) - &slips * slips.transpose();
             prop_assume!(t.diagonal().min() > 1e-3);
             let (mut g, mut r) = (vec![0.0; n], vec![0.0; n]);

@@ -17,12 +17,14 @@
 //! * [`solve`]: statuses for a given `q` (paper 3.7 to 3.10), finite for every semidefinite `T`;
 //! * [`Path`]: statuses for `q` moving along a line, from one change of contact to the next (paper
 //!   4.10 to 4.23);
-//! * `loose`: where bodies that nothing holds yet are taken by the first bit of load.
+//! * `loose`: where bodies that nothing holds yet are taken by the first bit of load;
+//! * `springs`: what it does not drive stays where it is.
 
 mod complementarity;
 pub(crate) mod loose;
 mod matrix;
 mod path;
+pub(crate) mod springs;
 mod swept;
 mod tableau;
 

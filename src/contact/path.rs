@@ -51,7 +51,7 @@ const NEVER: usize = usize::MAX;
 /// Share of a tie by which a pair may be beyond its condition at the end of a piece: round-off of
 /// an event that is due there.
 const AT_END: f64 = 1e-2;
-/// The same for the last pair that holds a body, as a share of its force at the start.
+/// The same for the last pairs that hold a body, as a share of their forces at the start.
 const LAST: f64 = 1e-7;
 
 /// Gaps and forces on a piece of the load path.
@@ -213,14 +213,22 @@ impl Path {
         let mut step = room;
         let mut first = None;
         let (end_gap, end_force) = self.zero(tableau, AT_END);
+        // Whether the group of a pair carries nothing at the end any more.
+        let comes_loose = |path: &Path, k: usize| {
+            let (block, _) = tableau.matrix().place(k);
+            let pairs = &tableau.matrix().blocks()[block].pairs;
+            let sum = |of: &[f64]| pairs.iter().map(|&k| of[k]).sum::<f64>();
+            let now = sum(&path.force);
+            now + room * sum(&path.force_rate) <= LAST * now
+        };
         for k in 0..tableau.len() {
             let (value, rate) = self.value_and_rate(tableau, k);
             if rate < 0.0 && value + step * rate < 0.0 {
                 let at_end = if tableau.open()[k] {
                     end_gap
-                } else if tableau.would_free(k) {
-                    // The last pair that holds a body cannot open: unloaded to nothing its force
-                    // vanishes near the end.
+                } else if tableau.would_free(k) || comes_loose(self, k) {
+                    // The last pairs that hold a body cannot open: unloaded to nothing their forces
+                    // vanish near the end.
                     LAST * value
                 } else {
                     end_force

@@ -12,6 +12,9 @@ const SINGULAR: f64 = 1e-11;
 const NOT_SINGULAR: f64 = 1e-4;
 /// Multiple of the round-off to be expected beyond which a solution has lost its digits.
 const LOST: f64 = 1e3;
+/// Rounds of a solution: two, and more where the matrix is so near to a singular one that they do
+/// not settle it.
+const MOST_ROUNDS: usize = 4;
 /// Pivots after which the transform is rebuilt from the original matrix.
 const REBUILD: usize = 2000;
 
@@ -206,8 +209,8 @@ impl Tableau {
     }
 
     /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`,
-    /// `g_c = 0`, `r = q + T g`. The gaps are refined once against `T`, so that errors of many
-    /// pivots do not stay.
+    /// `g_c = 0`, `r = q + T g`. The gaps are refined against `T`, so that errors of many pivots do
+    /// not stay.
     pub fn solve(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
         self.solve_with_residual(q, gap, force);
     }
@@ -228,14 +231,18 @@ impl Tableau {
     fn solve_with_residual(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) -> f64 {
         gap.fill(0.0);
         force.copy_from_slice(q);
-        for _ in 0..2 {
+        let mut residual = f64::INFINITY;
+        for round in 0..MOST_ROUNDS {
             self.correct(force, gap);
             force.copy_from_slice(q);
             self.matrix.add_product(gap, force);
+            let left = force.iter().zip(&self.open).filter(|(_, open)| **open);
+            residual = left.fold(0.0f64, |m, (f, _)| m.max(f.abs()));
+            if round > 0 && residual <= self.force_tolerance(q, gap) {
+                break;
+            }
         }
-        let mut residual = 0.0f64;
         for (f, _) in force.iter_mut().zip(&self.open).filter(|(_, open)| **open) {
-            residual = residual.max(f.abs());
             *f = 0.0;
         }
         residual

@@ -51,11 +51,43 @@ impl RigidMotion {
         place.map_or(0.0, |at| self.values[at].1)
     }
 
-    /// Whether forces on free freedoms (freedom, force) do work on the motion.
-    pub fn is_driven_by<'f>(&self, forces: impl Iterator<Item = &'f (usize, f64)>) -> bool {
+    /// What forces on free freedoms (freedom, force) do on the motion.
+    pub fn work_of<'f>(&self, forces: impl Iterator<Item = &'f (usize, f64)>) -> Work {
         let works = forces.map(|&(freedom, force)| force * self.at(freedom));
-        let (work, size) = works.fold((0.0, 0.0), |(sum, size), w: f64| (sum + w, size + w.abs()));
-        work.abs() > NO_WORK * size
+        works.fold(Work::default(), |sum, work| sum.and(1.0, work, work.abs()))
+    }
+}
+
+/// Work on a rigid motion: a sum and that of the sizes of its terms.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Work {
+    sum: f64,
+    size: f64,
+}
+
+impl Work {
+    /// With `share` of another one of this sum and size.
+    fn and(self, share: f64, sum: f64, size: f64) -> Self {
+        Work {
+            sum: self.sum + share * sum,
+            size: self.size + share.abs() * size,
+        }
+    }
+
+    /// That on a motion which has shares of others.
+    pub fn combined(shares: impl Iterator<Item = (f64, Work)>) -> Self {
+        shares.fold(Work::default(), |all, (share, own)| {
+            all.and(share, own.sum, own.size)
+        })
+    }
+
+    /// The work: none where it is no more than the round-off of its terms.
+    pub fn done(self) -> f64 {
+        if self.sum.abs() > NO_WORK * self.size {
+            self.sum
+        } else {
+            0.0
+        }
     }
 }
 
@@ -70,6 +102,9 @@ pub struct Pin {
 
 /// Work of a load on a motion below this, relative to the sum of its parts, is none.
 const NO_WORK: f64 = 1e-9;
+/// The same on a motion that was found as one which moves no pair by more than 1e-7 of its own
+/// displacement: the centre of a round surface is known no better.
+const NO_WORK_FOUND: f64 = 1e-6;
 
 /// The floating bodies, and the contact rows on the freedoms that pins leave.
 pub(super) fn resolve(
@@ -107,7 +142,7 @@ pub(super) fn resolve(
             groups.iter().for_each(|&group| moved[group] = true);
             let motion = motions.describe(mode);
             for (load, work) in motions.work(mode, &forces) {
-                if work.abs() > NO_WORK * forces.size[load] * mode.largest() {
+                if work.abs() > NO_WORK_FOUND * forces.size[load] * mode.largest() {
                     return Err(Error::new(
                         ErrorKind::Unheld,
                         format!(

@@ -25,6 +25,7 @@ pub(crate) mod mirror;
 mod motions;
 mod names;
 mod pairs;
+mod plausible;
 mod recipe;
 mod rows;
 mod springs;
@@ -40,7 +41,7 @@ pub use frame::Frame;
 pub use freedoms::{Freedoms, Prescribed, Slot};
 pub use given::NodePair;
 pub use heat::{FreeOfLoad, FreeStrain};
-pub use held::{FloatingBodies, Pin, RigidMotion};
+pub use held::{FloatingBodies, Pin, RigidMotion, Work};
 pub use loads::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
 pub use rows::ContactRows;
@@ -55,7 +56,7 @@ use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
 use crate::space::Vector;
 use given::Given;
-use mirror::Mirror;
+pub(crate) use mirror::Mirror;
 use names::Entry;
 use rayon::prelude::*;
 pub(crate) use recipe::Recipe;
@@ -166,6 +167,7 @@ impl Model {
         let mut warnings = scene.warnings.clone();
         warnings.extend(scene.beyond_rows());
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
+        warnings.extend(plausible::of_materials(scene));
         warn_of_locking(&mesh, &may_yield, &mut warnings);
         if kind.is_axisymmetric() {
             check_radii(&mesh)?;
@@ -233,6 +235,8 @@ impl Model {
         for (contact, mirrors) in model.contacts.iter_mut().zip(mirrors) {
             contact.mirrors = mirrors;
         }
+        let warning = plausible::of_symmetry(&model);
+        model.warnings.extend(warning);
         Ok(model)
     }
 

@@ -12,7 +12,7 @@ use super::{PairBlock, PairMatrix};
 use crate::classes::Classes;
 use crate::error::Result;
 use crate::linalg::ContactStiffness;
-use crate::model::RigidMotion;
+use crate::model::{RigidMotion, Work};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -182,6 +182,22 @@ impl Groups {
         groups
             .filter_map(|group| Some((group.pairs.as_slice(), group.tied.rigid_slips()?)))
             .collect()
+    }
+
+    /// Makes forces on the pairs do the work on rigid motions that is known of each motion of the
+    /// model; the largest change.
+    pub(super) fn balance(&self, forces: &mut [f64], work: &[Work]) -> f64 {
+        let mut largest = 0.0f64;
+        for group in &self.groups {
+            let before = DVector::from_vec(of_pairs(group, forces));
+            let known = |motion: usize| work[group.motions[motion]];
+            let own = group.tied.balanced(before.clone(), known);
+            for (&k, &force) in group.pairs.iter().zip(own.iter()) {
+                forces[k] = force;
+            }
+            largest = largest.max((own - before).amax());
+        }
+        largest
     }
 
     /// Multiplications that putting leaders and followers together took.

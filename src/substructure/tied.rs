@@ -35,6 +35,7 @@ use super::rows::Rows;
 use super::tied_stiffness::TiedStiffness;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{ContactStiffness, blocked};
+use crate::model::Work;
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn};
 use rayon::prelude::*;
 
@@ -190,6 +191,23 @@ impl Tied {
     pub(super) fn rigid_slips(&self) -> Option<DMatrix<f64>> {
         let columns: Vec<_> = self.rigid_slips.iter().map(|s| s.values.clone()).collect();
         (!columns.is_empty()).then(|| DMatrix::from_columns(&columns))
+    }
+
+    /// Forces on the rows with the work on rigid motions that is known of each motion of the group:
+    /// elimination leaves a share of the order of its round-off times the condition, and a body
+    /// would be driven by it.
+    pub(super) fn balanced(
+        &self,
+        mut forces: DVector<f64>,
+        work: impl Fn(usize) -> Work,
+    ) -> DVector<f64> {
+        for rigid in &self.rigid_slips {
+            let shares = rigid.of_motion.iter().enumerate();
+            let known = Work::combined(shares.map(|(motion, share)| (*share, work(motion)))).done();
+            let left = known - rigid.values.dot(&forces);
+            forces.axpy(left, &rigid.values, 1.0);
+        }
+        forces
     }
 
     /// Numbers that the dense matrices hold.

@@ -235,6 +235,7 @@ fn the_estimate_of_a_file_is_bounded_and_told_before() {
         let mut msh = Msh::default();
         let body = Body {
             name: "b",
+            from: 0.0,
             width: 1.0,
             cells,
             heights: [&|_| 0.0, &|_| 1.0],

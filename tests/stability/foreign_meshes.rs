@@ -53,6 +53,7 @@ fn model(seed: u64, folder: &Path) -> String {
     let bodies = [
         Body {
             name: "plate",
+            from: 0.0,
             width: base,
             cells: cells(),
             heights: [&under, &flat],
@@ -62,6 +63,7 @@ fn model(seed: u64, folder: &Path) -> String {
         },
         Body {
             name: "upper",
+            from: 0.0,
             width: 1.0,
             cells: cells(),
             heights: [bottom, &top],

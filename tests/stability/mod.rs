@@ -12,6 +12,7 @@ mod foreign_meshes;
 mod held_by_contact;
 mod incompressible;
 mod killed;
+mod loose_sideways;
 mod numbers;
 mod outgrown;
 mod peers;

@@ -267,3 +267,33 @@ program.targets = [{{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]
         assert_eq!(results.states[1].contact_force, 0.0, "{text}");
     }
 }
+
+/// A contact that no state closes is named with what is left of its gap: surfaces that look the
+/// wrong way, or a load that does not reach.
+#[test]
+fn a_contact_that_never_closes_is_named() {
+    let warning = |down: f64| {
+        let text = r#"
+kind = "plane_strain"
+mesh.parts = [
+    { body = "a", element = "quad4", block = { x = [0, 2], y = [0, 1], elements = [2, 1] } },
+    { body = "b", element = "quad4", block = { x = [0, 2], y = [2, 3], elements = [2, 1] } },
+]
+materials.s = { youngs_modulus = 210e3, poissons_ratio = 0.3 }
+bodies = { a.material = "s", b.material = "s" }
+contact = [{ first = "b.bottom", second = "a.top" }]
+support = [{ on = "a.bottom", fix = ["x", "y"] }, { on = "b.top", fix = ["x"] }]
+load = [{ on = "b.top", displacement = { y = DOWN } }]
+program.targets = [{ load_factor = 1.0 }, { load_factor = 0.0 }]
+"#;
+        let results = run(&parse(&text.replace("DOWN", &format!("{:?}", -down))));
+        let mut warnings = results.warnings.into_iter();
+        warnings.find(|text| text.contains("is open in every state"))
+    };
+    assert_eq!(warning(1.01), None);
+    let text = warning(0.75).expect("a warning");
+    assert!(
+        text.contains("its smallest gap is 0.2500, in state `alpha 1`"),
+        "{text}"
+    );
+}

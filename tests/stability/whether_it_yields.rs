@@ -281,6 +281,7 @@ fn mesh(random: &mut Random, kind: &str, file: &Path) -> (String, Held, [&'stati
             let mut msh = Msh::default();
             let body = Body {
                 name: "b",
+                from: 0.0,
                 width: random.one_of(&[0.3, 1.0, 3.0]),
                 cells: [1 + m / 3, 1 + n / 2],
                 heights: [&|_| 0.0, &|_| 1.0],

@@ -15,6 +15,13 @@ pub struct Msh {
 }
 
 impl Msh {
+    /// Moves every node.
+    pub fn map(&mut self, to: impl Fn([f64; 3]) -> [f64; 3]) {
+        for x in &mut self.nodes {
+            *x = to(*x);
+        }
+    }
+
     fn group(&mut self, dimension: u32, name: String) -> usize {
         self.groups.push((dimension, name));
         self.groups.len()
@@ -46,9 +53,10 @@ impl Msh {
     }
 }
 
-/// A body over `[0, width]` (times `[0, width]`) between two heights, and how it is meshed.
+/// A body over `[from, from + width]` (squared in space) between two heights, and how it is meshed.
 pub struct Body<'a> {
     pub name: &'static str,
+    pub from: f64,
     pub width: f64,
     /// Cells along and up.
     pub cells: [usize; 2],
@@ -96,8 +104,8 @@ impl Body<'_> {
         let mut node = |msh: &mut Msh, [i, j]: [usize; 2]| {
             *at.entry([i, j]).or_insert_with(|| {
                 let mid = |of: &[f64], k: usize| 0.5 * (of[k / 2] + of[k.div_ceil(2)]);
-                let x = self.width * mid(&along, i);
-                let ends = [i / 2, i.div_ceil(2)].map(|k| self.width * along[k]);
+                let x = self.from + self.width * mid(&along, i);
+                let ends = [i / 2, i.div_ceil(2)].map(|k| self.from + self.width * along[k]);
                 let share = mid(&up, j);
                 // Edges inside are straight, those of the faces follow them.
                 let y = match j == 0 || j == 2 * n {
@@ -162,7 +170,10 @@ impl Body<'_> {
         let up = self.places(n, 1.0, None, random);
         // Halves of cells: nodes in the middle of edges stand between.
         let corner = |[i, j, k]: [usize; 3]| {
-            let (x, y) = (self.width * x[i / 2], self.width * y[j / 2]);
+            let (x, y) = (
+                self.from + self.width * x[i / 2],
+                self.from + self.width * y[j / 2],
+            );
             [x, y, self.height(x.hypot(y), up[k / 2])]
         };
         let place = |at: [usize; 3]| {

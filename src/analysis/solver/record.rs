@@ -89,6 +89,7 @@ impl<'m> Solver<'m> {
         let fits = solver.knows(&record.state)
             && (record.predictor.pace.iter())
                 .all(|pace| pace.is_like(&record.state.equilibrium.initial))
+            && solver.set_springs(&record.state.springs)
             && solver.tableau.replay(&record.pivots)
             && solver.tableau.open() == record.state.open
             && record.load_forces.len() == solver.structure.loads.forces.len()
@@ -139,7 +140,7 @@ impl<'m> Solver<'m> {
                 hash.update(&value.to_bits().to_le_bytes());
             }
         };
-        for block in self.tableau.matrix().blocks() {
+        for block in self.structure.sub.pair_matrix().blocks() {
             add(block.matrix.as_slice());
         }
         self.structure

@@ -1,0 +1,134 @@
+//! Weak springs on what nothing holds and nothing drives.
+//!
+//! A round punch on a block: the one pair in the middle carries the load and stops no motion across
+//! its normal. No load drives such a motion, so it has no place of its own; with `T` singular every
+//! change of status, which may hold the body or not, is decided by round-off. A spring of next to
+//! no stiffness keeps it where it is. In a state that is read the spring is without force: it is
+//! let go there, until nothing moves any more (the proximal point method: R. T. Rockafellar (1976),
+//! doi:10.1137/0314056).
+
+use super::{PairBlock, PairMatrix};
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Stiffness of a spring as a share of what the pairs that it moves have. What round-off drives,
+/// 1e-13 of the load, moves by 1e-5 of the deformation; and next to what holds a motion by so
+/// little as round surfaces of few elements do, 1e-5, it is still nothing.
+const WEAK: f64 = 1e-8;
+
+/// Weak springs, on the pairs of a group, that keep the motions which nothing holds and nothing
+/// drives where they are, so that each pair may open: `T` becomes `T + F F'`, and the forces `q`
+/// get `-F F' g_0` with the gaps `g_0` at which the springs are without force.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Springs {
+    pairs: Vec<usize>,
+    /// The columns of `F`, one for each motion.
+    directions: Vec<Vec<f64>>,
+    /// `F' g_0`.
+    at_rest: Vec<f64>,
+}
+
+impl Springs {
+    /// Springs on the motions whose displacements of the pairs are the columns of `motions`
+    /// (orthonormal), without force at these gaps.
+    pub(crate) fn new(
+        matrix: &PairMatrix,
+        pairs: &[usize],
+        motions: &DMatrix<f64>,
+        gap: &[f64],
+    ) -> Self {
+        let directions = motions.column_iter().map(|motion| {
+            let of_pairs = pairs.iter().zip(motion.iter());
+            let stiffness: f64 = of_pairs.map(|(&k, s)| s * s * matrix.diagonal(k)).sum();
+            let root = (WEAK * stiffness).sqrt();
+            motion.iter().map(|s| root * s).collect()
+        });
+        let mut springs = Springs {
+            pairs: pairs.to_vec(),
+            directions: directions.collect(),
+            at_rest: Vec::new(),
+        };
+        springs.at_rest = springs.amplitudes(gap);
+        springs
+    }
+
+    /// The pairs of the group.
+    pub(crate) fn pairs(&self) -> &[usize] {
+        &self.pairs
+    }
+
+    /// Whether they are springs on pairs of so many.
+    pub(crate) fn fit(&self, n_pairs: usize) -> bool {
+        let of_pairs = |direction: &Vec<f64>| direction.len() == self.pairs.len();
+        self.pairs.iter().all(|&k| k < n_pairs)
+            && self.directions.iter().all(of_pairs)
+            && self.at_rest.len() == self.directions.len()
+    }
+
+    /// Whether others differ in where they are without force at most.
+    pub(crate) fn as_stiff_as(&self, other: &Springs) -> bool {
+        self.pairs == other.pairs && self.directions == other.directions
+    }
+
+    /// The same springs without force at other gaps.
+    pub(crate) fn moved_to(&self, gap: &[f64]) -> Self {
+        Springs {
+            at_rest: self.amplitudes(gap),
+            ..self.clone()
+        }
+    }
+
+    /// `F' g`.
+    fn amplitudes(&self, gap: &[f64]) -> Vec<f64> {
+        let along = |direction: &Vec<f64>| {
+            let of_pairs = self.pairs.iter().zip(direction);
+            of_pairs.map(|(&k, f)| f * gap[k]).sum()
+        };
+        self.directions.iter().map(along).collect()
+    }
+
+    /// Adds `F a` to the forces of all pairs.
+    fn add_times(&self, amplitudes: &[f64], forces: &mut [f64]) {
+        for (direction, a) in self.directions.iter().zip(amplitudes) {
+            for (&k, f) in self.pairs.iter().zip(direction) {
+                forces[k] += f * a;
+            }
+        }
+    }
+
+    /// Adds `-F F' g_0` to the forces of all pairs.
+    pub(crate) fn add_at_rest(&self, forces: &mut [f64]) {
+        let back: Vec<f64> = self.at_rest.iter().map(|a| -a).collect();
+        self.add_times(&back, forces);
+    }
+
+    /// The largest force that they exert on a pair at these gaps: `F F' (g - g_0)`.
+    pub(crate) fn largest_force(&self, gap: &[f64]) -> f64 {
+        let mut forces = vec![0.0; gap.len()];
+        self.add_times(&self.amplitudes(gap), &mut forces);
+        self.add_at_rest(&mut forces);
+        forces.iter().fold(0.0f64, |m, f| m.max(f.abs()))
+    }
+}
+
+/// The matrix of the pairs with springs.
+pub(crate) fn with_springs(matrix: &PairMatrix, springs: &[Springs]) -> PairMatrix {
+    if springs.is_empty() {
+        return matrix.clone();
+    }
+    let mut blocks = matrix.blocks().to_vec();
+    for own in springs.iter().filter(|springs| !springs.pairs.is_empty()) {
+        let block: &mut PairBlock = &mut blocks[matrix.place(own.pairs[0]).0];
+        let stiffness = Arc::make_mut(&mut block.matrix);
+        for direction in &own.directions {
+            let place = |i: usize| matrix.place(own.pairs[i]).1;
+            for (j, f) in direction.iter().enumerate() {
+                for (i, g) in direction.iter().enumerate() {
+                    stiffness[(place(i), place(j))] += f * g;
+                }
+            }
+        }
+    }
+    PairMatrix::new(blocks)
+}

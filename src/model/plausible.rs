@@ -1,0 +1,126 @@
+//! What a scene says that is probably not meant.
+
+use super::Model;
+use super::mirror::{Conditions, mirrors};
+use crate::number::{exact, significant};
+use crate::scene::Scene;
+
+/// Strains at yield, of lead and of elastomers: M. F. Ashby, *Materials Selection in Mechanical
+/// Design*, 4th ed. (2011), chart of strength over modulus, with a decade to either side.
+const YIELD_STRAINS: [f64; 2] = [1e-6, 1.0];
+/// Logarithmic plastic strain beyond which no test goes: a bar drawn to seven times its length.
+const LARGEST_STRAIN: f64 = 2.0;
+
+/// Warnings of materials in units that contradict each other.
+pub(super) fn of_materials(scene: &Scene) -> Vec<String> {
+    let mut out = Vec::new();
+    for (name, material) in &scene.materials {
+        let curve = material.hardening_curve().unwrap_or_default();
+        let yields = material.yield_stress.or_else(|| Some(curve.first()?[1]));
+        let strain = yields.map(|stress| stress / material.youngs_modulus);
+        if let (Some(stress), Some(strain)) = (yields, strain)
+            && !(YIELD_STRAINS[0]..YIELD_STRAINS[1]).contains(&strain)
+        {
+            out.push(format!(
+                "materials.{name}: it yields at {}, {} of youngs_modulus ({}): are both in the \
+                 same unit?",
+                exact(stress),
+                significant(strain, 4),
+                exact(material.youngs_modulus)
+            ));
+        }
+        let last = curve.last().map_or(0.0, |row| row[0]);
+        if last > LARGEST_STRAIN {
+            out.push(format!(
+                "materials.{name}: plastic strains up to {}: are they in per cent?",
+                exact(last)
+            ));
+        }
+    }
+    out
+}
+
+/// A warning of a symmetry that the model does not have.
+pub(super) fn of_symmetry(model: &Model) -> Option<String> {
+    let all: Vec<usize> = (0..model.mesh.n_elements()).collect();
+    let is_whole = || mirrors(model, &Conditions::of(model), &all).is_empty();
+    (model.scene.symmetry > 1 && is_whole()).then(|| {
+        format!(
+            "symmetry = {}: forces are told of a whole of which the mesh is a part, and no flat \
+             side of the mesh is held across as a plane of symmetry is; leave it out if the mesh \
+             is the whole",
+            model.scene.symmetry
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = r#"
+kind = "plane_strain"
+SYMMETRY
+mesh.parts = [
+    { body = "a", element = "quad4", block = { x = [0, 2], y = [0, 1], elements = [2, 1] } },
+]
+materials.s = { youngs_modulus = 210e3, poissons_ratio = 0.3, CURVE }
+bodies.a.material = "s"
+support = [{ on = "a.bottom", fix = ["y"] }, HELD]
+load = [{ on = "a.top", pressure = 1.0 }]
+program.targets = [{ load_factor = 1.0 }]
+"#;
+
+    fn warnings(of: [(&str, &str); 3]) -> Vec<String> {
+        let text = of
+            .iter()
+            .fold(SCENE.to_string(), |text, (from, to)| text.replace(from, to));
+        let scene = Scene::parse(&text, "test").expect("scene");
+        let model = Model::new(&scene).expect("model");
+        let warnings = model.warnings.into_iter();
+        warnings
+            .filter(|text| !text.contains("nothing holds"))
+            .collect()
+    }
+
+    #[test]
+    fn units_that_contradict_each_other_are_named() {
+        let of = |curve: &'static str| warnings([("CURVE", curve), ("SYMMETRY", ""), ("HELD", "")]);
+        for sound in [
+            "yield_stress = 300.0, plastic_modulus = 1000.0",
+            "hardening_table = [[0.0, 300.0], [1.0, 600.0]]",
+            // Lead, and a rubber.
+            "yield_stress = 2.0",
+            "yield_stress = 5e4",
+        ] {
+            assert_eq!(of(sound), [""; 0], "{sound}");
+        }
+        let units = |yields: &str| {
+            format!(
+                "materials.s: it yields at {yields} of youngs_modulus (210000): are both in the \
+                 same unit?"
+            )
+        };
+        assert_eq!(of("yield_stress = 300e6"), [units("300000000, 1429")]);
+        assert_eq!(of("yield_stress = 300e-6"), [units("0.0003, 1.429e-9")]);
+        assert_eq!(
+            of("hardening_table = [[0.0, 500.0], [2.0, 600.0], [10.0, 700.0]]"),
+            ["materials.s: plastic strains up to 10: are they in per cent?"]
+        );
+    }
+
+    #[test]
+    fn a_symmetry_without_a_plane_is_named() {
+        let of = |symmetry: &'static str, held: &'static str| {
+            warnings([("CURVE", ""), ("SYMMETRY", symmetry), ("HELD", held)])
+        };
+        let left = "{ on = \"a.left\", fix = [\"x\"] }";
+        assert_eq!(of("symmetry = 2", left), [""; 0]);
+        assert_eq!(of("", ""), [""; 0]);
+        let found = of("symmetry = 4", "");
+        assert!(
+            found[0].starts_with("symmetry = 4: forces are told of a whole"),
+            "{found:?}"
+        );
+    }
+}

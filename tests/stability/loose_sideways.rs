@@ -1,0 +1,195 @@
+//! Round bodies that nothing but contact holds sideways, on unlike meshes.
+//!
+//! Where one pair alone carries the load, it stops no motion across its normal, and no load drives
+//! one: other codes drift away by round-off, or ask for springs that carry a part of the load.
+
+use crate::support::msh::{Body, Msh};
+use crate::support::random::Random;
+use crate::support::{either, parse};
+use brinell::Result;
+use brinell::analysis::Analysis;
+use brinell::linalg::Backend;
+use brinell::model::Model;
+use brinell::progress::Silent;
+use brinell::results::Results;
+use std::path::Path;
+
+const HALF: f64 = 5.0;
+
+/// A round punch, its mesh unlike that of the block under it and without a plane of symmetry; held
+/// sideways by nothing, or at its top.
+struct Punch {
+    text: String,
+    /// Length of a cell of its round face.
+    cell: f64,
+    /// The load, where it is a force.
+    force: Option<f64>,
+    /// The way across the push.
+    sideways: [f64; 2],
+}
+
+impl Punch {
+    fn across(&self, [x, y, _]: [f64; 3]) -> f64 {
+        self.sideways[0] * x + self.sideways[1] * y
+    }
+}
+
+fn punch(seed: u64, held: bool, folder: &Path) -> Punch {
+    let mut random = Random::new(seed);
+    let random = &mut random;
+    let kind = random.one_of(&["plane_strain", "plane_stress", "plane_strain", "solid"]);
+    let is_solid = kind == "solid";
+    let radius = random.one_of(&[20.0f64, 50.0, 200.0]);
+    let order = 1 + random.below(2);
+    // A quadratic face from the flat to the round would bulge.
+    let flat = if order == 1 {
+        random.one_of(&[0.0, 0.0, 0.8])
+    } else {
+        0.0
+    };
+    let jitter = random.one_of(&[0.0, 0.0, 0.3]);
+    let round = |x: f64| {
+        let x = (x.abs() - flat).max(0.0);
+        radius - (radius * radius - x * x).sqrt()
+    };
+    let mut cells = |most: usize| match is_solid {
+        true => [4 + random.below(4), 2],
+        false => [most - random.below(8), 4],
+    };
+    let [top, under, level] = [|_: f64| 8.0, |_: f64| -8.0, |_: f64| 0.0];
+    let bodies = [
+        Body {
+            name: "block",
+            from: -2.0 * HALF,
+            width: 4.0 * HALF,
+            cells: cells(31),
+            heights: [&under, &level],
+            kink: None,
+            grading: 1.0,
+            jitter,
+        },
+        Body {
+            name: "punch",
+            from: -HALF,
+            width: 2.0 * HALF,
+            cells: cells(19),
+            heights: [&round, &top],
+            kink: None,
+            grading: 1.0,
+            jitter,
+        },
+    ];
+    let triangles = random.share() < 0.5;
+    let mut msh = Msh::default();
+    for body in &bodies {
+        match is_solid {
+            true => body.solid(&mut msh, triangles, order, random),
+            false => body.plane(&mut msh, triangles, order, random),
+        }
+    }
+    let turn = match is_solid {
+        true => 0.0,
+        false => random.one_of(&[0.0f64, 0.0, 90.0, 180.0]).to_radians(),
+    };
+    let (sin, cos) = turn.sin_cos();
+    msh.map(|[x, y, z]| match is_solid {
+        true => [x, y, z],
+        false => [cos * x - sin * y, sin * x + cos * y, z],
+    });
+    let file = folder.join(format!("{seed}.msh"));
+    std::fs::write(&file, msh.text()).unwrap();
+    // A body that is turned can be moved along its axes by forces alone.
+    let by_force = turn != 0.0 || random.share() < 0.5;
+    let pressure = random.one_of(&[20.0, 100.0, 300.0]);
+    let up = if is_solid { "z" } else { "y" };
+    let load = match (by_force, is_solid) {
+        (true, true) => format!("traction = [0.0, 0.0, {}]", -pressure),
+        (true, false) => format!("traction = [{}, {}]", pressure * sin, -pressure * cos),
+        (false, _) => format!("displacement = {{ {up} = -0.03 }}"),
+    };
+    let plastic = match random.share() < 0.4 {
+        true => ", yield_stress = 400.0, plastic_modulus = 3000.0",
+        false => "",
+    };
+    let slave = random.one_of(&["auto", "first", "second"]);
+    let sideways = match is_solid {
+        true => "\"x\", \"y\"",
+        false if sin.abs() > 0.9 => "\"y\"",
+        false => "\"x\"",
+    };
+    let fixed = if is_solid {
+        "\"x\", \"y\", \"z\""
+    } else {
+        "\"x\", \"y\""
+    };
+    let support = match held {
+        true => format!("{{ on = \"punch top\", fix = [{sideways}] }}"),
+        false => String::new(),
+    };
+    let text = format!(
+        "kind = \"{kind}\"
+mesh.file = {file:?}
+contact = [{{ first = \"punch bottom\", second = \"block top\", slave = \"{slave}\" }}]
+materials.e = {{ youngs_modulus = 210e3, poissons_ratio = 0.3{plastic} }}
+bodies = {{ block.material = \"e\", punch.material = \"e\" }}
+support = [{{ on = \"block bottom\", fix = [{fixed}] }}, {support}]
+load = [{{ on = \"punch top\", {load} }}]
+program.targets = [{{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]
+"
+    );
+    let cell = 2.0 * HALF / bodies[1].cells[0] as f64;
+    let area = 2.0 * HALF * if is_solid { 2.0 * HALF } else { 1.0 };
+    Punch {
+        text,
+        cell,
+        force: by_force.then_some(area * pressure),
+        sideways: [cos, sin],
+    }
+}
+
+fn run(text: &str) -> Result<Results> {
+    Analysis::new(Model::new(&parse(text))?, Backend::default())?.run(&mut Silent)
+}
+
+/// It touches where it stands: no pair of the other half of the block carries force, what it
+/// carries is the load, and where it is held besides, the pressure is the same but for what the
+/// sides of elements make of it. Whatever the order of the surfaces, whichever way it looks.
+#[test]
+fn a_round_punch_stays_where_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    for seed in 1..=either(40, 400) {
+        let [loose, held] = [false, true].map(|held| {
+            let punch = punch(seed, held, folder.path());
+            let results = run(&punch.text).unwrap_or_else(|why| panic!("{why}\n{}", punch.text));
+            let ending = results.ending();
+            assert!(ending.kind().is_none(), "{ending:?}\n{}", punch.text);
+            (punch, results)
+        });
+        let [pressed, off] = [0, 1].map(|i| &loose.1.states[i]);
+        let twin = &held.1.states[0];
+        let text = &loose.0.text;
+        if let Some(force) = loose.0.force {
+            // Normals differ from the way of the push, by (x/R)^2/2 at most.
+            let share = (pressed.contact_force / force - 1.0).abs();
+            assert!(share < 1e-2, "{share}\n{text}");
+        }
+        assert!(
+            off.contact_force.abs() <= 1e-9 * pressed.contact_force,
+            "{text}"
+        );
+        let off_by = |a: f64, b: f64| (a / b - 1.0).abs();
+        let pressure = off_by(pressed.max_pressure, twin.max_pressure);
+        assert!(pressure < 0.05, "{pressure}\n{text}");
+        // The middle of what carries force.
+        let middle = |results: &Results| {
+            let pairs = results.states[0].pairs.iter();
+            let moment: f64 = pairs
+                .clone()
+                .map(|p| p.force * loose.0.across(p.position))
+                .sum();
+            moment / pairs.map(|p| p.force).sum::<f64>()
+        };
+        let middle = middle(&loose.1);
+        assert!(middle.abs() < loose.0.cell, "{middle}\n{text}");
+    }
+}
