@@ -1,8 +1,10 @@
 //! A run of closed pairs: where it ends, and what is read off between its pairs.
 
 use super::contact_edge::{EdgePoint, Tail};
-use crate::model::{AxisPoint, Model};
+use crate::model::{AxisPoint, ContactSurface, Mirror, Model};
 use crate::scene::Kind;
+use crate::space::{Vector, dot};
+use std::f64::consts::PI;
 
 /// Pairs at the edge, the last closed one included, whose pressures are not believed one by one,
 /// only their force together: how they share it depends on where in the facet the contact ends (on
@@ -11,6 +13,9 @@ use crate::scene::Kind;
 const EDGE_SKIP: isize = 2;
 /// Pairs before those from which the pressure near the edge is fitted.
 const EDGE_POINTS: isize = 4;
+/// Angle below which two planes are parallel, or the same.
+const SAME_WAY: f64 = 1e-6;
+
 /// Where a contact ends.
 #[derive(Clone, Copy)]
 pub(super) struct Edge {
@@ -33,62 +38,132 @@ struct EdgeTail {
     bracket: [f64; 2],
 }
 
+/// A pair of a contact along its surface.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Its number in the model.
+    pub pair: usize,
+    /// Arc length.
+    pub arc: f64,
+}
+
+/// The pairs of a contact along its surface. A closed surface begins with a pair that does not
+/// press, which ends it, too, a turn further: no run of pairs that press goes beyond.
+pub(super) fn line_of(
+    model: &Model,
+    contact: &ContactSurface,
+    presses: impl Fn(usize) -> bool,
+) -> Vec<Place> {
+    let place = |pair: usize| Place {
+        pair,
+        arc: model.pairs[pair].arc,
+    };
+    let mut line: Vec<Place> = contact.range.clone().map(place).collect();
+    let first_open = line.iter().position(|place| !presses(place.pair));
+    if let (Some(turn), Some(first_open)) = (contact.turn, first_open) {
+        let further = |place: &Place| Place {
+            arc: place.arc + turn,
+            ..*place
+        };
+        let behind: Vec<Place> = line[..=first_open].iter().map(further).collect();
+        line.drain(..first_open);
+        line.extend(behind);
+    }
+    line
+}
+
 /// A run of closed pairs `begin..end` of a contact.
 pub(super) struct Patch<'a> {
     pub model: &'a Model,
-    /// Of each pair.
+    /// Of each pair of the model.
     pub pressure: &'a [f64],
-    /// Pairs of the contact.
-    pub range: std::ops::Range<usize>,
-    /// First closed pair, and the first beyond the last.
+    pub contact: &'a ContactSurface,
+    /// Its pairs.
+    pub line: &'a [Place],
+    /// First closed place of the line, and the first beyond the last.
     pub begin: usize,
     pub end: usize,
 }
 
 impl Patch<'_> {
-    /// Where the surface ends beyond its last pair `k`: there, or on the axis, or where the other
+    /// Where the surface ends beyond its last place `k`: there, or on the axis, or where the other
     /// surface does.
     pub(super) fn end_arc(&self, k: usize) -> f64 {
-        let pair = &self.model.pairs[k];
-        let extent = self.model.contacts[pair.contact].extent;
-        match (self.axis_beside(k), extent) {
+        match (self.axis_beside(k), self.contact.extent) {
             (Some(axis), _) => axis.pair.arc,
-            (None, Some([low, _])) if k == self.range.start => low,
-            (None, Some([_, high])) if k + 1 == self.range.end => high,
-            _ => pair.arc,
+            (None, Some([low, _])) if k == 0 => low,
+            (None, Some([_, high])) if k + 1 == self.line.len() => high,
+            _ => self.line[k].arc,
         }
     }
 
-    /// The point on the axis that a pair is next to.
-    fn axis_beside(&self, k: usize) -> Option<&AxisPoint> {
-        let axis = self.model.contacts[self.model.pairs[k].contact]
-            .axis
-            .as_ref()?;
+    /// The point on the axis that a place is next to.
+    pub(super) fn axis_beside(&self, k: usize) -> Option<&AxisPoint> {
+        let axis = self.contact.axis.as_ref()?;
         let next = if axis.begins {
-            k == self.range.start
+            k == 0
         } else {
-            k + 1 == self.range.end
+            k + 1 == self.line.len()
         };
         next.then_some(axis)
     }
 
-    /// Whether a pair ends its surface on a plane of symmetry or beside the axis.
+    /// Whether it takes up all of a surface.
+    pub(super) fn is_whole(&self) -> bool {
+        self.begin == 0 && self.end == self.line.len()
+    }
+
+    /// The pressure of the pair at a place.
+    pub(super) fn pressure_of(&self, k: usize) -> f64 {
+        self.pressure[self.line[k].pair]
+    }
+
+    /// Whether a place ends its surface on a plane of symmetry or beside the axis.
     pub(super) fn is_symmetric(&self, k: usize) -> bool {
         if self.axis_beside(k).is_some() {
             return true;
         }
-        let pair = &self.model.pairs[k];
-        let x = self.model.mesh.point(pair.slave);
-        let mut mirrors = self.model.contacts[pair.contact].mirrors_at(x);
-        (k == self.range.start || k + 1 == self.range.end) && mirrors.next().is_some()
+        self.mirror(k).is_some()
     }
 
-    /// Where contact ends beyond pair `last`, along the surface in direction `way`, read from the
-    /// force of the last [`EDGE_SKIP`] pairs: see [`Tail`]. Its error is measured by a second
+    /// The plane of symmetry on which the surface ends at a place.
+    fn mirror(&self, k: usize) -> Option<&Mirror> {
+        let x = self.point(k);
+        let mut mirrors = self.contact.mirrors_at(x);
+        mirrors
+            .next()
+            .filter(|_| k == 0 || k + 1 == self.line.len())
+    }
+
+    fn point(&self, k: usize) -> Vector {
+        self.model
+            .mesh
+            .point(self.model.pairs[self.line[k].pair].slave)
+    }
+
+    /// Half widths of the whole, images included, that the modelled run of pairs is: 1/2 away from
+    /// planes of symmetry, 1 on one, and between two the number of images that close the turn.
+    pub(super) fn half_widths(&self) -> f64 {
+        match [self.begin, self.end - 1].map(|k| (self.is_symmetric(k), self.mirror(k))) {
+            [(false, _), (false, _)] => 0.5,
+            [(_, Some(a)), (_, Some(b))] => {
+                let angle = dot(a.normal(), b.normal()).abs().min(1.0).acos();
+                if angle > SAME_WAY {
+                    (PI / angle).round()
+                } else {
+                    1.0
+                }
+            }
+            _ => 1.0,
+        }
+    }
+
+    /// Where contact ends beyond the place `last`, along the surface in direction `way`, read from
+    /// the force of the last [`EDGE_SKIP`] pairs: see [`Tail`]. Its error is measured by a second
     /// reading with one pair more; where the pairs are too few for that, or a reading leaves its
     /// bracket, it is half a spacing.
     pub(super) fn edge(&self, last: usize, way: isize, middle: f64) -> Edge {
-        let arc = |k: usize| self.model.pairs[k].arc;
+        let arc = |k: usize| self.line[k].arc;
         let Some(beyond) = self.neighbour(last, way) else {
             return Edge {
                 arc: self.end_arc(last),
@@ -122,10 +197,9 @@ impl Patch<'_> {
         }
     }
 
-    /// The pair `step` pairs along its surface from another.
+    /// The place `step` places along the surface from another.
     fn neighbour(&self, k: usize, step: isize) -> Option<usize> {
-        k.checked_add_signed(step)
-            .filter(|i| self.range.contains(i))
+        k.checked_add_signed(step).filter(|i| *i < self.line.len())
     }
 
     /// Distance of the edge from the middle, by the force of the last `skip` pairs and the
@@ -138,7 +212,7 @@ impl Patch<'_> {
             spacing,
             bracket,
         } = tail;
-        let arc = |k: usize| self.model.pairs[k].arc;
+        let arc = |k: usize| self.line[k].arc;
         let closed = |step: isize| {
             self.neighbour(last, -step * way)
                 .filter(|k| (self.begin..self.end).contains(k))
@@ -153,7 +227,7 @@ impl Patch<'_> {
         for k in inner {
             points[n] = EdgePoint {
                 squared: (arc(k) - middle).powi(2),
-                pressure_squared: self.pressure[k].powi(2),
+                pressure_squared: self.pressure_of(k).powi(2),
                 weight: self.width(k),
             };
             n += 1;
@@ -161,41 +235,42 @@ impl Patch<'_> {
         let first = closed(skip - 1).filter(|_| n > 0)?;
         let force: f64 = (0..skip)
             .filter_map(closed)
-            .map(|k| self.pressure[k] * self.model.pairs[k].area)
+            .map(|k| self.pressure_of(k) * self.area(k))
             .sum();
         let tail = Tail {
             points: &points[..n],
             from: (arc(first) - middle).abs(),
             near: [first, last].map(|k| ((arc(k) - middle).abs(), self.width(k))),
-            length: self.model.pairs[first].area / self.width(first),
+            length: self.area(first) / self.width(first),
         };
         // The last closed pair may carry the rest of a partly covered facet.
         Some(tail.edge(force, bracket))
     }
 
-    /// Area of the surface at a pair over the length along it.
+    fn area(&self, k: usize) -> f64 {
+        self.model.pairs[self.line[k].pair].area
+    }
+
+    /// Area of the surface at a place over the length along it.
     fn width(&self, k: usize) -> f64 {
         match self.model.scene.kind {
-            Kind::Axisymmetric => {
-                2.0 * std::f64::consts::PI * self.model.mesh.point(self.model.pairs[k].slave)[0]
-            }
+            Kind::Axisymmetric => 2.0 * PI * self.point(k)[0],
             _ => 1.0,
         }
     }
 
     /// Pressure between pairs, linear.
     pub(super) fn pressure_at(&self, arc: f64) -> f64 {
-        let pairs = &self.model.pairs[self.begin..self.end];
-        let next = pairs
+        let places = &self.line[self.begin..self.end];
+        let next = places
             .partition_point(|p| p.arc <= arc)
-            .clamp(1, pairs.len().max(2) - 1);
-        match (pairs.get(next - 1), pairs.get(next)) {
+            .clamp(1, places.len().max(2) - 1);
+        match (places.get(next - 1), places.get(next)) {
             (Some(a), Some(b)) => {
                 let t = ((arc - a.arc) / (b.arc - a.arc)).clamp(0.0, 1.0);
-                self.pressure[self.begin + next - 1] * (1.0 - t)
-                    + self.pressure[self.begin + next] * t
+                self.pressure[a.pair] * (1.0 - t) + self.pressure[b.pair] * t
             }
-            _ => self.pressure[self.begin],
+            _ => self.pressure_of(self.begin),
         }
     }
 }

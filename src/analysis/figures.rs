@@ -171,6 +171,10 @@ fn on_nodes(model: &Model, pairs: &[PairState], fields: &mut Fields) {
 fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
     let surface = &model.contacts[contact];
     let (center, _) = surface.circle?;
+    if let Some(turn) = surface.turn {
+        let half = 180.0 * (to - from) / turn;
+        return Some([-half, half]);
+    }
     let pairs = &model.pairs[surface.range.clone()];
     let angle_of = |k: usize| {
         let x = model.mesh.in_plane(pairs[k].slave);

@@ -1,7 +1,7 @@
 //! What a user reads off a state: pressure, contact half width, contact arc, approach.
 
 use super::contact_area::{ReadPatch, patches};
-use super::contact_patch::Patch;
+use super::contact_patch::{Patch, line_of};
 use super::solver::Solver;
 use crate::model::{AxisPoint, ContactSurface, Magnitude, Model, Pair};
 use crate::results::{ContactPatch, EdgeReading, PairState, Status};
@@ -148,62 +148,78 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
     // What is no number is none that presses.
     let presses = |k: usize| force[k] > vanishing;
     for (index, contact) in model.contacts.iter().enumerate() {
-        let range = contact.range.clone();
-        let mut k = range.start;
-        while k < range.end {
-            if !presses(k) {
+        let line = line_of(model, contact, presses);
+        let mut k = 0;
+        while k < line.len() {
+            if !presses(line[k].pair) {
                 k += 1;
                 continue;
             }
             let begin = k;
-            while k < range.end && presses(k) {
+            while k < line.len() && presses(line[k].pair) {
                 k += 1;
             }
-            let sum: f64 = force[begin..k].iter().sum();
+            let sum: f64 = line[begin..k].iter().map(|place| force[place.pair]).sum();
             if sum > largest * (1.0 + EQUAL) {
                 largest = sum;
                 let patch = Patch {
                     model,
                     pressure: &pressure,
-                    range: range.clone(),
+                    contact,
+                    line: &line,
                     begin,
                     end: k,
                 };
-                let (at_begin, at_end) = (patch.is_symmetric(begin), patch.is_symmetric(k - 1));
-                let middle = match (at_begin, at_end) {
-                    (true, _) => patch.end_arc(begin),
-                    (_, true) => patch.end_arc(k - 1),
-                    _ => 0.5 * (patch.end_arc(begin) + patch.end_arc(k - 1)),
-                };
-                let ends = [patch.edge(begin, -1, middle), patch.edge(k - 1, 1, middle)];
-                let [from, to] = ends.map(|end| end.arc);
-                out.patch = Some([from, to]);
                 out.contact = index;
-                let sides = if at_begin || at_end { 1 } else { 2 };
-                out.half_width = (to - from) / sides as f64;
-                out.half_width_reading = EdgeReading {
-                    error: (ends[0].reading + ends[1].reading) / sides as f64,
-                    pairs: (k - begin) / sides,
-                };
-                let at_axis = contact.axis.as_ref().filter(|axis| {
-                    if axis.begins {
-                        begin == range.start
-                    } else {
-                        k == range.end
-                    }
-                });
-                out.pole_pressure = match (at_begin, at_end) {
-                    _ if at_axis.is_some() => {
-                        on_axis(model, contact, &pressure).unwrap_or(0.0).max(0.0)
-                    }
-                    (true, _) => pressure[begin],
-                    (_, true) => pressure[k - 1],
-                    _ => patch.pressure_at(0.5 * (from + to)),
-                };
+                read_patch(&patch, &mut out);
             }
         }
     }
     out
+}
+
+/// The figures of a patch in the plane.
+fn read_patch(patch: &Patch, out: &mut ContactFigures) {
+    let (begin, last) = (patch.begin, patch.end - 1);
+    if let Some(turn) = patch.contact.turn.filter(|_| patch.is_whole()) {
+        // All around, it has no ends.
+        let from = patch.line[begin].arc;
+        out.patch = Some([from, from + turn]);
+        out.half_width = 0.5 * turn;
+        out.half_width_reading = EdgeReading {
+            error: 0.0,
+            pairs: patch.line.len() / 2,
+        };
+        out.pole_pressure = patch.pressure_at(from + 0.5 * turn);
+        return;
+    }
+    let (at_begin, at_end) = (patch.is_symmetric(begin), patch.is_symmetric(last));
+    let middle = match (at_begin, at_end) {
+        (true, _) => patch.end_arc(begin),
+        (_, true) => patch.end_arc(last),
+        _ => 0.5 * (patch.end_arc(begin) + patch.end_arc(last)),
+    };
+    let ends = [patch.edge(begin, -1, middle), patch.edge(last, 1, middle)];
+    let [from, to] = ends.map(|end| end.arc);
+    out.patch = Some([from, to]);
+    let half_widths = patch.half_widths();
+    out.half_width = half_widths * (to - from);
+    out.half_width_reading = EdgeReading {
+        error: half_widths * (ends[0].reading + ends[1].reading),
+        pairs: (half_widths * (patch.end - begin) as f64) as usize,
+    };
+    let beside_axis = [begin, last]
+        .into_iter()
+        .any(|k| patch.axis_beside(k).is_some());
+    out.pole_pressure = match (at_begin, at_end) {
+        _ if beside_axis => {
+            let on_axis = on_axis(patch.model, patch.contact, patch.pressure);
+            on_axis.unwrap_or(0.0).max(0.0)
+        }
+        (true, _) => patch.pressure_of(begin),
+        (_, true) => patch.pressure_of(last),
+        _ => patch.pressure_at(0.5 * (from + to)),
+    };
 }
 
 /// The figures of solids: the half width is the smaller half axis of the strongest patch.

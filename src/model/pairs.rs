@@ -16,7 +16,7 @@ use crate::mesh::surface::PAIRING;
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::{Contact, Scene};
 use crate::space::{Space, Vector, difference, dot, length};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative error of a coordinate of a mesh: it was rounded some times on its way through rotations
 /// and files of sixteen digits, and once more in the integrals over a facet.
@@ -114,6 +114,9 @@ pub struct ContactSurface {
     /// Arc lengths along the slave surface of a plane model between which the other surface covers
     /// it, where that is not known from the pairs.
     pub extent: Option<[f64; 2]>,
+    /// Length of the slave surface of a plane model where it is closed and all its nodes have
+    /// pairs.
+    pub turn: Option<f64>,
     /// Planes of symmetry on which it ends.
     pub(crate) mirrors: Vec<Mirror>,
 }
@@ -279,8 +282,26 @@ fn surface_of(
         covered: pieces.covered,
         slivers: pieces.slivers,
         extent: extent(entries.mesh, surface, &pairs[start..], &found.covered),
+        turn: turn(entries.mesh, surface, &pairs[start..]),
         mirrors: Vec::new(),
     }
+}
+
+/// [`ContactSurface::turn`].
+fn turn(mesh: &Mesh, surface: &Surface, pairs: &[Pair]) -> Option<f64> {
+    let nodes = surface.facets.iter().flat_map(|&f| mesh.facet_nodes(f));
+    let nodes: BTreeSet<usize> = nodes.collect();
+    let ends = |node: usize| {
+        let facets = surface.facets.iter();
+        let at = facets
+            .flat_map(|&f| mesh.facet_nodes(f).take(2))
+            .filter(|&n| n == node);
+        at.count()
+    };
+    let (first, last) = (pairs.first()?, pairs.last()?);
+    let closed = !mesh.is_solid() && nodes.len() == pairs.len() && ends(first.slave) == 2;
+    let way = difference(mesh.point(first.slave), mesh.point(last.slave));
+    closed.then(|| last.arc - first.arc + length(way))
 }
 
 /// Pieces of faces of a slave surface of a solid; see [`ContactSurface`].
