@@ -2,7 +2,7 @@ use super::*;
 use crate::mesh::generate;
 use crate::mesh::validate;
 use crate::scene::Scene;
-use crate::space::{dot, length};
+use crate::space::{difference, dot, length};
 use std::f64::consts::PI;
 
 /// A section: a block off the axis, a ring sector or a disc, as a scene has it.
@@ -203,4 +203,41 @@ fn sections_that_cannot_be_turned_are_named() {
     let surface = taken.surfaces["b.outer"].clone();
     taken.surfaces.insert("b.back".into(), surface);
     assert!(refused(&taken).contains("`b.back`"));
+}
+
+/// Where the section lies the surface looks to where its edge looked, inside of a ring and outside.
+#[test]
+fn turned_curves_keep_the_side_that_they_look_to() {
+    let circle = |center, outward| Curve::Circle {
+        center,
+        radius: 0.5,
+        outward,
+    };
+    let curves = [
+        (Curve::Line { normal: [1.0, 0.0] }, [2.0, 0.7]),
+        (
+            Curve::Line {
+                normal: [-1.0, 0.0],
+            },
+            [2.0, 0.7],
+        ),
+        (
+            Curve::Line {
+                normal: [0.0, -1.0],
+            },
+            [2.0, 0.7],
+        ),
+        (circle([0.0, 1.0], true), [0.3, 1.4]),
+        (circle([0.0, 1.0], false), [0.3, 1.4]),
+        (circle([3.0, 1.0], true), [3.3, 1.4]),
+        (circle([3.0, 1.0], false), [2.7, 1.4]),
+    ];
+    for (curve, [x, y]) in curves {
+        let turned = turned_curve(curve, &[[x, y]]).expect("no cone");
+        let [before, after] = [curve, turned].map(|curve| curve.normal([x, y, 0.0]));
+        assert!(
+            length(difference(before, after)) < 1e-15,
+            "{curve:?}: {after:?}"
+        );
+    }
 }
