@@ -12,9 +12,13 @@
 //! is linear in `u`: each `a_j` is a row of weights on the freedoms `f` of these nodes. `w_f` is
 //! the node's share in a loaded surface times the work of that load on the motions: a load that
 //! presses elsewhere, or hardly at all, does not move the reference. A body on which no load works
-//! is measured from the mean of all its nodes.
+//! is measured from its mean: `w_f` is the node's share in the volume, so that half of a body is
+//! measured as the whole is.
 
 use super::{Freedoms, LoadCase, RigidMotion, Slot};
+use crate::element::volume_points;
+use crate::mesh::Mesh;
+use crate::space::{Space, Vector};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::collections::BTreeMap;
 
@@ -22,59 +26,111 @@ use std::collections::BTreeMap;
 /// the nodes: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
-/// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]); `work(motion)` is the work
-/// that each load with forces on its bodies does on a motion, by the loads' numbers.
-pub(super) fn measure(
-    motions: &mut [RigidMotion],
-    part_of_node: &[usize],
-    freedoms: &Freedoms,
-    loads: &[LoadCase],
-    work: impl Fn(usize) -> BTreeMap<usize, f64>,
-) {
-    let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (j, motion) in motions.iter().enumerate() {
-        parts.entry(motion.part).or_default().push(j);
-    }
-    let mut nodes_of_part: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    for (node, part) in part_of_node.iter().enumerate() {
-        if parts.contains_key(part) {
-            nodes_of_part.entry(*part).or_default().push(node);
+/// A motion that was pinned: bodies take part in it as they deform, so that it is fitted beside
+/// those that are left.
+pub(super) struct StoppedMotion {
+    pub part: usize,
+    /// Displacement of the freedoms that move; a pinned one has the number of its pin behind those
+    /// of all free freedoms.
+    pub values: Vec<(u32, f64)>,
+}
+
+/// What the motions of bodies are measured on.
+pub(super) struct FarBoundary<'a> {
+    pub part_of_node: &'a [usize],
+    /// Each node's share in the volume.
+    pub volumes: Vec<f64>,
+    pub freedoms: &'a Freedoms,
+    pub stopped: Vec<StoppedMotion>,
+    /// Node and local direction of each pin.
+    pub pins: &'a [(usize, usize)],
+}
+
+impl FarBoundary<'_> {
+    /// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]); `work(motion)` is the
+    /// work that each load with forces on its bodies does on a motion, by the loads' numbers.
+    pub(super) fn measure(
+        &self,
+        motions: &mut [RigidMotion],
+        loads: &[LoadCase],
+        work: impl Fn(usize) -> BTreeMap<usize, f64>,
+    ) {
+        let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (j, motion) in motions.iter().enumerate() {
+            parts.entry(motion.part).or_default().push(j);
+        }
+        let mut nodes_of_part: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for (node, part) in self.part_of_node.iter().enumerate() {
+            if parts.contains_key(part) {
+                nodes_of_part.entry(*part).or_default().push(node);
+            }
+        }
+        for (part, of_part) in parts {
+            let mut works: BTreeMap<usize, f64> = BTreeMap::new();
+            for (load, work) in of_part.iter().flat_map(|&j| work(j)) {
+                *works.entry(load).or_default() += work.powi(2);
+            }
+            let loaded = works.into_iter().flat_map(|(load, squares)| {
+                let works = squares.sqrt();
+                let nodes = loads[load].nodes.iter().copied().zip(&loads[load].shares);
+                nodes.map(move |(node, share)| (node, works * share))
+            });
+            let loaded =
+                loaded.filter(|(node, weight)| self.part_of_node[*node] == part && *weight > 0.0);
+            let all = nodes_of_part.get(&part).into_iter().flatten();
+            let all = all.map(|&node| (node, self.volumes[node]));
+            let moving = of_part.iter().map(|&j| &*motions[j].values);
+            let stopped = self.stopped.iter().filter(|motion| motion.part == part);
+            let values: Vec<&[(u32, f64)]> = moving
+                .chain(stopped.map(|motion| &*motion.values))
+                .collect();
+            let weights = [self.on_freedoms(loaded), self.on_freedoms(all)];
+            // Of all rigid motions, or of those that are left where some do not show.
+            let fitted = weights.iter().find_map(|weights| {
+                fit(&values, weights).or_else(|| fit(&values[..of_part.len()], weights))
+            });
+            for (&j, weights) in of_part.iter().zip(fitted.unwrap_or_default()) {
+                // Pinned freedoms do not move.
+                let free = weights
+                    .into_iter()
+                    .filter(|(f, _)| (*f as usize) < self.freedoms.n);
+                motions[j].in_far_boundary = free.collect();
+            }
         }
     }
-    for (part, of_part) in parts {
-        let mut works: BTreeMap<usize, f64> = BTreeMap::new();
-        for (load, work) in of_part.iter().flat_map(|&j| work(j)) {
-            *works.entry(load).or_default() += work.powi(2);
+
+    /// The weight of each free and pinned freedom of these nodes; what several nodes share counts
+    /// as often.
+    fn on_freedoms(&self, nodes: impl Iterator<Item = (usize, f64)>) -> BTreeMap<u32, f64> {
+        let mut out = BTreeMap::new();
+        for (node, weight) in nodes {
+            for slot in self.freedoms.slots[node] {
+                if let Slot::Free(freedom) = slot {
+                    *out.entry(freedom).or_insert(0.0) += weight;
+                }
+            }
+            for (k, _) in self
+                .pins
+                .iter()
+                .enumerate()
+                .filter(|(_, pin)| pin.0 == node)
+            {
+                *out.entry((self.freedoms.n + k) as u32).or_insert(0.0) += weight;
+            }
         }
-        let loaded = works.into_iter().flat_map(|(load, squares)| {
-            let works = squares.sqrt();
-            let nodes = loads[load].nodes.iter().copied().zip(&loads[load].shares);
-            nodes.map(move |(node, share)| (node, works * share))
-        });
-        let loaded = loaded.filter(|(node, weight)| part_of_node[*node] == part && *weight > 0.0);
-        let all = nodes_of_part.get(&part).into_iter().flatten();
-        let all = all.map(|&node| (node, 1.0));
-        let values: Vec<&[(u32, f64)]> = of_part.iter().map(|&j| &*motions[j].values).collect();
-        let fitted = fit(&values, &on_freedoms(freedoms, loaded))
-            .or_else(|| fit(&values, &on_freedoms(freedoms, all)));
-        for (&j, weights) in of_part.iter().zip(fitted.unwrap_or_default()) {
-            motions[j].in_far_boundary = weights;
-        }
+        out
     }
 }
 
-/// The weight of each free freedom of these nodes; what several nodes share counts as often.
-fn on_freedoms(
-    freedoms: &Freedoms,
-    nodes: impl Iterator<Item = (usize, f64)>,
-) -> BTreeMap<u32, f64> {
-    let mut out = BTreeMap::new();
-    for (node, weight) in nodes {
-        for slot in freedoms.slots[node] {
-            if let Slot::Free(freedom) = slot {
-                *out.entry(freedom).or_insert(0.0) += weight;
-            }
-        }
+/// Each node's share in the volume of its elements: equal ones, which no node's is below zero.
+pub(super) fn volumes_of_nodes(space: Space, mesh: &Mesh) -> Vec<f64> {
+    let mut out = vec![0.0; mesh.n_nodes()];
+    for (element, &shape) in mesh.shapes.iter().enumerate() {
+        let nodes = mesh.nodes(element);
+        let points: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n as usize)).collect();
+        let weights = volume_points(space, shape, &points).map(|point| point.weight);
+        let share = weights.sum::<f64>() / nodes.len() as f64;
+        nodes.iter().for_each(|&node| out[node as usize] += share);
     }
     out
 }

@@ -5,7 +5,8 @@
 //! unless no load does work on it: then one freedom is pinned, which changes nothing but the free
 //! motion.
 
-use super::motions::{self, Motions};
+use super::far_boundary::{FarBoundary, StoppedMotion};
+use super::motions::{self, Mode, Motions};
 use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
@@ -126,6 +127,7 @@ pub(super) fn resolve(
     }
     let forces = motions.forces(loads);
     let contact: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
+    let mut pinned: Vec<(Mode, usize, usize)> = Vec::new();
     for _ in 0..motions.per_group() * motions.names.len() {
         let free = motions.free(freedoms, pairs);
         if free.is_empty() {
@@ -159,7 +161,9 @@ pub(super) fn resolve(
                     format!("{motion}: nothing holds this motion"),
                 )
             })?;
-            let node = freedoms.owners[freedom].0 as usize;
+            let (node, local) = freedoms.owners[freedom];
+            let node = node as usize;
+            pinned.push((mode.clone(), node, local as usize));
             warnings.push(format!(
                 "{motion}: nothing holds this motion and no load drives it; it is held at node {}",
                 mesh.node_label(node)
@@ -200,6 +204,26 @@ pub(super) fn resolve(
         .collect();
     let part_of_node: Vec<usize> = motions.group_of_node.iter().map(|&g| part[g]).collect();
     let work = |j: usize| motions.work(&modes[j], &forces);
-    far_boundary::measure(&mut floating.motions, &part_of_node, freedoms, loads, work);
+    let pins: Vec<(usize, usize)> = pinned.iter().map(|&(_, node, at)| (node, at)).collect();
+    let stopped = pinned.iter().filter_map(|(mode, ..)| {
+        let groups = motions.moved(mode);
+        let mut values = motions.on_freedoms(mode, freedoms, &owned);
+        for (k, &(node, local)) in pins.iter().enumerate() {
+            if groups.contains(&motions.group_of_node[node]) {
+                let value = motions.along(mode, node, freedoms.local(node)[local], 0.0);
+                values.push(((freedoms.n + k) as u32, value));
+            }
+        }
+        let part = part[*groups.first()?];
+        Some(StoppedMotion { part, values })
+    });
+    let far = FarBoundary {
+        part_of_node: &part_of_node,
+        volumes: far_boundary::volumes_of_nodes(space, mesh),
+        freedoms,
+        stopped: stopped.collect(),
+        pins: &pins,
+    };
+    far.measure(&mut floating.motions, loads, work);
     Ok((floating, rows))
 }

@@ -32,6 +32,7 @@ pub(super) struct Motions<'a> {
 
 /// A rigid motion of some groups: what it costs to handle is a matter of these, not of how many
 /// bodies there are beside them.
+#[derive(Clone)]
 pub(super) struct Mode {
     /// Group and rigid motion, as `per_group * group + motion`, ascending; whole groups.
     rows: Vec<usize>,
@@ -254,7 +255,7 @@ impl<'a> Motions<'a> {
 
     /// Share of a mode in the displacement along `axis` of a node, with shares up to `round_off`
     /// left out.
-    fn along(&self, mode: &Mode, node: usize, axis: Vector, round_off: f64) -> f64 {
+    pub(super) fn along(&self, mode: &Mode, node: usize, axis: Vector, round_off: f64) -> f64 {
         let group = self.group_of_node[node];
         let row = self.row(node, axis);
         let shares = row

@@ -14,7 +14,7 @@ use super::names::Entry;
 use crate::error::{Error, Result};
 use crate::mesh::surface::PAIRING;
 use crate::mesh::{Curve, Mesh, Surface};
-use crate::scene::{Contact, Scene};
+use crate::scene::{Contact, Scene, SlaveSide};
 use crate::space::{Space, Vector, difference, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -147,7 +147,7 @@ const NO_AREA: f64 = 0.02;
 /// What a contact is resolved from.
 struct Entries<'a> {
     index: usize,
-    contact: &'a Contact,
+    contact: Contact,
     /// First and second.
     surfaces: [&'a Surface; 2],
     mesh: &'a Mesh,
@@ -176,9 +176,15 @@ pub(super) fn resolve(
     for (index, contact) in scene.contact.iter().enumerate() {
         let start = pairs.len();
         let entry = Entry::of_list(scene, "contact", index);
-        let entries = Entries {
+        let what = format!(
+            "contact {} (`{}` on `{}`)",
+            index + 1,
+            contact.first,
+            contact.second
+        );
+        let mut entries = Entries {
             index,
-            contact,
+            contact: contact.clone(),
             surfaces: [
                 entry.surface(mesh, "first", &contact.first)?,
                 entry.surface(mesh, "second", &contact.second)?,
@@ -186,18 +192,47 @@ pub(super) fn resolve(
             mesh,
             space: scene.kind,
         };
-        let what = format!(
-            "contact {} (`{}` on `{}`)",
-            index + 1,
-            contact.first,
-            contact.second
-        );
-        let refused = |error: Error| entry.refused(error.within(&what));
         let given = given.pairs.get(&index).map(Vec::as_slice);
-        let mut found = match matching::pairs(&entries, given).map_err(refused)? {
-            Some(found) => found,
-            None => mortar::pairs(&entries, notes).map_err(refused)?,
+        let find = |entries: &Entries, notes: &mut Vec<String>| {
+            let found = match matching::pairs(entries, given)? {
+                Some(found) => found,
+                None => mortar::pairs(entries, notes)?,
+            };
+            let shared = |pair: &Pair| Some((pair.slave, *slave_of.get(&pair.slave)?));
+            let shared: Vec<(usize, usize)> = found.pairs.iter().filter_map(shared).collect();
+            Ok((found, shared))
         };
+        let refused = |error: Error| entry.refused(error.within(&what));
+        let mut own_notes = Vec::new();
+        let (mut found, mut shared) = find(&entries, &mut own_notes).map_err(refused)?;
+        // Nodes of an edge that two contacts share are slaves of one; of a contact that is there
+        // twice all are.
+        let is_edge = !shared.is_empty() && 2 * shared.len() < found.pairs.len();
+        if is_edge && contact.slave == SlaveSide::Auto {
+            entries.contact.slave = [SlaveSide::Second, SlaveSide::First][found.slave];
+            let mut other_notes = Vec::new();
+            match find(&entries, &mut other_notes) {
+                Ok((other, none)) if none.is_empty() => {
+                    (found, shared, own_notes) = (other, none, other_notes);
+                }
+                _ => {}
+            }
+        }
+        notes.append(&mut own_notes);
+        if let Some(&(node, other)) = shared.first() {
+            return Err(entry.refused(Error::input(format!(
+                "node {} is the slave of two contacts, {} and {} (`{}` on `{}`); a node may be \
+                 that of one: take it out of a surface, or let the other surface have the slaves \
+                 (`slave = \"{}\"`)",
+                mesh.node_label(node),
+                other + 1,
+                index + 1,
+                contact.first,
+                contact.second,
+                ["second", "first"][found.slave],
+            ))));
+        }
+        slave_of.extend(found.pairs.iter().map(|pair| (pair.slave, index)));
         for pair in &mut found.pairs {
             pair.take_off_round_off(mesh);
         }
@@ -209,21 +244,6 @@ pub(super) fn resolve(
                     "{what}: the surfaces overlap by up to {deepest:.4e} in the mesh: an \
                      interference, applied before the load program"
                 ));
-            }
-        }
-        for pair in &found.pairs {
-            if let Some(other) = slave_of.insert(pair.slave, index) {
-                return Err(entry.refused(Error::input(format!(
-                    "node {} is the slave of two contacts, {} and {} (`{}` on `{}`); a node may be \
-                     that of one: take it out of a surface, or let the other surface have the \
-                     slaves (`slave = \"{}\"`)",
-                    mesh.node_label(pair.slave),
-                    other + 1,
-                    index + 1,
-                    contact.first,
-                    contact.second,
-                    ["second", "first"][found.slave],
-                ))));
             }
         }
         pairs.append(&mut found.pairs);

@@ -297,3 +297,33 @@ program.targets = [{ load_factor = 1.0 }, { load_factor = 0.0 }]
         "{text}"
     );
 }
+
+/// Two blocks side by side on a finer one: the node under the joint would be the slave of both
+/// contacts. Each passes its own pressure on.
+#[test]
+fn blocks_side_by_side_share_an_edge() {
+    let text = r#"
+kind = "plane_strain"
+mesh.parts = [
+    { body = "a", element = "quad4", block = { x = [0, 2], y = [0, 1], elements = [16, 4] } },
+    { body = "b", element = "quad4", block = { x = [0, 1], y = [1, 2], elements = [5, 3] } },
+    { body = "c", element = "quad4", block = { x = [1, 2], y = [1, 2], elements = [3, 3] } },
+]
+materials.s = { youngs_modulus = 210e3, poissons_ratio = 0.0 }
+bodies = { a.material = "s", b.material = "s", c.material = "s" }
+contact = [{ first = "b.bottom", second = "a.top" }, { first = "c.bottom", second = "a.top" }]
+support = [
+    { on = "a.bottom", fix = ["x", "y"] },
+    { on = "b.left", fix = ["x"] }, { on = "c.right", fix = ["x"] },
+]
+load = [{ on = "b.top", pressure = 10.0 }, { on = "c.top", pressure = 10.0 }]
+program.targets = [{ load_factor = 1.0 }]
+"#;
+    let results = run(&parse(text));
+    healthy(&results);
+    let state = &results.states[0];
+    close("force", state.contact_force, 20.0, 20.0, 1e-12);
+    for pair in &state.pairs {
+        close("pressure", pair.pressure, 10.0, 10.0, 1e-10);
+    }
+}

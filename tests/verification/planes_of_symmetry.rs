@@ -2,7 +2,7 @@
 //! node: what is read off a contact is the same whichever nodes keep the bodies in place.
 
 use crate::support::random::Random;
-use crate::support::{close, either, parse, run_on};
+use crate::support::{close, either, parse, run, run_on};
 use brinell::model::Model;
 use brinell::results::State;
 use brinell::scene::Scene;
@@ -82,6 +82,61 @@ fn nodes_that_are_held_bound_nothing() {
             let angle = random.one_of(&[0.0, 30.0, 123.0]);
             let (w, state) = pressed(random, angle, supports);
             close(supports, state.half_width, times * w, w, 1e-9);
+        }
+    }
+}
+
+/// Three blocks on top of each other, the middle one held by contact alone: the dent of each is
+/// that of the whole, where one of its nodes keeps it in place sideways.
+#[test]
+fn half_a_stack_is_dented_as_the_whole_is() {
+    for element in ["quad4", "quad8"] {
+        let stack = |half: bool| {
+            let block = |body: &str, width: i32, height: [i32; 2], cells: [i32; 2]| {
+                let (from, share) = if half { (0, 1) } else { (-width, 2) };
+                format!(
+                    "{{ body = \"{body}\", element = \"{element}\", block = {{ \
+                     x = [{from}, {width}], y = {height:?}, elements = [{}, {}] }} }}",
+                    share * cells[0],
+                    cells[1]
+                )
+            };
+            let on_plane =
+                ["a", "b", "c"].map(|b| format!("{{ on = \"{b}.left\", fix = [\"x\"] }}"));
+            let text = format!(
+                r#"kind = "plane_strain"
+symmetry = {}
+mesh.parts = [{}, {}, {}]
+materials.s = {{ youngs_modulus = 210e3, poissons_ratio = 0.3, yield_stress = 300,
+                plastic_modulus = 3000 }}
+bodies = {{ a.material = "s", b.material = "s", c.material = "s" }}
+contact = [{{ first = "b.bottom", second = "a.top" }}, {{ first = "c.bottom", second = "b.top" }}]
+support = [{{ on = "a.bottom", fix = ["y"] }}, {}]
+load = [{{ on = "c.top", pressure = 400.0 }}]
+program.targets = [{{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]
+"#,
+                if half { 2 } else { 1 },
+                block("a", 12, [0, 6], [8, 4]),
+                block("b", 8, [6, 9], [7, 3]),
+                block("c", 4, [9, 13], [4, 3]),
+                if half {
+                    on_plane.join(", ")
+                } else {
+                    String::new()
+                },
+            );
+            let results = run(&parse(&text));
+            results.states.into_iter().next_back().expect("a state")
+        };
+        let [half, whole] = [true, false].map(stack);
+        assert!(half.residual_depth > 1e-3, "{}", half.residual_depth);
+        let dents = |s: &State| {
+            let mut dents = s.residual_depth_by_body.clone();
+            dents.extend([s.residual_depth, s.rim_height]);
+            dents
+        };
+        for (found, expected) in dents(&half).into_iter().zip(dents(&whole)) {
+            close(element, found, expected, half.residual_depth, 1e-8);
         }
     }
 }

@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// # Errors
 /// Surfaces that are not one curve; pairs that share a node, overlap, or are no pairs.
 pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Option<Found>> {
-    let (mesh, contact) = (entries.mesh, entries.contact);
+    let (mesh, contact) = (entries.mesh, &entries.contact);
     // The paper's: the normal is the second body's.
     let slave = match contact.slave {
         SlaveSide::First if given.is_none() => 0,

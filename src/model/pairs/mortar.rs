@@ -98,7 +98,7 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
         }
     }
     if !found.left_out.is_empty() {
-        let contact = entries.contact;
+        let contact = &entries.contact;
         notes.push(format!(
             "contact {}: {} of `{}` face the other surface by less than a part in 1e8 of their \
              share and stay free",
@@ -128,7 +128,7 @@ pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, V
         .collect();
     if !far.is_empty() {
         let mesh = entries.mesh;
-        let contact = entries.contact;
+        let contact = &entries.contact;
         let names = [&contact.first, &contact.second];
         let each = far.iter().take(4).map(|pair| {
             let (label, place) = (mesh.node_label(pair.slave), mesh.place(pair.slave));
@@ -162,7 +162,7 @@ pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, V
 /// # Errors
 /// Surfaces that are not one curve or do not face each other.
 fn coupled<'a>(entries: &'a Entries<'a>, slave: SlaveSide) -> Result<Coupled<'a>> {
-    let (mesh, contact) = (entries.mesh, entries.contact);
+    let (mesh, contact) = (entries.mesh, &entries.contact);
     let curves = entries
         .surfaces
         .map(|s| s.curve.or_else(|| roundness::find(mesh, s)));
@@ -304,7 +304,7 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
 impl Sides<'_> {
     /// The pair of a slave node; `None` where too little of it is covered.
     fn pair(&self, node: usize, of_node: &Integrals, arc: f64) -> Option<Pair> {
-        let (mesh, contact) = (self.entries.mesh, self.entries.contact);
+        let (mesh, contact) = (self.entries.mesh, &self.entries.contact);
         let normal = *self.normals.get(&node)?;
         let (weight, masters) = match of_node.covered > COVERED * of_node.whole {
             true => (of_node.covered, of_node.weights()),
@@ -364,7 +364,7 @@ impl Sides<'_> {
 
     /// Refuses pairs that share nodes or overlap.
     fn check(&self, pairs: &[Pair], facet_length: f64, slave: usize) -> Result<()> {
-        let (mesh, contact) = (self.entries.mesh, self.entries.contact);
+        let (mesh, contact) = (self.entries.mesh, &self.entries.contact);
         self.check_apart(pairs)?;
         let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
         let overlaps = |pair: &&Pair| pair.gap < -TOUCHING * facet_length && !contact.overlap;

@@ -71,7 +71,7 @@ fn rows(
     };
     let entries = Entries {
         index,
-        contact: &sides,
+        contact: sides,
         surfaces,
         mesh,
         space: scene.kind,
