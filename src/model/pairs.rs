@@ -12,10 +12,10 @@ use super::given::Given;
 use super::mirror::Mirror;
 use super::names::Entry;
 use crate::error::{Error, Result};
-use crate::mesh::surface::PAIRING;
+use crate::mesh::surface::{self, PAIRING};
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::{Contact, Scene, SlaveSide};
-use crate::space::{Space, Vector, difference, dot, length};
+use crate::space::{Space, Vector, difference, direction, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative error of a coordinate of a mesh: it was rounded some times on its way through rotations
@@ -162,6 +162,26 @@ impl Entries<'_> {
             _ => normal,
         }
     }
+
+    /// A given direction that leads into the second body, not out of it.
+    fn check_normal(&self) -> Result<()> {
+        let [_, second] = self.surfaces;
+        let Some(normal) = self.contact.normal.map(|n| direction(n.vector())) else {
+            return Ok(());
+        };
+        let nodes = surface::nodes(self.mesh, second)?;
+        let outward = surface::normals(self.mesh, second, &nodes);
+        let along: f64 = outward.iter().map(|n| dot(*n, normal)).sum();
+        // All around a ring the sum is nothing.
+        if along >= -0.5 * outward.len() as f64 {
+            return Ok(());
+        }
+        Err(Error::input(format!(
+            "its normal leads from `{}` into the body behind it: it is the direction from the \
+             second body to the first; turn it round, or leave it out",
+            self.contact.second
+        )))
+    }
 }
 
 pub(super) fn resolve(
@@ -203,6 +223,7 @@ pub(super) fn resolve(
             Ok((found, shared))
         };
         let refused = |error: Error| entry.refused(error.within(&what));
+        entries.check_normal().map_err(refused)?;
         let mut own_notes = Vec::new();
         let (mut found, mut shared) = find(&entries, &mut own_notes).map_err(refused)?;
         // Nodes of an edge that two contacts share are slaves of one; of a contact that is there

@@ -472,3 +472,18 @@ fn a_result_directory_that_cannot_be_written_is_found_before_the_run() {
     assert_eq!(output.status.code(), Some(2));
     assert_eq!(std::fs::read_dir(folder.path("out")).unwrap().count(), 1);
 }
+
+#[test]
+fn a_normal_that_leads_into_a_body() {
+    refused_with(
+        "contact_patch",
+        &["contact.0.normal=[0.0, -1.0]"],
+        &[],
+        2,
+        &[
+            "contact 1 (`upper.bottom` on `lower.top`)",
+            "its normal leads from `lower.top` into the body behind it",
+            "turn it round, or leave it out",
+        ],
+    );
+}

@@ -157,7 +157,7 @@ fn run(text: &str) -> Result<Results> {
 #[test]
 fn a_round_punch_stays_where_it_is() {
     let folder = tempfile::tempdir().unwrap();
-    for seed in 1..=either(40, 400) {
+    for seed in 1..=either(20, 400) {
         let [loose, held] = [false, true].map(|held| {
             let punch = punch(seed, held, folder.path());
             let results = run(&punch.text).unwrap_or_else(|why| panic!("{why}\n{}", punch.text));
