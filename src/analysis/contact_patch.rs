@@ -13,8 +13,9 @@ use std::f64::consts::PI;
 const EDGE_SKIP: isize = 2;
 /// Pairs before those from which the pressure near the edge is fitted.
 const EDGE_POINTS: isize = 4;
-/// Angle below which two planes are parallel, or the same.
-const SAME_WAY: f64 = 1e-6;
+/// Angle of the sector between two planes below which they are parallel: a contact goes on beyond
+/// them without end.
+const PARALLEL: f64 = 1e-2;
 
 /// Where a contact ends.
 #[derive(Clone, Copy)]
@@ -147,12 +148,9 @@ impl Patch<'_> {
         match [self.begin, self.end - 1].map(|k| (self.is_symmetric(k), self.mirror(k))) {
             [(false, _), (false, _)] => 0.5,
             [(_, Some(a)), (_, Some(b))] => {
-                let angle = dot(a.normal(), b.normal()).abs().min(1.0).acos();
-                if angle > SAME_WAY {
-                    (PI / angle).round()
-                } else {
-                    1.0
-                }
+                let between = dot(a.normal(), b.normal()).clamp(-1.0, 1.0).acos();
+                let sector = PI - between;
+                if sector > PARALLEL { PI / sector } else { 1.0 }
             }
             _ => 1.0,
         }

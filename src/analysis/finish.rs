@@ -5,7 +5,7 @@ use super::stopwatch::Row;
 use super::{check, quality};
 use crate::model::Model;
 use crate::number::significant;
-use crate::results::{PairState, Quality, Results, Sizes, State, Status};
+use crate::results::{Quality, Results, Sizes, State, Status};
 
 /// Lower bound of the condition from which it is estimated without being asked for: six digits of a
 /// displacement may be left.
@@ -115,29 +115,30 @@ impl Run<'_, '_> {
 
 /// Warnings of contacts none of whose pairs is closed in any state.
 fn never_closed(model: &Model, states: &[State]) -> Vec<String> {
-    let contacts = model.contacts.iter().enumerate();
-    let open = contacts.filter_map(|(index, contact)| {
-        let pairs = || {
-            states
-                .iter()
-                .flat_map(|s| s.pairs.iter().map(move |pair| (s, pair)))
-        };
-        let mut own = pairs().filter(|(_, pair)| pair.contact == index).peekable();
-        own.peek()?;
-        let closed = |(_, pair): &(&State, &PairState)| pair.status == Status::Closed;
-        if pairs().any(|of| of.1.contact == index && closed(&of)) {
-            return None;
+    // Of each contact that is open in every state the smallest gap, and the state.
+    let mut nearest: Vec<Option<(f64, &str)>> = vec![None; model.contacts.len()];
+    let mut closed = vec![false; model.contacts.len()];
+    for state in states {
+        for pair in &state.pairs {
+            closed[pair.contact] |= pair.status == Status::Closed;
+            let nearest = &mut nearest[pair.contact];
+            if nearest.is_none_or(|(gap, _)| pair.gap < gap) {
+                *nearest = Some((pair.gap, &state.name));
+            }
         }
-        let nearest = own.min_by(|a, b| a.1.gap.total_cmp(&b.1.gap))?;
+    }
+    let contacts = model.contacts.iter().zip(nearest).zip(closed).enumerate();
+    let open = contacts.filter(|(_, (_, closed))| !closed);
+    let texts = open.filter_map(|(index, ((contact, nearest), _))| {
+        let (gap, state) = nearest?;
         Some(format!(
             "contact {} (`{}` on `{}`) is open in every state: its smallest gap is {}, in state \
-             `{}`; do the surfaces look at each other, and does the load close it?",
+             `{state}`; do the surfaces look at each other, and does the load close it?",
             index + 1,
             contact.names[0],
             contact.names[1],
-            significant(nearest.1.gap, 4),
-            nearest.0.name
+            significant(gap, 4),
         ))
     });
-    open.collect()
+    texts.collect()
 }

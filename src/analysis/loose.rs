@@ -11,7 +11,9 @@ use std::sync::Arc;
 /// Share of the largest force above which springs are let go on the way.
 const MOVES: f64 = 1e-9;
 /// The same in a state that is read: round-off.
-pub(super) const NOTHING: f64 = 1e-14;
+const NOTHING: f64 = 1e-14;
+/// Share of the largest force that they may bear where nothing moves any more.
+const SETTLED: f64 = 1e-11;
 /// Share of the largest force that no spring bears but where the load drives a body on: it has
 /// moved by a hundred times the deformation.
 const DRIVEN: f64 = 1e-6;
@@ -40,8 +42,8 @@ impl Solver<'_> {
         }
         let matrix = self.structure.sub.pair_matrix();
         let [here, there] = [&self.at, end].map(|point| self.structure.closed_forces(point));
-        let mut changed = false;
         let mut springs = self.springs.to_vec();
+        let mut anew: Vec<usize> = Vec::new();
         for (pairs, slips) in loose {
             let of = |value: &dyn Fn(usize) -> f64| {
                 DVector::from_iterator(pairs.len(), pairs.iter().map(|&k| value(k)))
@@ -52,26 +54,62 @@ impl Solver<'_> {
             let mut gap = from.clone();
             let free = come_to_rest(&slips, [&rate, &terms], &mut gap)
                 .map_err(|u| self.structure.unbounded(pairs[u.pair], self.at.alpha))?;
-            if gap != from {
-                changed = true;
-                for (&k, &gap) in pairs.iter().zip(gap.iter()) {
-                    self.now.gap[k] = gap;
-                    self.now.force[k] = 0.0;
-                }
+            for (&k, &gap) in pairs.iter().zip(gap.iter()).filter(|_| gap != from) {
+                self.now.gap[k] = gap;
+                self.now.force[k] = 0.0;
             }
-            springs.retain(|own| own.pairs() != pairs);
-            if free.ncols() > 0 {
-                changed = true;
-                let motions = &slips * free;
-                springs.push(Springs::new(matrix, pairs, &motions, &self.now.gap));
+            let own = (free.ncols() > 0)
+                .then(|| Springs::new(matrix, pairs, &(&slips * free), &self.now.gap));
+            let known = springs.iter().position(|other| other.pairs() == pairs);
+            let as_stiff = match (known, &own) {
+                (Some(at), Some(own)) => springs[at].as_stiff_as(own),
+                (None, None) => true,
+                _ => false,
+            };
+            if gap != from || !as_stiff {
+                anew.extend_from_slice(pairs);
+            }
+            match (known, own) {
+                (Some(at), Some(own)) => springs[at] = own,
+                (Some(at), None) => drop(springs.remove(at)),
+                (None, own) => springs.extend(own),
             }
         }
         self.set_springs(&Arc::from(springs));
-        if changed {
-            let open: Vec<bool> = self.now.gap.iter().map(|g| *g > 0.0).collect();
+        if !anew.is_empty() {
+            let mut open = self.tableau.open().to_vec();
+            anew.into_iter()
+                .for_each(|k| open[k] = self.now.gap[k] > 0.0);
             self.tableau.reset(&open);
         }
         Ok(())
+    }
+
+    /// Equilibrium without springs: a body that contact holds weakly, or that is still on its way
+    /// to what stops it, moves on until they bear nothing.
+    ///
+    /// # Errors
+    /// A load that drives a body away from every contact.
+    pub(super) fn settle_springs(&mut self) -> Result<()> {
+        for _ in 0..MOST_TIMES {
+            self.let_springs_go(NOTHING);
+            let bear = self.springs_bear(SETTLED);
+            if !bear && !self.is_beyond_contact() {
+                break;
+            }
+            if bear {
+                self.refuse_motion_without_end()?;
+            }
+            self.solve_contact_at(&self.at.clone())?;
+        }
+        Ok(())
+    }
+
+    /// Whether a pair is beyond its condition by more than round-off.
+    fn is_beyond_contact(&self) -> bool {
+        let [gap, force] = [self.scales.displacement, self.scales.force].map(|s| -1e-10 * s);
+        let least = |of: &[f64]| of.iter().copied().fold(0.0, f64::min);
+        !self.springs.is_empty() && (least(&self.now.gap) < gap || least(&self.now.force) < force)
     }
 
     /// Leaves bodies where they are by now that springs pull back with more than a share of the
@@ -107,9 +145,13 @@ impl Solver<'_> {
     /// # Errors
     /// A load that drives a body away from every contact.
     pub(super) fn refuse_driven_bodies(&self) -> Result<()> {
-        if !self.springs_bear(DRIVEN) {
-            return Ok(());
+        match self.springs_bear(DRIVEN) {
+            true => self.refuse_motion_without_end(),
+            false => Ok(()),
         }
+    }
+
+    fn refuse_motion_without_end(&self) -> Result<()> {
         let of_all = self.structure.closed_forces(&self.at);
         for (pairs, slips) in self.structure.sub.rigid_slips(|_| true) {
             let [load, mut gap] = [&of_all, &self.now.gap]

@@ -2,7 +2,6 @@
 //! to be believed.
 
 use super::drive::{Arrival, IncrementReport, Step};
-use super::loose::NOTHING;
 use super::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Kind;
@@ -25,7 +24,7 @@ impl Solver<'_> {
     ) -> Result<Step> {
         self.refuse_driven_bodies()?;
         if arrival.is_some() {
-            self.let_springs_go(NOTHING);
+            self.settle_springs()?;
         }
         match self.outgrown_at() {
             Some(pair) => Err(self.outgrown(pair, from)),

@@ -143,6 +143,10 @@ impl ElasticStretch {
             return Ok((Some(step), None));
         }
         self.open = solver.tableau.open().to_vec();
+        if self.path.t() == 0.0 {
+            // A new piece began: its loads are others.
+            self.loads = None;
+        }
         let step = solver.accepted(from.alpha, report, None)?;
         Ok((Some(step), Some(self)))
     }

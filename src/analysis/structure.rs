@@ -37,6 +37,8 @@ pub struct Structure<'m> {
     /// Share of the forces on tied pairs that elimination left out of balance with the loads on
     /// floating bodies, at most: its round-off.
     pub unbalanced: f64,
+    /// Work of each set of like loads at factor 1 on the rigid motions of floating bodies.
+    work: Vec<Vec<Work>>,
     /// Where zone and contact freedoms are.
     pub places: Places,
     /// Elements of the zone, ascending.
@@ -77,6 +79,15 @@ pub(super) struct Gaps {
     pub(super) forces: [Vec<f64>; 2],
 }
 
+fn work_of_loads(model: &Model) -> Vec<Vec<Work>> {
+    let sets = model.alike.iter().map(|alike| {
+        let acting = || alike.iter().flat_map(|&load| &model.loads[load].forces);
+        let motions = model.floating.motions.iter();
+        motions.map(|motion| motion.work_of(acting())).collect()
+    });
+    sets.collect()
+}
+
 /// Cost so far.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub struct Cost {
@@ -114,6 +125,7 @@ impl<'m> Structure<'m> {
         let mut structure = Structure {
             condition: sub.condition(),
             unbalanced: 0.0,
+            work: work_of_loads(model),
             places: places(model, &sub),
             factored: within.into(),
             elements: within.into(),
@@ -213,9 +225,10 @@ impl<'m> Structure<'m> {
         self.loads.far = far.map(|w| self.sub.condense(w)).collect::<Result<_>>()?;
         let reduced = self.loads.reduced.iter();
         let condensed: Result<Vec<_>> = reduced.map(|l| self.sub.condense(l)).collect();
-        let condensed = condensed?.into_iter().zip(&self.model.alike);
-        let mut unbalanced = self.unbalanced;
-        let eliminated = condensed.map(|(load, alike)| {
+        let condensed = condensed?.into_iter();
+        let condensed = condensed.zip(&self.model.alike).zip(&self.work);
+        let (mut unbalanced, mut largest) = (0.0f64, f64::MIN_POSITIVE);
+        let eliminated = condensed.map(|((load, alike), work)| {
             let mut out = self.eliminate(load, cost);
             let of_alike = || alike.iter().map(|&load| &self.model.loads[load]);
             if of_alike().any(|case| !case.opens.is_empty()) {
@@ -227,16 +240,18 @@ impl<'m> Structure<'m> {
                     .zip(forces)
                     .for_each(|(t, force)| *t -= force);
             }
-            let acting = || of_alike().flat_map(|load| &load.forces);
-            let motions = self.model.floating.motions.iter();
-            let work: Vec<Work> = motions.map(|motion| motion.work_of(acting())).collect();
-            let left = self.sub.balance(&mut out.forces, &work);
-            let largest = out.forces.iter().fold(0.0f64, |m, t| m.max(t.abs()));
-            unbalanced = unbalanced.max(left / largest.max(f64::MIN_POSITIVE));
+            let left = self.sub.balance(&mut out.forces, work);
+            unbalanced = unbalanced.max(left);
+            let forces = out
+                .forces
+                .iter()
+                .chain(&out.load.zone)
+                .chain(&out.load.contact);
+            largest = forces.fold(largest, |m, t| m.max(t.abs()));
             out
         });
         self.loads.condensed = eliminated.collect();
-        self.unbalanced = unbalanced;
+        self.unbalanced = self.unbalanced.max(unbalanced / largest);
         self.loads.driving = DrivingForce::new(self, cost)?;
         Ok(())
     }

@@ -24,8 +24,8 @@ use std::collections::BTreeSet;
 const ROUND_OFF: f64 = 1e-11;
 /// Moves the pairs of a group by rigid motions, whose displacements are the columns of `slips`
 /// (orthonormal), to where the load rate `q`, a sum of `terms`, takes them. What the load does not
-/// drive stays where it is: returned are the motions that nothing drives and no pair without gap
-/// then holds (`motions x free ones`, orthonormal).
+/// drive stays where it is: returned are the motions that no pair stops on this way (`motions x
+/// free ones`, orthonormal).
 ///
 /// # Errors
 /// [`Unbounded`] where no pair stops a motion that the load drives.

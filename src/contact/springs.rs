@@ -105,10 +105,17 @@ impl Springs {
 
     /// The largest force that they exert on a pair at these gaps: `F F' (g - g_0)`.
     pub(crate) fn largest_force(&self, gap: &[f64]) -> f64 {
-        let mut forces = vec![0.0; gap.len()];
-        self.add_times(&self.amplitudes(gap), &mut forces);
-        self.add_at_rest(&mut forces);
-        forces.iter().fold(0.0f64, |m, f| m.max(f.abs()))
+        let moved = self.amplitudes(gap);
+        let moved: Vec<f64> = moved
+            .iter()
+            .zip(&self.at_rest)
+            .map(|(a, b)| a - b)
+            .collect();
+        let of_pair = |i: usize| -> f64 {
+            let of_each = self.directions.iter().zip(&moved);
+            of_each.map(|(direction, a)| direction[i] * a).sum()
+        };
+        (0..self.pairs.len()).fold(0.0f64, |m, i| m.max(of_pair(i).abs()))
     }
 }
 

@@ -130,9 +130,9 @@ pub(crate) fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>
 /// Exact where the surface's [`Curve`](super::Curve) is known, and in the inner nodes of flat
 /// facets where these lie on a circle or a sphere, however long each is: at a node where the edges
 /// `e` meet, straight facets have the weights `1 / |e|^2` and flat faces `1 / |e_1|^2 |e_2|^2` (of
-/// their area vectors). At the end of a line of straight facets, a circle through the next normal
-/// is continued. The normal of a curved facet is that at the node; several have the weights of
-/// their areas. A node that is not on the surface gets zeros.
+/// their area vectors). At the end of a line of straight facets a circle is continued. The normal
+/// of a curved facet is that at the node; several have the weights of their areas. A node that is
+/// not on the surface gets zeros.
 ///
 /// # Source
 /// N. Max, *Weights for computing vertex normals from facet normals* (1999),
@@ -180,7 +180,8 @@ fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
 }
 
 /// Gives the end of a line of straight facets the normal at the other end of its facet, mirrored:
-/// that of a circle through both. Not where the line has a corner there.
+/// that of a circle through both. Only where the line turns alike at the next two nodes, each turn
+/// over the length that it belongs to.
 fn continue_to_the_ends(mesh: &Mesh, surface: &Surface, normals: &mut BTreeMap<usize, Vector>) {
     let mut facets_at: BTreeMap<usize, Vec<Facet>> = BTreeMap::new();
     for &facet in &surface.facets {
@@ -188,29 +189,42 @@ fn continue_to_the_ends(mesh: &Mesh, surface: &Surface, normals: &mut BTreeMap<u
             facets_at.entry(node).or_default().push(facet);
         }
     }
-    let way = |facet: Facet| {
-        let ends: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
-        direction(difference(ends[1], ends[0]))
-    };
-    for facets in facets_at.values().filter(|facets| facets.len() == 1) {
-        let ends: Vec<usize> = mesh.facet_nodes(facets[0]).collect();
+    // The facet itself, its other end, and the way there.
+    let along = |facet: Facet, from: usize| {
+        let ends: Vec<usize> = mesh.facet_nodes(facet).collect();
         let &[a, b] = ends.as_slice() else {
-            continue;
+            return None;
         };
-        for (end, inner) in [(a, b), (b, a)] {
-            let (of_end, of_inner) = (&facets_at[&end], &facets_at[&inner]);
-            if of_end.len() != 1 || of_inner.len() != 2 {
-                continue;
-            }
-            let way_here = way(facets[0]);
-            let turn = dot(way(of_inner[0]), way(of_inner[1]));
-            if turn >= SMOOTH {
-                let (normal, along) = (normals[&inner], dot(normals[&inner], way_here));
-                let mirrored = std::array::from_fn(|d| normal[d] - 2.0 * along * way_here[d]);
-                normals.insert(end, mirrored);
-            }
-        }
+        let to = if a == from { b } else { a };
+        Some((to, difference(mesh.point(to), mesh.point(from))))
+    };
+    let next = |facet: Facet, at: usize| match facets_at[&at].as_slice() {
+        &[a, b] if a == facet => Some(b),
+        &[a, b] if b == facet => Some(a),
+        _ => None,
+    };
+    // Sine of the turn over its length.
+    let curvature = |a: Vector, b: Vector| {
+        let mean = 0.5 * (length(a) + length(b));
+        (dot(direction(a), direction(b)) >= SMOOTH)
+            .then(|| cross(direction(a), direction(b))[2] / mean)
+    };
+    let mut mirrored = Vec::new();
+    for (&end, facets) in facets_at.iter().filter(|(_, facets)| facets.len() == 1) {
+        let find = || {
+            let (inner, first) = along(facets[0], end)?;
+            let second_facet = next(facets[0], inner)?;
+            let (middle, second) = along(second_facet, inner)?;
+            let (_, third) = along(next(second_facet, middle)?, middle)?;
+            let (here, there) = (curvature(first, second)?, curvature(second, third)?);
+            let alike = here == there || (0.5..2.0).contains(&(here / there));
+            let (normal, way) = (normals[&inner], direction(first));
+            let slope = 2.0 * dot(normal, way);
+            alike.then(|| std::array::from_fn(|d| normal[d] - slope * way[d]))
+        };
+        mirrored.extend(find().map(|normal: Vector| (end, normal)));
     }
+    normals.extend(mirrored);
 }
 
 /// The index of the node of `candidates` on the line through `x` along the unit vector `normal`,

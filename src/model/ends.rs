@@ -59,9 +59,15 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
             followed &= follows(&master);
             turn += master.turn;
         } else {
-            // Facets of the other surface go on, unless it ends among the masters.
+            // Facets of the other surface go on, unless it ends among the masters; where it does,
+            // one of another contact may begin.
+            let contact = &contacts[end.contact];
+            let other = mesh.surfaces.get(&contact.names[1 - contact.slave]);
+            let other: BTreeSet<Facet> = (other.into_iter())
+                .flat_map(|surface| surface.facets.iter().copied())
+                .collect();
             let masters = pairs[end.last].masters.iter();
-            let ends = masters.filter_map(|&(node, _)| boundary.end_of(node, &candidates));
+            let ends = masters.filter_map(|&(node, _)| boundary.end_of(node, &other));
             turn += ends.fold(0.0, |most: f64, turn| most.max(turn));
         }
         if !followed && turn < FEATURE_ANGLE {

@@ -102,6 +102,9 @@ impl FarBoundary<'_> {
     /// The weight of each free and pinned freedom of these nodes; what several nodes share counts
     /// as often.
     fn on_freedoms(&self, nodes: impl Iterator<Item = (usize, f64)>) -> BTreeMap<u32, f64> {
+        let pins = self.pins.iter().enumerate();
+        let mut pins_of: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        pins.for_each(|(k, pin)| pins_of.entry(pin.0).or_default().push(k));
         let mut out = BTreeMap::new();
         for (node, weight) in nodes {
             for slot in self.freedoms.slots[node] {
@@ -109,12 +112,7 @@ impl FarBoundary<'_> {
                     *out.entry(freedom).or_insert(0.0) += weight;
                 }
             }
-            for (k, _) in self
-                .pins
-                .iter()
-                .enumerate()
-                .filter(|(_, pin)| pin.0 == node)
-            {
+            for k in pins_of.get(&node).into_iter().flatten() {
                 *out.entry((self.freedoms.n + k) as u32).or_insert(0.0) += weight;
             }
         }

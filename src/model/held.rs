@@ -144,7 +144,8 @@ pub(super) fn resolve(
             groups.iter().for_each(|&group| moved[group] = true);
             let motion = motions.describe(mode);
             for (load, work) in motions.work(mode, &forces) {
-                if work.abs() > NO_WORK_FOUND * forces.size[load] * mode.largest() {
+                let size = motions.size(mode, &forces, load) * mode.largest();
+                if work.abs() > NO_WORK_FOUND * size {
                     return Err(Error::new(
                         ErrorKind::Unheld,
                         format!(

@@ -56,8 +56,6 @@ impl Mode {
 pub(super) struct Forces {
     /// Load, node and force of each group.
     of_group: Vec<Vec<(usize, usize, Vector)>>,
-    /// Sum of the sizes of the components of each load.
-    pub(super) size: Vec<f64>,
 }
 
 impl<'a> Motions<'a> {
@@ -303,14 +301,21 @@ impl<'a> Motions<'a> {
     /// The nodal forces of the loads by groups.
     pub(super) fn forces(&self, loads: &[LoadCase]) -> Forces {
         let mut of_group = vec![Vec::new(); self.names.len()];
-        let mut size = vec![0.0; loads.len()];
         for (load, case) in loads.iter().enumerate() {
             for &(node, force) in case.nodal() {
                 of_group[self.group_of_node[node]].push((load, node, force));
-                size[load] += force.iter().map(|f| f.abs()).sum::<f64>();
             }
         }
-        Forces { of_group, size }
+        Forces { of_group }
+    }
+
+    /// Sum of the sizes of the components of a load on the groups of a mode.
+    pub(super) fn size(&self, mode: &Mode, forces: &Forces, load: usize) -> f64 {
+        let per = self.per_group();
+        let groups = mode.rows.iter().step_by(per).map(|row| row / per);
+        let own = groups.flat_map(|group| &forces.of_group[group]);
+        let own = own.filter(|(of, ..)| *of == load);
+        own.flat_map(|(.., force)| force).map(|f| f.abs()).sum()
     }
 
     /// The work of each load that has forces on the groups of a mode, by the loads' numbers.

@@ -11,6 +11,10 @@ const YIELD_STRAINS: [f64; 2] = [1e-6, 1.0];
 /// Logarithmic plastic strain beyond which no test goes: a bar drawn to seven times its length.
 const LARGEST_STRAIN: f64 = 2.0;
 
+/// Elements up to which planes of symmetry are looked for to warn of none: each facet of a held
+/// surface is compared with all planes that were found.
+const MOST_ELEMENTS: usize = 100_000;
+
 /// Warnings of materials in units that contradict each other.
 pub(super) fn of_materials(scene: &Scene) -> Vec<String> {
     let mut out = Vec::new();
@@ -42,9 +46,13 @@ pub(super) fn of_materials(scene: &Scene) -> Vec<String> {
 
 /// A warning of a symmetry that the model does not have.
 pub(super) fn of_symmetry(model: &Model) -> Option<String> {
-    let all: Vec<usize> = (0..model.mesh.n_elements()).collect();
-    let is_whole = || mirrors(model, &Conditions::of(model), &all).is_empty();
-    (model.scene.symmetry > 1 && is_whole()).then(|| {
+    let n = model.mesh.n_elements();
+    if model.scene.symmetry < 2 || n > MOST_ELEMENTS {
+        return None;
+    }
+    let all: Vec<usize> = (0..n).collect();
+    let is_whole = mirrors(model, &Conditions::of(model), &all).is_empty();
+    is_whole.then(|| {
         format!(
             "symmetry = {}: forces are told of a whole of which the mesh is a part, and no flat \
              side of the mesh is held across as a plane of symmetry is; leave it out if the mesh \

@@ -23,7 +23,8 @@ pub struct Contact {
     /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the
     /// finer one (the coarser where its facets are linear and more than twice as long, or longer at
     /// all where they are of a curved surface whose shape is not known), the second where nodes
-    /// face each other, and the other one of these where a node would be the slave of two contacts.
+    /// face each other, and the other one of these where nodes at an edge are slaves of an earlier
+    /// contact.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
     /// Pressure over overlap of soft contact: `g + p / stiffness >= 0` in place of `g >= 0`. By

@@ -193,3 +193,42 @@ fn a_round_punch_stays_where_it_is() {
         assert!(middle.abs() < loose.0.cell, "{middle}\n{text}");
     }
 }
+
+/// Pressed down first, where nothing drives it sideways, then pushed gently to a wall that is four
+/// orders of its deformation away: the wall takes the push, not what kept the block before.
+#[test]
+fn a_block_is_pushed_to_a_wall_far_away() {
+    let text = r#"
+kind = "plane_strain"
+mesh.parts = [
+    { body = "plate", element = "quad4", block = { x = [-3, 6], y = [-2, 0], elements = [9, 2] } },
+    { body = "block", element = "quad4", block = { x = [0, 2], y = [0, 2], elements = [5, 5] } },
+    { body = "wall", element = "quad4", block = { x = [4, 5], y = [0.4, 3], elements = [2, 4] } },
+]
+materials.s = { youngs_modulus = 210e3, poissons_ratio = 0.3 }
+bodies = { plate.material = "s", block.material = "s", wall.material = "s" }
+contact = [
+    { first = "block.bottom", second = "plate.top" },
+    { first = "block.right", second = "wall.left" },
+]
+support = [
+    { on = "plate.bottom", fix = ["x", "y"] }, { on = "wall.right", fix = ["x", "y"] },
+]
+load = [
+    { name = "down", on = "block.top", pressure = 20.0, history = "constant" },
+    { name = "aside", on = "block.left", pressure = PUSH },
+]
+program.targets = [{ load_factor = 1.0 }]
+"#;
+    for push in [1.0, 1e-2, 1e-4] {
+        let results = run(&text.replace("PUSH", &format!("{push:?}"))).expect("a wall stops it");
+        let ending = results.ending();
+        assert!(ending.kind().is_none(), "{push}: {ending:?}");
+        let pairs = results.states[0].pairs.iter();
+        let of_wall = pairs
+            .filter(|pair| pair.contact == 1)
+            .map(|pair| pair.force);
+        let force: f64 = of_wall.sum();
+        assert!((force / (2.0 * push) - 1.0).abs() < 1e-9, "{push}: {force}");
+    }
+}
