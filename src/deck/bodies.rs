@@ -64,6 +64,7 @@ impl Deck {
             out.of_element.push(body);
         }
         out.names = self.body_names(&sections, &out.of_element)?;
+        self.name_by_instances(&mut out);
         let has_sections = !self.properties.sections.is_empty();
         let section = |section: &u32| has_sections.then_some(*section as usize);
         out.sections = sections.iter().map(section).collect();
@@ -88,7 +89,7 @@ impl Deck {
             let set = Target::Set(section.elements.clone());
             for element in self.indices(What::Elements, &set, at)? {
                 if out[element as usize] != NONE {
-                    let label = self.elements.labels[element as usize];
+                    let label = self.element_name(element as usize);
                     let message = format!("element {label} is in another section too: give it one");
                     return Err(self.error(at.0, at.1, message));
                 }
@@ -97,7 +98,7 @@ impl Deck {
         }
         match out.iter().position(|section| *section == NONE) {
             Some(element) => {
-                let label = self.elements.labels[element];
+                let label = self.element_name(element);
                 let message = format!(
                     "element {label} is in no *SOLID SECTION: give its set one, with a material"
                 );
@@ -131,6 +132,26 @@ impl Deck {
         (classes.firsts().into_iter())
             .map(|first| first as u32)
             .collect()
+    }
+
+    /// Gives each body that is a whole instance of a part the instance's name.
+    fn name_by_instances(&self, bodies: &mut Bodies) {
+        let n = self.instances.names().len();
+        if n == 0 {
+            return;
+        }
+        // Of each body the instance, of each instance how many bodies it has.
+        let mut of_body = vec![None; bodies.names.len()];
+        for (element, &body) in bodies.of_element.iter().enumerate().rev() {
+            of_body[body as usize] = self.instances.of(self.elements.labels[element]);
+        }
+        let mut n_bodies = vec![0; n];
+        (of_body.iter().flatten()).for_each(|&instance: &usize| n_bodies[instance] += 1);
+        for (name, instance) in bodies.names.iter_mut().zip(of_body) {
+            if let Some(instance) = instance.filter(|&instance| n_bodies[instance] == 1) {
+                name.clone_from(&self.instances.names()[instance]);
+            }
+        }
     }
 
     /// Names of the bodies, of which `sections` are given: of the section's set where it is all of

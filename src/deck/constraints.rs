@@ -75,7 +75,7 @@ impl Deck {
             for node in self.indices(What::Nodes, &set, at)? {
                 let x = self.point(node as usize);
                 let axes = axes_at(transform, x).ok_or_else(|| {
-                    let label = self.nodes.labels[node as usize];
+                    let label = self.node_name(node as usize);
                     let message = format!("the points give node {label} no axes");
                     self.error(at.0, at.1, message)
                 })?;

@@ -53,15 +53,24 @@ impl<'t> Fields<'t> {
 
     /// The next value as it is written, without blanks and quotes; empty where none is given.
     pub(super) fn word(&mut self) -> &'t [u8] {
-        let length = self.rest.iter().position(|&b| b == b',');
+        match self.written() {
+            [b'"', inner @ .., b'"'] => inner,
+            word => word,
+        }
+    }
+
+    /// As [`Fields::word`], with quotes.
+    pub(super) fn written(&mut self) -> &'t [u8] {
+        let length = comma(self.rest);
         let word = &self.rest[..length.unwrap_or(self.rest.len())];
         self.goes_on = length.is_some();
         self.rest = length.map_or(&[][..], |length| self.rest[length + 1..].trim_ascii_start());
-        let word = word.trim_ascii();
-        match word {
-            [b'"', inner @ .., b'"'] => inner,
-            _ => word,
-        }
+        word.trim_ascii()
+    }
+
+    /// What was not read yet.
+    pub(super) fn rest(&self) -> &'t [u8] {
+        self.rest
     }
 
     /// The next value as text.
@@ -174,6 +183,21 @@ impl<'t> Fields<'t> {
         self.place
             .error(format!("the line ends where {what} should be; give it"))
     }
+}
+
+/// The first comma that stands in no name in quotes.
+pub(super) fn comma(bytes: &[u8]) -> Option<usize> {
+    let first = bytes.iter().position(|&b| b == b',')?;
+    if !bytes[..first].contains(&b'"') {
+        return Some(first);
+    }
+    let mut is_quoted = false;
+    let found = bytes.iter().position(|&b| {
+        is_quoted ^= b == b'"';
+        b == b',' && !is_quoted
+    });
+    // Behind a quote that nothing closes all commas count.
+    if is_quoted { Some(first) } else { found }
 }
 
 /// A word for messages, shortened.
@@ -296,6 +320,10 @@ mod tests {
 
     #[test]
     fn values_are_separated_by_commas_and_may_be_left_out() {
+        let mut names = Fields::new(b"\"a, b\", \"c, d", PLACE);
+        for word in ["a, b", "\"c", "d"] {
+            assert_eq!(names.text("a name").unwrap(), word);
+        }
         let mut fields = Fields::new(b"12, 1.5D+2 ,, -.5 , \"my set\",", PLACE);
         assert_eq!(fields.label("a number").unwrap(), 12);
         assert_eq!(fields.number("x").unwrap(), 150.0);

@@ -132,7 +132,7 @@ impl Deck {
         }
         for (key, given) in given {
             if number > 0 && kind == Kind::Boundary {
-                let node = self.nodes.labels[key.0 as usize];
+                let node = self.node_name(key.0 as usize);
                 let message = format!(
                     "node {node} is held along {} only from step {} on: supports are the same in \
                      all steps; hold it from the first step on, or press with a force",
@@ -160,7 +160,7 @@ impl Deck {
     }
 
     fn released(&self, key: Key, number: usize, place: Place) -> crate::Error {
-        let node = self.nodes.labels[key.0 as usize];
+        let node = self.node_name(key.0 as usize);
         let message = format!(
             "OP=NEW releases node {node} along {} in step {}: supports are the same in all steps; \
              repeat them, or press with a force where it is to come free",

@@ -1,9 +1,12 @@
 //! A keyword with its parameters, and what brinell does with each keyword that there is.
 
-use super::fields::Where;
-use super::source::{Files, Place};
+use super::fields::{Where, comma};
+use super::source::{Files, Line, Place, Source};
 use crate::error::{Error, Result};
 use crate::scene::closest;
+
+/// Keyword lines of more bytes than this are none.
+const LONGEST: usize = 1 << 16;
 
 /// What is done with a keyword.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,10 +31,6 @@ const CONSTRAINTS: Use =
     Use::Refused("nodes are tied by the elements they share, by *TIE, and by *EQUATION");
 const INERTIA: Use = Use::Refused("loads are applied slowly: there is no inertia and no time");
 const HEAT: Use = Use::Refused("there is no heat transfer");
-const PARTS: Use = Use::Refused(
-    "decks are flat: write it without parts and assemblies (in Abaqus/CAE: model attributes, \"Do \
-     not use parts and assemblies in input files\")",
-);
 const LAWS: Use = Use::Refused(
     "materials are isotropic and linear elastic, with von Mises plasticity and isotropic hardening",
 );
@@ -39,6 +38,7 @@ const LAWS: Use = Use::Refused(
 /// All keywords that are known, as they are written.
 const KEYWORDS: &[(&str, Use)] = &[
     ("AMPLITUDE", Use::Read),
+    ("ASSEMBLY", Use::Read),
     ("BOUNDARY", Use::Read),
     ("CLEARANCE", Use::Read),
     ("CLOAD", Use::Read),
@@ -49,16 +49,21 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("ELASTIC", Use::Read),
     ("ELEMENT", Use::Read),
     ("ELSET", Use::Read),
+    ("END ASSEMBLY", Use::Read),
+    ("END INSTANCE", Use::Read),
+    ("END PART", Use::Read),
     ("END STEP", Use::Read),
     ("EQUATION", Use::Read),
     ("EXPANSION", Use::Read),
     ("FRICTION", Use::Read),
     ("HEADING", Use::Read),
     ("INCLUDE", Use::Read),
+    ("INSTANCE", Use::Read),
     ("MATERIAL", Use::Read),
     ("MODEL CHANGE", Use::Read),
     ("NODE", Use::Read),
     ("NSET", Use::Read),
+    ("PART", Use::Read),
     ("PLASTIC", Use::Read),
     ("SOLID SECTION", Use::Read),
     ("STATIC", Use::Read),
@@ -96,6 +101,10 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("INITIAL CONDITIONS", Use::Read),
     ("PHYSICAL CONSTANTS", NO_TEMPERATURE),
     ("SPECIFIC HEAT", NO_TEMPERATURE),
+    (
+        "SECTION CONTROLS",
+        Use::Ignored("elements have no hourglass modes to hold"),
+    ),
     (
         "DAMPING",
         Use::Ignored("loads are applied slowly: damping has no effect"),
@@ -184,12 +193,6 @@ const KEYWORDS: &[(&str, Use)] = &[
         "CONTACT INCLUSIONS",
         Use::Refused("general contact names no surfaces: give *CONTACT PAIR"),
     ),
-    ("PART", PARTS),
-    ("INSTANCE", PARTS),
-    ("ASSEMBLY", PARTS),
-    ("END PART", PARTS),
-    ("END INSTANCE", PARTS),
-    ("END ASSEMBLY", PARTS),
     ("BASE MOTION", INERTIA),
     (
         "IMPERFECTION",
@@ -238,17 +241,35 @@ pub(super) fn plain(word: &str) -> String {
 }
 
 impl Keyword {
+    /// Reads a keyword line with its continuations: it goes on where it ends with a comma.
+    ///
+    /// # Errors
+    /// Those of [`Source::next`].
+    pub(super) fn read(source: &mut Source, line: Line) -> Result<Keyword> {
+        let mut text = String::from_utf8_lossy(source.bytes(line)).into_owned();
+        while text.ends_with(',') && text.len() < LONGEST {
+            let Some(next) = source.next_data()? else {
+                break;
+            };
+            text.push_str(&String::from_utf8_lossy(source.bytes(next)));
+        }
+        Ok(Keyword::parse(&text, line.place))
+    }
+
     /// Reads a keyword line, its continuations joined, which begins with a star.
-    pub(super) fn parse(text: &str, place: Place) -> Keyword {
-        let mut parts = text.trim_start_matches('*').split(',');
+    fn parse(text: &str, place: Place) -> Keyword {
+        let mut rest = Some(text.trim_start_matches('*'));
+        let mut parts = std::iter::from_fn(|| {
+            let text = rest?;
+            let length = comma(text.as_bytes());
+            rest = length.map(|length| &text[length + 1..]);
+            Some(&text[..length.unwrap_or(text.len())])
+        });
         let written = parts.next().unwrap_or_default().trim().to_ascii_uppercase();
         let known = find(&plain(&written)).map(|(name, _)| name.to_string());
         let parameters = parts.map(str::trim).filter(|part| !part.is_empty());
         let parameters = parameters.map(|part| match part.split_once('=') {
-            Some((key, value)) => {
-                let value = value.trim().trim_matches('"');
-                (plain(key), Some(value.to_string()))
-            }
+            Some((key, value)) => (plain(key), Some(value.trim().replace('"', ""))),
             None => (plain(part), None),
         });
         Keyword {
@@ -275,6 +296,12 @@ impl Keyword {
             ),
             None => "unknown keyword; take it out, with the lines that belong to it".to_string(),
         })
+    }
+
+    /// Names of its parameters in capitals, without blanks, and their values.
+    pub(super) fn parameters(&self) -> impl Iterator<Item = (&str, Option<&str>)> {
+        let all = self.parameters.iter();
+        all.map(|(name, value)| (name.as_str(), value.as_deref()))
     }
 
     /// An error at its line.

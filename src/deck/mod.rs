@@ -7,6 +7,8 @@
 //!           INCLUDE)   keyword)             faces)     in time)   are on)          ─▶ mesh::inp
 //! ```
 //!
+//! Decks of parts and an assembly are made flat before they are read (`assembly`).
+//!
 //! Everything that is read has a place, and errors name it: file, line, keyword, value, what to do.
 //! Keywords that brinell has no effect for are either ignored, where they change nothing here, or
 //! refused; [`Deck::account`] lists both, with the reason. Names have no case.
@@ -18,6 +20,7 @@
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, chapters 6 (elements, loads) and 7
 //! (keywords); *Abaqus Keywords Reference Guide*.
 
+mod assembly;
 mod bodies;
 mod constraints;
 mod conversion;
@@ -26,6 +29,7 @@ mod element_type;
 mod facets;
 mod fields;
 mod history;
+mod instances;
 mod keyword;
 mod load;
 mod reader;
@@ -46,6 +50,7 @@ use crate::labels::LabelIndex;
 use crate::shape::Shape;
 use crate::space::Vector;
 use data::{Elements, Nodes, Program, Properties, Sets};
+use instances::Instances;
 use reader::Reader;
 use source::{Files, Place, Source};
 use std::borrow::Cow;
@@ -63,6 +68,8 @@ pub struct Deck {
     properties: Properties,
     program: Program,
     account: Account,
+    /// Instances of parts, by which nodes and elements are numbered.
+    instances: Instances,
     /// Where large deformation is asked for first.
     nlgeom: Option<Place>,
     /// The end of the deck.
@@ -117,6 +124,7 @@ impl Deck {
             let mut all = labels.iter().zip(places).filter(|(l, _)| **l == label);
             let place = all.nth(1).map_or(Place::default(), |(_, place)| *place);
             let place = self.files.show(place);
+            let label = self.instances.shown(label);
             Error::input(format!(
                 "{place}: *{what}: number {label} is given twice; number them uniquely"
             ))
@@ -141,7 +149,7 @@ impl Deck {
             Some((element, label))
         });
         let (element, label) = missing.unwrap_or((0, &0));
-        let name = elements.labels[element];
+        let (name, label) = (self.element_name(element), self.instances.shown(*label));
         let message = format!("element {name} refers to node {label}, which is not in *NODE");
         self.error(elements.places[element], "ELEMENT", message)
     }
@@ -160,6 +168,16 @@ impl Deck {
     /// The number of an element.
     pub(crate) fn element_label(&self, element: usize) -> u64 {
         self.elements.labels[element]
+    }
+
+    /// The number of a node for messages: in an instance, that of its part.
+    fn node_name(&self, node: usize) -> String {
+        self.instances.shown(self.nodes.labels[node])
+    }
+
+    /// The number of an element for messages: in an instance, that of its part.
+    fn element_name(&self, element: usize) -> String {
+        self.instances.shown(self.elements.labels[element])
     }
 
     /// The shape of an element.

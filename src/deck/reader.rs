@@ -5,15 +5,13 @@ mod mesh;
 mod properties;
 mod volume;
 
+use super::assembly::{self, Assembled};
 use super::data::{Account, Condition};
 use super::fields::Fields;
 use super::keyword::{Keyword, Use};
 use super::source::{Line, Source};
 use super::{Deck, Place};
 use crate::error::Result;
-
-/// Keyword lines of more bytes than this are none.
-const LONGEST_KEYWORD: usize = 1 << 16;
 
 /// A deck being read.
 pub(super) struct Reader<'t> {
@@ -54,8 +52,11 @@ impl<'t> Reader<'t> {
             )));
         }
         while let Some(line) = self.source.next()? {
-            let keyword = self.keyword(line)?;
-            self.block(&keyword)?;
+            let keyword = Keyword::read(&mut self.source, line)?;
+            match assembly::frames(&keyword) {
+                true => self.flatten(keyword)?,
+                false => self.block(&keyword)?,
+            }
         }
         let here = self.source.here();
         self.deck.files = self.source.files;
@@ -64,28 +65,39 @@ impl<'t> Reader<'t> {
         Ok(self.deck)
     }
 
-    /// A keyword line with its continuations: it goes on where it ends with a comma.
-    fn keyword(&mut self, line: Line) -> Result<Keyword> {
-        let mut text = String::from_utf8_lossy(self.source.bytes(line)).into_owned();
-        while text.ends_with(',') && text.len() < LONGEST_KEYWORD {
-            let Some(next) = self.source.next_data()? else {
-                break;
-            };
-            text.push_str(&String::from_utf8_lossy(self.source.bytes(next)));
+    /// Goes on with the deck as it is without parts: each instance as nodes, elements, sets and
+    /// surfaces of its own.
+    fn flatten(&mut self, first: Keyword) -> Result<()> {
+        let model = Assembled::read(&mut self.source, first)?;
+        let deck = &mut self.deck;
+        let labels = deck.nodes.labels.iter().chain(&deck.elements.labels);
+        deck.instances = model.instances(&self.source, labels.copied().max())?;
+        let anew = model.flat(&self.source, &deck.instances)?;
+        for part in model.unused_parts() {
+            self.ignore(part, part.place, "no *INSTANCE is made of it");
         }
-        Ok(Keyword::parse(&text, line.place))
+        for keyword in model.frame() {
+            self.understand(keyword);
+        }
+        if let Some((keyword, how)) = model.note(&self.deck.instances) {
+            self.take(keyword, keyword.place, &how);
+        }
+        self.source.go_on_with(anew);
+        Ok(())
+    }
+
+    fn understand(&mut self, keyword: &Keyword) {
+        let files = &self.source.files;
+        let first = || (0, files.show(keyword.place));
+        let understood = &mut self.deck.account.understood;
+        let entry = understood.entry(keyword.name.clone());
+        entry.or_insert_with(first).0 += 1;
     }
 
     fn block(&mut self, keyword: &Keyword) -> Result<()> {
         match keyword.what_for() {
             Ok(Use::Read) => {
-                let files = &self.source.files;
-                let first = || (0, files.show(keyword.place));
-                let understood = &mut self.deck.account.understood;
-                understood
-                    .entry(keyword.name.clone())
-                    .or_insert_with(first)
-                    .0 += 1;
+                self.understand(keyword);
                 self.read_block(keyword)
             }
             Ok(Use::Ignored(why)) => {

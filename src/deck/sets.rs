@@ -66,7 +66,8 @@ impl Deck {
         let name = match target {
             Target::Label(label) => {
                 let found = index.get(*label).ok_or_else(|| {
-                    self.error(at.0, at.1, format!("there is no {thing} {label}"))
+                    let (shown, hint) = (self.instances.shown(*label), self.instances.hint(*label));
+                    self.error(at.0, at.1, format!("there is no {thing} {shown}{hint}"))
                 })?;
                 out.push(found);
                 return Ok(());
@@ -122,8 +123,11 @@ impl Deck {
         }
         if out.len() == before {
             let thing = what.words()[0];
-            let message =
-                format!("GENERATE from {first} to {last} by {step}: there is no such {thing}");
+            let message = format!(
+                "GENERATE from {} to {} by {step}: there is no such {thing}",
+                self.instances.shown(first),
+                self.instances.shown(last)
+            );
             return Err(self.error(at.0, at.1, message));
         }
         Ok(())
@@ -153,7 +157,7 @@ impl Deck {
         let local = element_type::facet(shape, number).ok_or_else(|| {
             let message = format!(
                 "element {} is a {} and has {} faces, none with number {number}",
-                self.elements.labels[element as usize],
+                self.element_name(element as usize),
                 shape.name(),
                 shape.n_facets()
             );

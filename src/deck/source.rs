@@ -46,8 +46,30 @@ impl Place {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
     pub(super) place: Place,
+    /// The text that its bytes are in.
+    text: u32,
     start: usize,
     end: usize,
+}
+
+/// Lines that are written anew from those of a deck, one after the other.
+#[derive(Debug, Default)]
+pub(super) struct Anew {
+    text: Vec<u8>,
+    /// The place of each line in the deck, and where it ends in the text.
+    ends: Vec<(Place, usize)>,
+}
+
+impl Anew {
+    /// What the line at hand is written to.
+    pub(super) fn text(&mut self) -> &mut Vec<u8> {
+        &mut self.text
+    }
+
+    /// Ends the line at hand, which stands for one of the deck.
+    pub(super) fn end_line(&mut self, place: Place) {
+        self.ends.push((place, self.text.len()));
+    }
 }
 
 /// A file that is being read.
@@ -78,6 +100,8 @@ pub(super) struct Source<'t> {
     folder: Option<PathBuf>,
     open: Vec<Open>,
     ahead: Option<Line>,
+    /// Lines that were written anew, which are all that are left.
+    anew: Option<std::vec::IntoIter<Line>>,
 }
 
 impl<'t> Source<'t> {
@@ -88,12 +112,13 @@ impl<'t> Source<'t> {
             files: Files(vec![name.to_string()]),
             folder: folder.map(Path::to_path_buf),
             ahead: None,
+            anew: None,
         }
     }
 
     /// The bytes of a line, without blanks at its ends.
     pub(super) fn bytes(&self, line: Line) -> &[u8] {
-        &self.texts[line.place.file as usize][line.start..line.end]
+        &self.texts[line.text as usize][line.start..line.end]
     }
 
     /// The name of a line's file.
@@ -117,6 +142,9 @@ impl<'t> Source<'t> {
         if let Some(line) = self.ahead.take() {
             return Ok(Some(line));
         }
+        if let Some(anew) = &mut self.anew {
+            return Ok(anew.next());
+        }
         while let Some(open) = self.open.last_mut() {
             let text = &self.texts[open.file as usize];
             let rest = &text[open.at..];
@@ -136,6 +164,7 @@ impl<'t> Source<'t> {
                     file: open.file,
                     line: open.line + 1,
                 },
+                text: open.file,
                 start: open.at + left,
                 end: open.at + left + trimmed.len(),
             };
@@ -162,6 +191,28 @@ impl<'t> Source<'t> {
             }
             other => Ok(other),
         }
+    }
+
+    /// Goes on with lines that were written anew, each with its place, when all are read: the
+    /// files' own texts are dropped.
+    pub(super) fn go_on_with(&mut self, anew: Anew) {
+        let text = self.texts.len() as u32;
+        self.texts
+            .iter_mut()
+            .for_each(|old| *old = Cow::Borrowed(&[]));
+        self.texts.push(Cow::Owned(anew.text));
+        let mut start = 0;
+        let lines = anew.ends.into_iter().map(|(place, end)| {
+            let line = Line {
+                place,
+                text,
+                start,
+                end,
+            };
+            start = end;
+            line
+        });
+        self.anew = Some(lines.collect::<Vec<_>>().into_iter());
     }
 
     /// Goes on in the file that an `*INCLUDE` names.

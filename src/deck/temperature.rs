@@ -120,7 +120,7 @@ impl Deck {
             of_node.change.is_zero() || are_alike(&of_node.change.shape(), &shape)
         };
         if let Some((node, other)) = members().find(|(_, of_node)| !is_in_proportion(of_node)) {
-            let label = |node: u32| self.nodes.labels[node as usize];
+            let label = |node: u32| self.node_name(node as usize);
             let message = format!(
                 "the temperatures of nodes {} and {} of body {name} do not change in proportion: \
                  those of a body do",

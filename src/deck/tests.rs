@@ -160,3 +160,48 @@ fn kinematic_hardening_is_the_slope_of_its_curve() {
     let modulus = steel.kinematic_modulus.unwrap();
     assert!((modulus - 1000.0).abs() < 1e-9, "{modulus}");
 }
+
+/// Instances are moved, then turned, about any axis in space; so are axes of `*TRANSFORM`.
+#[test]
+fn instances_are_moved_then_turned() {
+    let axes = "*TRANSFORM, NSET=N, TYPE=C\n1., 2., 3., 1., 2., 4.\n*TRANSFORM, NSET=N\n1., 0., \
+                0., 0., 1., 0.\n";
+    let placed = |place: &str| {
+        let text = format!(
+            "*PART, NAME=P\n*NODE, NSET=N\n7, 1., 2., 3.\n{axes}*END PART\n*ASSEMBLY\n\
+             *INSTANCE, NAME=I, PART=P\n{place}*END INSTANCE\n*END ASSEMBLY\n"
+        );
+        let deck = Deck::parse(text.as_bytes(), "a.inp").unwrap();
+        assert_eq!(deck.node_name(0), "7 of instance I");
+        let [axis, ways] = [0, 1].map(|index: usize| deck.properties.transforms[index].points);
+        (deck.point(0), axis, ways)
+    };
+    let (x, axis, ways) = placed("");
+    assert_eq!((x, axis[1]), ([1.0, 2.0, 3.0], [1.0, 2.0, 4.0]));
+    assert_eq!(ways, [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    // A right angle about x, through the point at z = 1.
+    let (x, axis, ways) = placed("1., 0., 0.\n0., 0., 1., 2., 0., 1., 90.\n");
+    assert_eq!(x, [2.0, -2.0, 3.0]);
+    assert_eq!(axis, [[2.0, -2.0, 3.0], [2.0, -3.0, 3.0]]);
+    assert_eq!(ways, [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
+    // A third of a turn about the diagonal brings each axis to the next.
+    let (x, _, _) = placed("0., 0., 0.\n0., 0., 0., 1., 1., 1., 120.\n");
+    assert!(
+        (0..3).all(|d| (x[d] - [3.0, 1.0, 2.0][d]).abs() < 1e-14),
+        "{x:?}"
+    );
+    // Whole turns are none.
+    let (x, _, _) = placed("0., 0., 0.\n0., 0., 0., 1., 1., 1., -720.\n");
+    assert_eq!(x, [1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn instances_are_bodies() {
+    let deck = read("tests/fuzz/seeds/assembly.inp");
+    let scene = small_strain(&deck).finish("a.inp", &[]).unwrap();
+    assert_eq!(scene.bodies.keys().collect::<Vec<_>>(), ["High 1", "Low"]);
+    let contact = &scene.contact[0];
+    assert_eq!(contact.first, "High 1.Top");
+    assert_eq!(contact.second, "Low.Top");
+    assert_eq!(scene.equation.len(), 1);
+}

@@ -1,6 +1,7 @@
 //! Decks of Abaqus and CalculiX: what CalculiX computes for them and what brinell does, what is
 //! written again, what is refused.
 
+mod assemblies;
 mod calculix;
 mod converted;
 mod local_axes;

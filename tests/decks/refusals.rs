@@ -372,11 +372,6 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
             "*EQUATION: degree of freedom 4 is none of a node here",
         ),
         (
-            "*HEADING",
-            "*PART, NAME=P\n*HEADING",
-            "line 1: *PART: decks are flat",
-        ),
-        (
             "*END STEP\n",
             "*END STEP\n*STEP\n*STATIC\n*BOUNDARY, OP=NEW\n1, 1, 2\n*END STEP\n",
             "OP=NEW releases node 2 along 1 in step 2",

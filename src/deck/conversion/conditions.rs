@@ -147,7 +147,7 @@ impl Draft<'_> {
             .iter()
             .find(|(key, _)| !self.geometry.is_used[key.0 as usize]);
         if let Some((key, entry)) = unused {
-            let node = self.deck.nodes.labels[key.0 as usize];
+            let node = self.deck.node_name(key.0 as usize);
             let message = format!("a force acts on node {node}, which belongs to no element");
             return Err(self.deck.error(entry.place, "CLOAD", message));
         }
@@ -236,7 +236,7 @@ impl Draft<'_> {
                 continue;
             }
             if !entry.series.is_zero() {
-                let node = self.deck.nodes.labels[key.0 as usize];
+                let node = self.deck.node_name(key.0 as usize);
                 let message = format!(
                     "node {node} is moved along an axis of a *TRANSFORM: displacements are given \
                      along x, y, z"

@@ -30,7 +30,7 @@ impl Draft<'_> {
                 .clone()
                 .find(|node| boundary.contains_key(&(**node, axis)))
             {
-                let label = self.deck.nodes.labels[*node as usize];
+                let label = self.deck.node_name(*node as usize);
                 let message = format!(
                     "node {label} follows another one along {} and is held or moved there too: \
                      take it out of one",
@@ -111,7 +111,7 @@ impl Draft<'_> {
         let axes = self.deck.local_axes()?;
         let mut out = Vec::new();
         for (k, (nodes, axis, coefficient)) in terms.into_iter().enumerate() {
-            let label = |node: u32| self.deck.nodes.labels[node as usize];
+            let label = |node: u32| self.deck.node_name(node as usize);
             let refused = |message| self.deck.error(place, "EQUATION", message);
             if let Some(node) = nodes
                 .iter()

@@ -4,6 +4,7 @@ use super::{Reader, fields};
 use crate::deck::data::{Elements, Member, Nodes, SurfacePart, Target};
 use crate::deck::element_type::ElementType;
 use crate::deck::fields::Fields;
+use crate::deck::instances::Instances;
 use crate::deck::keyword::Keyword;
 use crate::deck::source::{Line, Source};
 use crate::error::{Error, ErrorKind, Result};
@@ -33,7 +34,8 @@ impl Reader<'_> {
         })?;
         let elements = &mut self.deck.elements;
         let first = elements.labels.len();
-        read_elements(&mut self.source, keyword, element_type, elements)?;
+        let instances = &self.deck.instances;
+        read_elements(&mut self.source, keyword, element_type, elements, instances)?;
         let last = elements.labels.len();
         if let Some(name) = keyword.get("ELSET") {
             let set = self.deck.sets.elements.entry(name);
@@ -108,7 +110,9 @@ impl Reader<'_> {
 pub(super) fn target(fields: &mut Fields) -> Result<Target> {
     let mut ahead = *fields;
     let word = ahead.word();
-    if word.first().is_some_and(u8::is_ascii_digit) {
+    // Names in quotes may begin with a digit.
+    let is_name = word.iter().any(u8::is_ascii_alphabetic);
+    if word.first().is_some_and(u8::is_ascii_digit) && !is_name {
         return Ok(Target::Label(fields.label("the number")?));
     }
     Ok(Target::Set(fields.text("a number or the name of a set")?))
@@ -176,6 +180,7 @@ fn read_elements(
     keyword: &Keyword,
     element_type: ElementType,
     elements: &mut Elements,
+    instances: &Instances,
 ) -> Result<()> {
     let n = element_type.shape.n_nodes();
     if elements.offsets.is_empty() {
@@ -196,7 +201,8 @@ fn read_elements(
             if read == n {
                 break;
             }
-            let why = format!("element {label} has {read} nodes, {} of them are needed", n);
+            let label = instances.shown(label);
+            let why = format!("element {label} has {read} nodes, {n} of them are needed");
             let error = of_line.place.error(why);
             if !of_line.ends_with_comma() {
                 return Err(error);

@@ -1,0 +1,313 @@
+//! Blocks of a deck of parts, written as those of a flat one.
+
+use super::{Assembled, Block, Item, Placement, unknown};
+use crate::deck::fields::{Fields, Where};
+use crate::deck::instances::Instances;
+use crate::deck::source::{Anew, Line, Source};
+use crate::error::Result;
+use std::io::Write;
+
+/// Parameters of sets outside of parts.
+const OF_SETS: [&str; 6] = [
+    "NSET", "ELSET", "INSTANCE", "GENERATE", "UNSORTED", "INTERNAL",
+];
+
+/// What the values of a data line are.
+#[derive(Clone, Copy)]
+enum Values {
+    /// A number and coordinates.
+    Node,
+    /// Numbers and names, all of them.
+    All,
+    /// A number or name and what else there is to it.
+    First,
+    /// First and last number and step.
+    Range,
+    /// Number or name, degree of freedom and coefficient by turns; a single one is their number.
+    Terms,
+    /// Two points.
+    Points,
+    /// None that depends on instances.
+    Same,
+}
+
+impl Values {
+    fn of(block: &Block) -> Values {
+        match block.keyword.name.as_str() {
+            "NODE" => Values::Node,
+            "NSET" | "ELSET" if block.keyword.has("GENERATE") => Values::Range,
+            "ELEMENT" | "NSET" | "ELSET" | "CONTACT PAIR" | "TIE" | "MODEL CHANGE" => Values::All,
+            "SURFACE" | "BOUNDARY" | "CLOAD" | "DLOAD" | "DSLOAD" | "TEMPERATURE"
+            | "INITIAL CONDITIONS" => Values::First,
+            "EQUATION" => Values::Terms,
+            "TRANSFORM" => Values::Points,
+            _ => Values::Same,
+        }
+    }
+}
+
+/// Where a block stands.
+#[derive(Clone, Copy)]
+struct Scope<'m> {
+    /// The instance that what the block makes belongs to; none of the assembly and the model.
+    own: Option<usize>,
+    /// The instance that numbers and names of its data lines belong to.
+    of: Option<usize>,
+    placement: Option<&'m Placement>,
+}
+
+impl Assembled {
+    /// The deck as a flat one.
+    ///
+    /// # Errors
+    /// Instances and numbers that there are not; damage to what is moved.
+    pub(in crate::deck) fn flat(&self, source: &Source, instances: &Instances) -> Result<Anew> {
+        let mut writer = Writer {
+            source,
+            instances,
+            assembly: self.name.as_deref().unwrap_or_default(),
+            out: Anew::default(),
+        };
+        for item in &self.items {
+            match item {
+                Item::Block(block) => writer.outside(block)?,
+                Item::Instance(number) => {
+                    let instance = &self.instances[*number];
+                    let scope = Scope {
+                        own: Some(*number),
+                        of: Some(*number),
+                        placement: Some(&instance.placement).filter(|place| !place.is_none()),
+                    };
+                    for block in self.parts[instance.part]
+                        .blocks
+                        .iter()
+                        .chain(&instance.blocks)
+                    {
+                        writer.block(block, scope)?;
+                    }
+                }
+            }
+        }
+        Ok(writer.out)
+    }
+}
+
+struct Writer<'m, 't> {
+    source: &'m Source<'t>,
+    instances: &'m Instances,
+    assembly: &'m str,
+    out: Anew,
+}
+
+impl Writer<'_, '_> {
+    /// A block of the assembly or the model, whose numbers may be those of an instance.
+    fn outside(&mut self, block: &Block) -> Result<()> {
+        let keyword = &block.keyword;
+        let mut of = None;
+        let files = &self.source.files;
+        if block.is(&["NSET", "ELSET"]) {
+            keyword.allow(files, &OF_SETS)?;
+        }
+        if block.is(&["NSET", "ELSET"]) && keyword.has("INSTANCE") {
+            let name = self.without_assembly(keyword.require(files, "INSTANCE")?);
+            of = Some(self.instances.find(name).ok_or_else(|| {
+                let names = self.instances.names().iter().map(String::as_str);
+                unknown(keyword, files, "instance", name, names)
+            })?);
+        }
+        let (own, placement) = (None, None);
+        self.block(block, Scope { own, of, placement })
+    }
+
+    fn block(&mut self, block: &Block, scope: Scope) -> Result<()> {
+        let keyword = &block.keyword;
+        // With a blank, so that no name makes it a comment.
+        self.write(format_args!("* {}", keyword.name));
+        for (key, value) in keyword.parameters() {
+            if scope.own.is_none() && scope.of.is_some() && key == "INSTANCE" {
+                continue;
+            }
+            let Some(value) = value else {
+                self.write(format_args!(", {key}"));
+                continue;
+            };
+            let name = match (keyword.name.as_str(), key) {
+                ("NSET", "NSET") | ("ELSET", "ELSET") | ("SURFACE", "NAME") => {
+                    self.qualified(value, scope.own)
+                }
+                (_, "NSET" | "ELSET") | ("CLEARANCE", "MASTER" | "SLAVE") => {
+                    self.qualified(value, scope.of)
+                }
+                _ => value.to_string(),
+            };
+            self.write(format_args!(", {key}=\"{name}\""));
+        }
+        self.out.end_line(keyword.place);
+        let values = Values::of(block);
+        for &line in &block.lines {
+            self.line(block, values, line, scope)?;
+            self.out.end_line(line.place);
+        }
+        Ok(())
+    }
+
+    /// A data line.
+    fn line(&mut self, block: &Block, values: Values, line: Line, scope: Scope) -> Result<()> {
+        let source = self.source;
+        let mut row = block.fields(source, line);
+        let mut ahead = row;
+        ahead.word();
+        let is_alone = ahead.is_at_end();
+        match (values, scope.placement) {
+            (Values::All, _) => return self.each(row, 1, scope),
+            (Values::Terms, _) if !is_alone => return self.each(row, 3, scope),
+            (Values::First, _) | (Values::Node, None) => self.value(&mut row, scope)?,
+            (Values::Node, Some(placement)) => {
+                self.value(&mut row, scope)?;
+                let mut x = [0.0; 3];
+                for (x, what) in x.iter_mut().zip(["x", "y", "z"]) {
+                    *x = row.number_or(what, 0.0)?;
+                }
+                row.end()?;
+                self.numbers(", ", &placement.point(x));
+                return Ok(());
+            }
+            (Values::Range, _) => {
+                let first = row.label("the first number")?;
+                let last = row.label("the last number")?.min(self.instances.most());
+                let first = self.number(first, scope.of, &row.place)?;
+                let last = self.number(last, scope.of, &row.place)?;
+                self.write(format_args!("{first}, {last}"));
+            }
+            (Values::Points, Some(placement)) => {
+                let mut points = [[0.0; 3]; 2];
+                for x in points.as_flattened_mut() {
+                    *x = row.number_or("a coordinate", 0.0)?;
+                }
+                row.end()?;
+                let is_axis = block.keyword.get("TYPE").unwrap_or_default();
+                let moved = points.map(|x| match is_axis.eq_ignore_ascii_case("C") {
+                    true => placement.point(x),
+                    false => placement.vector(x),
+                });
+                self.numbers("", moved.as_flattened());
+                return Ok(());
+            }
+            (Values::Terms | Values::Points | Values::Same, _) => {
+                self.out.text().extend_from_slice(source.bytes(line));
+                return Ok(());
+            }
+        }
+        // What is left is as it was.
+        if !row.is_at_end() {
+            self.out.text().extend_from_slice(b", ");
+            self.out.text().extend_from_slice(row.rest());
+        } else if row.ends_with_comma() {
+            self.out.text().push(b',');
+        }
+        Ok(())
+    }
+
+    /// A line of values of which each `step`-th is a number or name.
+    fn each(&mut self, mut row: Fields, step: usize, scope: Scope) -> Result<()> {
+        for index in 0.. {
+            match index % step {
+                0 => self.value(&mut row, scope)?,
+                _ => self.out.text().extend_from_slice(row.written()),
+            }
+            if row.is_at_end() {
+                break;
+            }
+            self.out.text().extend_from_slice(b", ");
+        }
+        if row.ends_with_comma() {
+            self.out.text().push(b',');
+        }
+        Ok(())
+    }
+
+    /// The next value of a line, a number or name.
+    fn value(&mut self, row: &mut Fields, scope: Scope) -> Result<()> {
+        let mut ahead = *row;
+        let written = ahead.written();
+        if !written.is_empty() && written.iter().all(u8::is_ascii_digit) {
+            let label = row.label("the number")?;
+            let label = self.number(label, scope.of, &row.place)?;
+            self.write(format_args!("{label}"));
+            return Ok(());
+        }
+        *row = ahead;
+        // What is neither is told where it is read.
+        let is_name = written
+            .iter()
+            .any(|b| b.is_ascii_alphabetic() || !b.is_ascii());
+        if !is_name && !written.contains(&b'"') {
+            self.out.text().extend_from_slice(written);
+            return Ok(());
+        }
+        let name = String::from_utf8_lossy(written).replace('"', "");
+        if scope.of.is_none()
+            && let Some((instance, label)) = self.without_assembly(&name).rsplit_once('.')
+            && let Ok(label) = label.parse::<u64>()
+            && let Some(instance) = self.instances.find(instance)
+        {
+            let label = self.number(label, Some(instance), &row.place)?;
+            self.write(format_args!("{label}"));
+            return Ok(());
+        }
+        let name = self.qualified(&name, scope.of);
+        self.write(format_args!("\"{name}\""));
+        Ok(())
+    }
+
+    /// The number in the whole deck of one of an instance.
+    fn number(&self, label: u64, of: Option<usize>, place: &Where) -> Result<u64> {
+        let offset = of.map_or(0, |instance| self.instances.offset(instance));
+        if label <= self.instances.most() {
+            return Ok(offset + label);
+        }
+        Err(place.error(match of {
+            Some(instance) => {
+                let name = &self.instances.names()[instance];
+                format!("instance {name} has no node or element {label}; give one that it has")
+            }
+            None => format!(
+                "there is no node or element {label}{}",
+                self.instances.hint(0)
+            ),
+        }))
+    }
+
+    /// The name in the whole deck of a set or surface of an instance.
+    fn qualified(&self, name: &str, of: Option<usize>) -> String {
+        match of {
+            Some(instance) => format!("{}.{name}", self.instances.names()[instance]),
+            None => self.without_assembly(name).to_string(),
+        }
+    }
+
+    /// A name from outside of parts: the assembly's may stand in front of it.
+    fn without_assembly<'n>(&self, name: &'n str) -> &'n str {
+        match name.split_once('.') {
+            Some((first, rest))
+                if first.eq_ignore_ascii_case(self.assembly)
+                    && self.instances.find(first).is_none() =>
+            {
+                rest
+            }
+            _ => name,
+        }
+    }
+
+    fn numbers(&mut self, mut between: &str, numbers: &[f64]) {
+        for x in numbers {
+            self.write(format_args!("{between}{x:?}"));
+            between = ", ";
+        }
+    }
+
+    fn write(&mut self, what: std::fmt::Arguments) {
+        // A vector takes all that is written to it.
+        let _ = self.out.text().write_fmt(what);
+    }
+}
