@@ -31,6 +31,7 @@ mod fields;
 mod history;
 mod instances;
 mod keyword;
+mod lines;
 mod load;
 mod reader;
 mod series;
@@ -51,6 +52,7 @@ use crate::shape::Shape;
 use crate::space::Vector;
 use data::{Elements, Nodes, Program, Properties, Sets};
 use instances::Instances;
+use lines::LineElements;
 use reader::Reader;
 use source::{Files, Place, Source};
 use std::borrow::Cow;
@@ -64,6 +66,8 @@ pub struct Deck {
     files: Files,
     nodes: Nodes,
     elements: Elements,
+    /// Line elements, whose sets are those of faces.
+    lines: LineElements,
     sets: Sets,
     properties: Properties,
     program: Program,

@@ -64,6 +64,9 @@ impl Deck {
         let [thing, key] = what.words();
         let (sets, index, _) = self.table(what);
         let name = match target {
+            Target::Label(label) if what == What::Elements && self.lines.has(*label) => {
+                return Ok(());
+            }
             Target::Label(label) => {
                 let found = index.get(*label).ok_or_else(|| {
                     let (shown, hint) = (self.instances.shown(*label), self.instances.hint(*label));
@@ -94,6 +97,7 @@ impl Deck {
                     for element in self.indices(What::Elements, &of, at)? {
                         out.extend_from_slice(self.element_nodes(element as usize));
                     }
+                    out.extend(self.nodes_of_lines(&self.lines_of(&of)));
                 }
             }
         }
@@ -121,7 +125,8 @@ impl Deck {
             let named = labels.iter().filter(|label| is_named(label));
             out.extend(named.filter_map(|&label| index.get(label)));
         }
-        if out.len() == before {
+        let of_lines = || what == What::Elements && self.lines.any_of([first, last, step]);
+        if out.len() == before && !of_lines() {
             let thing = what.words()[0];
             let message = format!(
                 "GENERATE from {} to {} by {step}: there is no such {thing}",
@@ -187,6 +192,7 @@ impl Deck {
                 SurfacePart::Free(on) => {
                     let elements = self.indices(What::Elements, on, at)?;
                     out.extend(self.free_faces_of(&elements));
+                    out.extend(self.faces_of_lines(&self.lines_of(on)));
                 }
                 SurfacePart::OfNodes(_) => {}
             }

@@ -198,9 +198,9 @@ fn continue_to_the_ends(mesh: &Mesh, surface: &Surface, normals: &mut BTreeMap<u
         let to = if a == from { b } else { a };
         Some((to, difference(mesh.point(to), mesh.point(from))))
     };
-    let next = |facet: Facet, at: usize| match facets_at[&at].as_slice() {
-        &[a, b] if a == facet => Some(b),
-        &[a, b] if b == facet => Some(a),
+    let next = |facet: Facet, at: usize| match *facets_at[&at].as_slice() {
+        [a, b] if a == facet => Some(b),
+        [a, b] if b == facet => Some(a),
         _ => None,
     };
     // Sine of the turn over its length.

@@ -155,3 +155,84 @@ fn an_overlap_in_the_mesh_is_an_interference() {
         assert!(apart.message().contains("`overlap = true`"), "{apart}");
     }
 }
+
+/// A mesh as Gmsh writes it: lines with their sets beside the elements of a plane.
+const LINES: &str = "*Heading
+ blocks.inp
+*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 2, 0, 0
+4, 0, 1, 0
+5, 1, 1, 0
+6, 2, 1, 0
+******* E L E M E N T S *************
+*ELEMENT, type=T3D2, ELSET=Line1
+1, 1, 2
+2, 2, 3
+*ELEMENT, type=T3D2, ELSET=Line3
+3, 4, 5
+4, 5, 6
+*ELEMENT, type=CPS4, ELSET=Surface1
+5, 1, 2, 5, 4
+6, 2, 3, 6, 5
+*ELSET,ELSET=bottom
+1, 2,
+*ELSET,ELSET=top
+3, 4,
+*ELSET,ELSET=block
+5, 6,
+";
+
+const ON_LINES: &str = "*MATERIAL, NAME=S
+*ELASTIC
+210000., 0.
+*SOLID SECTION, ELSET=block, MATERIAL=S
+1.
+*SURFACE, NAME=T
+top
+*NSET, NSET=NB, ELSET=bottom
+*BOUNDARY
+NB, 1, 2
+*STEP
+*STATIC
+*DSLOAD
+T, P, 10.
+*END STEP
+";
+
+/// Sets of lines are surfaces, of a deck as of a scene's mesh; a truss that a section makes one is
+/// refused.
+#[test]
+fn lines_carry_the_sets_of_faces() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let mesh = write("mesh.inp", LINES);
+    let deck = write("deck.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{ON_LINES}"));
+    let sunk = |results: &Results| {
+        let fields = results.states[0].fields.as_ref().unwrap();
+        fields.displacement[4 * 2 + 1]
+    };
+    let of_deck = sunk(&run(&deck, &[]).1);
+    assert!((of_deck + 10.0 / 210e3).abs() < 1e-15, "{of_deck}");
+    let scene = format!(
+        "kind = \"plane_stress\"
+mesh.file = {mesh:?}
+materials.s = {{ youngs_modulus = 210e3, poissons_ratio = 0.0 }}
+bodies.block.material = \"s\"
+support = [{{ on = \"bottom\", fix = [\"x\", \"y\"] }}]
+load = [{{ on = \"top\", pressure = 10.0 }}]
+program.targets = [{{ load_factor = 1.0 }}]
+"
+    );
+    let results = crate::support::run(&crate::support::parse(&scene));
+    assert_eq!(sunk(&results), of_deck);
+    let truss = ON_LINES.replace("ELSET=block", "ELSET=top");
+    let truss = write("truss.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{truss}"));
+    let why = run_with(&truss, &[]).unwrap_err().to_string();
+    assert!(why.contains("element 3 is a truss or beam (T3D2)"), "{why}");
+}

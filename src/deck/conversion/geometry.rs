@@ -87,6 +87,17 @@ impl Deck {
                 out.node_sets.insert(name.to_string(), nodes);
             }
         }
+        for (name, _) in self.sets.elements.iter() {
+            let faces = self.faces_of_lines(&self.lines_of(&Target::Set(name.to_string())));
+            let is_free = self.sets.surfaces.get(name).is_none();
+            if is_free && !faces.is_empty() {
+                let own = match out.node_sets.contains_key(name) {
+                    true => format!("{name}_surface"),
+                    false => name.to_string(),
+                };
+                out.add_surface(&own, faces);
+            }
+        }
         for (name, parts) in self.sets.surfaces.iter() {
             let Some((_, place)) = parts.first() else {
                 continue;

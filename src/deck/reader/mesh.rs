@@ -6,6 +6,7 @@ use crate::deck::element_type::ElementType;
 use crate::deck::fields::Fields;
 use crate::deck::instances::Instances;
 use crate::deck::keyword::Keyword;
+use crate::deck::lines::nodes_of_line;
 use crate::deck::source::{Line, Source};
 use crate::error::{Error, ErrorKind, Result};
 use crate::shape::MAX_NODES;
@@ -28,6 +29,9 @@ impl Reader<'_> {
         let files = &self.source.files;
         keyword.allow(files, &["TYPE", "ELSET"])?;
         let name = keyword.require(files, "TYPE")?;
+        if let Some(n) = nodes_of_line(name) {
+            return self.line_elements(keyword, n);
+        }
         let element_type = ElementType::from_name(name).map_err(|why| {
             let error = keyword.error(files, why);
             Error::new(ErrorKind::Unsupported, error.message())
@@ -45,6 +49,33 @@ impl Reader<'_> {
             let how = format!("TYPE={name}: {note}");
             self.take(keyword, keyword.place, &how);
         }
+        Ok(())
+    }
+
+    /// Line elements with so many nodes.
+    fn line_elements(&mut self, keyword: &Keyword, n: usize) -> Result<()> {
+        let name = keyword.require(&self.source.files, "TYPE")?;
+        self.deck.lines.note_type(name, keyword.place);
+        while let Some(line) = self.source.next_data()? {
+            let mut fields = fields(&self.source, keyword, line);
+            let label = fields.label("the element number")?;
+            let mut nodes = Vec::with_capacity(n);
+            for _ in 0..n {
+                nodes.push(fields.label("a node number")?);
+            }
+            // Beams may have a node more that turns their section.
+            if !fields.is_at_end() {
+                fields.label("a node number")?;
+            }
+            fields.end()?;
+            self.deck.lines.add(label, nodes);
+            if let Some(set) = keyword.get("ELSET") {
+                let set = self.deck.sets.elements.entry(set);
+                set.push((Member::Of(Target::Label(label)), line.place));
+            }
+        }
+        let how = format!("TYPE={name}: without stiffness; sets of them are surfaces");
+        self.take(keyword, keyword.place, &how);
         Ok(())
     }
 
