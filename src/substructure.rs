@@ -203,10 +203,11 @@ impl Substructure {
     }
 
     /// Makes forces on the pairs do the work on rigid motions of floating bodies that is known of
-    /// each: none those that balance themselves, as those of plastic strains. The largest change.
-    pub(crate) fn balance(&self, forces: &mut [f64], work: &[Work]) -> f64 {
-        let groups = self.tied.as_ref();
-        groups.map_or(0.0, |groups| groups.balance(forces, work))
+    /// each: none those that balance themselves, as those of plastic strains.
+    pub(crate) fn balance(&self, forces: &mut [f64], work: &[Work]) {
+        if let Some(groups) = &self.tied {
+            groups.balance(forces, work);
+        }
     }
 
     /// The pairs of each group asked for that rigid motions of floating bodies move, and the

@@ -31,7 +31,7 @@ impl Run<'_, '_> {
         results.first_yield = first_yield.point;
         results.factor = self.solver.structure.sub.cost();
         results.condition = self.solver.structure.condition;
-        let tolerances = quality::tolerances(model, self.solver.structure.unbalanced);
+        let tolerances = quality::tolerances(model);
         let states = results.states.iter().map(|s| (s.name.as_str(), s.quality));
         let judged: Vec<(&str, Quality)> =
             states.chain(self.at_yield.map(|q| ("yield", q))).collect();

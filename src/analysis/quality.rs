@@ -30,14 +30,9 @@ pub(super) const ROUND_OFF_OF_FORCES: f64 = 2.0 * f64::EPSILON;
 /// side.
 pub(super) const LOOSEST: f64 = 1e-3;
 
-/// Round-off of elimination in the balance of floating bodies, as a share of the forces, that is
-/// taken for such: round bodies of few elements that nothing else holds have 1e-10.
-const MOST_UNBALANCED: f64 = 1e-9;
-
 /// What the quality of a state of this model must keep: the tolerances that the scene asks for,
 /// with room for what is measured elsewhere than iterated, and round-off.
-/// `unbalanced` is [`super::structure::Structure::unbalanced`].
-pub(super) fn tolerances(model: &Model, unbalanced: f64) -> Tolerances {
+pub(super) fn tolerances(model: &Model) -> Tolerances {
     let settings = &model.scene.analysis;
     // Between events a pair may be beyond its condition by gamma.
     let forces = ROUND_OFF
@@ -45,9 +40,7 @@ pub(super) fn tolerances(model: &Model, unbalanced: f64) -> Tolerances {
         .max(10.0 * model.scene.program.gamma)
         .min(LOOSEST);
     Tolerances {
-        backward_error: (16.0 * f64::EPSILON * model.freedoms.n as f64)
-            .max(1e-12)
-            .max(unbalanced.min(MOST_UNBALANCED)),
+        backward_error: (16.0 * f64::EPSILON * model.freedoms.n as f64).max(1e-12),
         equilibrium: forces,
         contact: forces,
         loosest: LOOSEST,

@@ -128,7 +128,8 @@ impl<'m> Solver<'m> {
     /// Puts these springs in the place of those at hand, the statuses being the same; false (and
     /// nothing changed) where they are of another structure.
     pub(super) fn set_springs(&mut self, springs: &Arc<[Springs]>) -> bool {
-        if !springs.iter().all(|own| own.fit(self.structure.n_pairs())) {
+        let matrix = self.structure.sub.pair_matrix();
+        if !springs.iter().all(|own| own.fit(matrix)) {
             return false;
         }
         let same = self.springs.len() == springs.len();

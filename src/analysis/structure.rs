@@ -34,9 +34,6 @@ pub struct Structure<'m> {
     /// ([`Substructure::condition`]): an inaccurate one is not forgotten when another zone asks for
     /// the next.
     pub condition: f64,
-    /// Share of the forces on tied pairs that elimination left out of balance with the loads on
-    /// floating bodies, at most: its round-off.
-    pub unbalanced: f64,
     /// Work of each set of like loads at factor 1 on the rigid motions of floating bodies.
     work: Vec<Vec<Work>>,
     /// Where zone and contact freedoms are.
@@ -79,6 +76,7 @@ pub(super) struct Gaps {
     pub(super) forces: [Vec<f64>; 2],
 }
 
+/// Work of each set of like loads on the rigid motions of floating bodies.
 fn work_of_loads(model: &Model) -> Vec<Vec<Work>> {
     let sets = model.alike.iter().map(|alike| {
         let acting = || alike.iter().flat_map(|&load| &model.loads[load].forces);
@@ -124,7 +122,6 @@ impl<'m> Structure<'m> {
         let initial: Vec<f64> = model.pairs.iter().map(|p| p.gap).collect();
         let mut structure = Structure {
             condition: sub.condition(),
-            unbalanced: 0.0,
             work: work_of_loads(model),
             places: places(model, &sub),
             factored: within.into(),
@@ -227,7 +224,6 @@ impl<'m> Structure<'m> {
         let condensed: Result<Vec<_>> = reduced.map(|l| self.sub.condense(l)).collect();
         let condensed = condensed?.into_iter();
         let condensed = condensed.zip(&self.model.alike).zip(&self.work);
-        let (mut unbalanced, mut largest) = (0.0f64, f64::MIN_POSITIVE);
         let eliminated = condensed.map(|((load, alike), work)| {
             let mut out = self.eliminate(load, cost);
             let of_alike = || alike.iter().map(|&load| &self.model.loads[load]);
@@ -240,18 +236,10 @@ impl<'m> Structure<'m> {
                     .zip(forces)
                     .for_each(|(t, force)| *t -= force);
             }
-            let left = self.sub.balance(&mut out.forces, work);
-            unbalanced = unbalanced.max(left);
-            let forces = out
-                .forces
-                .iter()
-                .chain(&out.load.zone)
-                .chain(&out.load.contact);
-            largest = forces.fold(largest, |m, t| m.max(t.abs()));
+            self.sub.balance(&mut out.forces, work);
             out
         });
         self.loads.condensed = eliminated.collect();
-        self.unbalanced = self.unbalanced.max(unbalanced / largest);
         self.loads.driving = DrivingForce::new(self, cost)?;
         Ok(())
     }

@@ -58,10 +58,14 @@ impl Springs {
         &self.pairs
     }
 
-    /// Whether they are springs on pairs of so many.
-    pub(crate) fn fit(&self, n_pairs: usize) -> bool {
+    /// Whether they may be springs on pairs of one of its groups.
+    pub(crate) fn fit(&self, matrix: &PairMatrix) -> bool {
         let of_pairs = |direction: &Vec<f64>| direction.len() == self.pairs.len();
-        self.pairs.iter().all(|&k| k < n_pairs)
+        let group = |k: usize| (k < matrix.len()).then(|| matrix.place(k).0);
+        let mut groups = self.pairs.iter().map(|&k| group(k));
+        let first = groups.next().flatten();
+        first.is_some()
+            && groups.all(|group| group == first)
             && self.directions.iter().all(of_pairs)
             && self.at_rest.len() == self.directions.len()
     }
@@ -125,7 +129,7 @@ pub(crate) fn with_springs(matrix: &PairMatrix, springs: &[Springs]) -> PairMatr
         return matrix.clone();
     }
     let mut blocks = matrix.blocks().to_vec();
-    for own in springs.iter().filter(|springs| !springs.pairs.is_empty()) {
+    for own in springs {
         let block: &mut PairBlock = &mut blocks[matrix.place(own.pairs[0]).0];
         let stiffness = Arc::make_mut(&mut block.matrix);
         for direction in &own.directions {

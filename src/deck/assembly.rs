@@ -13,10 +13,9 @@ mod placement;
 
 use super::fields::Fields;
 use super::instances::Instances;
-use super::keyword::Keyword;
-use super::source::{Files, Line, Source};
+use super::keyword::{Keyword, no_such};
+use super::source::{Line, Source};
 use crate::error::Result;
-use crate::scene::closest;
 use placement::Placement;
 
 /// Keywords that begin and end parts, instances and assemblies.
@@ -235,7 +234,10 @@ impl Assembled {
         let of = keyword.require(files, "PART")?;
         let part = self.part(of).ok_or_else(|| {
             let names = self.parts.iter().map(|part| part.name.as_str());
-            unknown(keyword, files, "part", of, names)
+            keyword.error(
+                files,
+                no_such("part", of, names, "name one that stands before it"),
+            )
         })?;
         self.items.push(Item::Instance(self.instances.len()));
         self.instances.push(Instance {
@@ -313,24 +315,4 @@ impl Assembled {
         let how = format!("numbers of nodes and elements are those of the part plus {all}");
         Some((&first.keyword, how))
     }
-}
-
-/// An error about a name that there is not.
-fn unknown<'n>(
-    keyword: &Keyword,
-    files: &Files,
-    what: &str,
-    name: &str,
-    known: impl Iterator<Item = &'n str>,
-) -> crate::Error {
-    let known: Vec<String> = known.map(str::to_lowercase).collect();
-    let words: Vec<&str> = known.iter().map(String::as_str).collect();
-    let message = match closest(name, &words) {
-        Some(meant) => {
-            let meant = meant.to_uppercase();
-            format!("there is no {what} {name}, did you mean {meant}?")
-        }
-        None => format!("there is no {what} {name}; name one that stands before it"),
-    };
-    keyword.error(files, message)
 }

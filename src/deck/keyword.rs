@@ -235,6 +235,24 @@ pub(super) struct Keyword {
 }
 
 /// Capitals without blanks: neither case nor blanks mean anything.
+/// That there is no such name, with the one that may be meant, or else what to do.
+pub(super) fn no_such<'n>(
+    what: &str,
+    name: &str,
+    known: impl Iterator<Item = &'n str>,
+    otherwise: &str,
+) -> String {
+    let known: Vec<String> = known.map(str::to_lowercase).collect();
+    let words: Vec<&str> = known.iter().map(String::as_str).collect();
+    match closest(name, &words) {
+        Some(meant) => {
+            let meant = meant.to_uppercase();
+            format!("there is no {what} {name}, did you mean {meant}?")
+        }
+        None => format!("there is no {what} {name}; {otherwise}"),
+    }
+}
+
 pub(super) fn plain(word: &str) -> String {
     let letters = word.chars().filter(|c| !c.is_whitespace());
     letters.map(|c| c.to_ascii_uppercase()).collect()

@@ -2,11 +2,11 @@
 
 use super::data::{Member, Members, Named, SurfacePart, Target};
 use super::facets::Face;
+use super::keyword::no_such;
 use super::source::Place;
 use super::{Deck, element_type};
 use crate::error::Result;
 use crate::labels::LabelIndex;
-use crate::scene::closest;
 use std::collections::BTreeSet;
 
 /// Nodes or elements.
@@ -139,14 +139,8 @@ impl Deck {
     }
 
     fn unknown(&self, what: &str, name: &str, known: Vec<String>, at: At) -> crate::error::Error {
-        let known: Vec<&str> = known.iter().map(String::as_str).collect();
-        let message = match closest(name, &known) {
-            Some(meant) => {
-                let meant = meant.to_uppercase();
-                format!("there is no {what} {name}, did you mean {meant}?")
-            }
-            None => format!("there is no {what} {name}; name one that there is"),
-        };
+        let known = known.iter().map(String::as_str);
+        let message = no_such(what, name, known, "name one that there is");
         self.error(at.0, at.1, message)
     }
 

@@ -6,7 +6,7 @@
 //! motion.
 
 use super::far_boundary::{FarBoundary, StoppedMotion};
-use super::motions::{self, Mode, Motions};
+use super::motions::{self, FREE, Mode, Motions};
 use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
@@ -103,9 +103,9 @@ pub struct Pin {
 
 /// Work of a load on a motion below this, relative to the sum of its parts, is none.
 const NO_WORK: f64 = 1e-9;
-/// The same on a motion that was found as one which moves no pair by more than 1e-7 of its own
-/// displacement: the centre of a round surface is known no better.
-const NO_WORK_FOUND: f64 = 1e-6;
+/// The same on a motion that moves no pair by more than [`FREE`] of its own displacement: the
+/// centre of a round surface is known no better, and a load through it does so much work.
+const NO_WORK_FOUND: f64 = 10.0 * FREE;
 
 /// The floating bodies, and the contact rows on the freedoms that pins leave.
 pub(super) fn resolve(

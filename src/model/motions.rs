@@ -10,7 +10,7 @@ use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Singular values below this, relative to the largest, are free motions.
-const FREE: f64 = 1e-7;
+pub(super) const FREE: f64 = 1e-7;
 /// A block of the motions that is definite by this much of its largest entry has none that is free:
 /// well above the square of [`FREE`] and the round-off of a factorisation of some thousand rows.
 const HELD: f64 = 1e-11;

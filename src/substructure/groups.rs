@@ -185,19 +185,17 @@ impl Groups {
     }
 
     /// Makes forces on the pairs do the work on rigid motions that is known of each motion of the
-    /// model; the largest change.
-    pub(super) fn balance(&self, forces: &mut [f64], work: &[Work]) -> f64 {
-        let mut largest = 0.0f64;
+    /// model.
+    pub(super) fn balance(&self, forces: &mut [f64], work: &[Work]) {
         for group in &self.groups {
-            let before = DVector::from_vec(of_pairs(group, forces));
-            let known = |motion: usize| work[group.motions[motion]];
-            let own = group.tied.balanced(before.clone(), known);
+            let own = DVector::from_vec(of_pairs(group, forces));
+            let own = group
+                .tied
+                .balanced(own, |motion| work[group.motions[motion]]);
             for (&k, &force) in group.pairs.iter().zip(own.iter()) {
                 forces[k] = force;
             }
-            largest = largest.max((own - before).amax());
         }
-        largest
     }
 
     /// Multiplications that putting leaders and followers together took.

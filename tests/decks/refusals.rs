@@ -281,8 +281,8 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         ),
         (
             "TYPE=CPE4",
-            "TYPE=BAR9",
-            "TYPE=BAR9: beams and trusses are not",
+            "TYPE=T3D2T",
+            "TYPE=T3D2T: beams and trusses are not",
         ),
         (
             "*STEP",

@@ -172,11 +172,11 @@ f(37, "contact/tableau.rs", "left <= round_off.max(SINGULAR * whole)",
   "left <= round_off.max(" + x(37, "1e3 * SINGULAR", "SINGULAR") + " * whole)",
   "contact", "a body counts as free when a pair opens with a tolerance a thousand times too large",
   "unit contact; properties (complementarity), stability (numbers)")
-f(38, "contact/loose.rs", "match both.min_by(|a, b| a.0.abs().total_cmp(&b.0.abs())) {",
-  "match both.min_by(|a, b| {\n                    let order = a.0.abs().total_cmp(&b.0.abs());\n                    "
-  + x(38, "order.reverse()", "order") + "\n                }) {",
-  "contact", "a body free to move without load goes to the farther instead of the nearer contact",
-  "unit contact::loose; stability (held_by_contact, receding)")
+f(38, "contact/loose.rs", "None => return Ok(complement(&held)),",
+  "None if " + on(38) + " => return Ok(DMatrix::zeros(held.nrows(), 0)),\n                "
+  "None => return Ok(complement(&held)),",
+  "contact", "no spring keeps a motion that nothing holds and no load drives",
+  "unit contact::loose; stability (loose_sideways, held_by_contact)")
 f(39, "constrained/displacements.rs", "(&self.gaps - &self.rows * here)",
   "(&self.gaps * " + x(39, "0.0", "1.0") + " - &self.rows * here)",
   "constrained", "refined displacements close rows as if their gaps were zero",

@@ -80,7 +80,7 @@ fn nothing(_: &mut Solver) {}
 
 #[track_caller]
 fn caught(model: &Model, quality: Quality, by: &[&str]) {
-    let misses = quality.misses(&tolerances(model, 0.0));
+    let misses = quality.misses(&tolerances(model));
     for figure in by {
         assert!(
             misses.iter().any(|(name, _, _)| name == figure),
@@ -93,7 +93,7 @@ fn caught(model: &Model, quality: Quality, by: &[&str]) {
 fn a_sound_run_misses_nothing() {
     let (model, system) = model();
     let q = quality(&model, &system, &system, nothing, nothing);
-    assert_eq!(q.misses(&tolerances(&model, 0.0)), []);
+    assert_eq!(q.misses(&tolerances(&model)), []);
 }
 
 /// One entry of the factored matrix is off by 1e-4 of itself: the factor is that of another
@@ -403,7 +403,7 @@ fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
     let system = assemble(&model, Backend::default()).expect("system");
     let mut solver = loaded(&model, &system);
     let sound = solver.reading().quality_here().expect("quality");
-    let tolerances = tolerances(&model, 0.0);
+    let tolerances = tolerances(&model);
     assert!(sound.equilibrium > tolerances.equilibrium, "{sound:?}");
     assert_eq!(sound.misses(&tolerances), []);
     // Displacements are known to half a rounding error; a thousand times as much is a fault.
@@ -458,7 +458,7 @@ fn what_is_not_a_number_ends_in_no_loop_and_is_caught() {
                     let Ok(figures) = solver.reading().figures("end", true) else {
                         continue;
                     };
-                    let misses = figures.state.quality.misses(&tolerances(&model, 0.0));
+                    let misses = figures.state.quality.misses(&tolerances(&model));
                     assert!(!misses.is_empty(), "{kind}: {i}, pair {k}, {value}");
                 }
             }

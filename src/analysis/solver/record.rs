@@ -29,7 +29,6 @@ pub(in crate::analysis) struct SolverRecord {
     load_forces: Vec<Vec<f64>>,
     unit: f64,
     condition: f64,
-    unbalanced: f64,
     cost: Cost,
     scales: Scales,
 }
@@ -61,7 +60,6 @@ impl<'m> Solver<'m> {
             load_forces: self.structure.loads.forces.clone(),
             unit: self.structure.unit,
             condition: self.structure.condition,
-            unbalanced: self.structure.unbalanced,
             cost: self.cost,
             scales: self.scales,
         }
@@ -110,7 +108,6 @@ impl<'m> Solver<'m> {
         structure.loads.forces.clone_from(&record.load_forces);
         structure.unit = record.unit;
         structure.condition = record.condition;
-        structure.unbalanced = record.unbalanced;
         solver.cost = record.cost;
         solver.scales = record.scales;
         Ok((solver, same))

@@ -1,8 +1,9 @@
 //! Blocks of a deck of parts, written as those of a flat one.
 
-use super::{Assembled, Block, Item, Placement, unknown};
+use super::{Assembled, Block, Item, Placement};
 use crate::deck::fields::{Fields, Where};
 use crate::deck::instances::Instances;
+use crate::deck::keyword::no_such;
 use crate::deck::source::{Anew, Line, Source};
 use crate::error::Result;
 use std::io::Write;
@@ -112,7 +113,8 @@ impl Writer<'_, '_> {
             let name = self.without_assembly(keyword.require(files, "INSTANCE")?);
             of = Some(self.instances.find(name).ok_or_else(|| {
                 let names = self.instances.names().iter().map(String::as_str);
-                unknown(keyword, files, "instance", name, names)
+                let message = no_such("instance", name, names, "name one that stands before it");
+                keyword.error(files, message)
             })?);
         }
         let (own, placement) = (None, None);
