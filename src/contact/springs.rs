@@ -1,11 +1,11 @@
-//! Weak springs on what nothing holds and nothing drives.
+//! Weak springs on rigid motions that neither contact holds nor a load drives.
 //!
-//! A round punch on a block: the one pair in the middle carries the load and stops no motion across
-//! its normal. No load drives such a motion, so it has no place of its own; with `T` singular every
-//! change of status, which may hold the body or not, is decided by round-off. A spring of next to
-//! no stiffness keeps it where it is. In a state that is read the spring is without force: it is
-//! let go there, until nothing moves any more (the proximal point method: R. T. Rockafellar (1976),
-//! doi:10.1137/0314056).
+//! Example: a round punch touches a block with one pair. The pair carries the load, but it does not
+//! resist a sideways motion. If no load acts sideways, equilibrium does not determine where the
+//! punch stands: `T` is singular, and round-off would decide which pairs open and close. A spring
+//! of very small stiffness keeps the punch where it is. Before results are read the spring is
+//! released and equilibrium found again, until it carries no force (the proximal point method: R.
+//! T. Rockafellar (1976), doi:10.1137/0314056).
 
 use super::{PairBlock, PairMatrix};
 use nalgebra::DMatrix;

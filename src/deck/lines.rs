@@ -1,7 +1,7 @@
-//! Line elements that carry the sets of a mesher: Gmsh writes the curves of a plane mesh as trusses
-//! (`T3D2`), their sets being what surfaces are made of.
+//! Line elements that a mesher writes to name boundaries: Gmsh writes the curves of a plane mesh as
+//! trusses (`T3D2`). A set of them stands for the faces that they lie on.
 //!
-//! They have no stiffness here. Where a section says that they should, the deck is refused.
+//! They have no stiffness here. A deck that gives them a section is refused.
 
 use super::Deck;
 use super::bodies::unsupported;
