@@ -4,6 +4,8 @@
 //! standard error, and the exit code says what kind of end it was
 //! ([`crate::ErrorKind::exit_code`]).
 
+#[cfg(all(unix, feature = "cholmod"))]
+mod again;
 mod arguments;
 mod commands;
 mod completions;
@@ -74,7 +76,8 @@ fn program(words: Vec<OsString>) -> u8 {
         std::process::exit(i32::from(ErrorKind::Internal.exit_code()));
     }));
     interrupt::ignore_file_size_signal();
-    start_again_with_fewer_threads();
+    #[cfg(all(unix, feature = "cholmod"))]
+    again::start_with_better_settings();
     let arguments = match Arguments::try_parse_from(&words) {
         Ok(arguments) => arguments,
         Err(problem) => return usage(&problem, &words),
@@ -119,31 +122,6 @@ fn usage(problem: &clap::Error, words: &[OsString]) -> u8 {
     let _ = written;
     u8::try_from(problem.exit_code()).unwrap_or(1)
 }
-
-/// Starts the program again with one thread of the BLAS where limits of the process leave no room
-/// for the work buffers of more: these are taken as the library is loaded, and asked for without
-/// end where there is no room.
-#[cfg(all(unix, feature = "cholmod"))]
-fn start_again_with_fewer_threads() {
-    use std::os::unix::process::CommandExt;
-    const THREADS: &str = "OPENBLAS_NUM_THREADS";
-    let is_again = std::env::var_os(THREADS).is_some_and(|threads| threads == "1");
-    if is_again || !crate::linalg::cholmod::blas_threads_are_too_many() {
-        return;
-    }
-    if let Ok(program) = std::env::current_exe() {
-        let mut arguments = std::env::args_os();
-        let mut again = std::process::Command::new(program);
-        if let Some(name) = arguments.next() {
-            again.arg0(name);
-        }
-        // Only returns where it fails; the run goes on as it is.
-        let _ = again.args(arguments).env(THREADS, "1").exec();
-    }
-}
-
-#[cfg(not(all(unix, feature = "cholmod")))]
-fn start_again_with_fewer_threads() {}
 
 /// Whether a command line (the program's name first) is understood; the usage error, or what
 /// `--help` and `--version` print, if not. Does nothing else.

@@ -242,6 +242,16 @@ impl Backend {
         }
     }
 
+    /// The processor whose kernels the BLAS uses (`Haswell`); `None` where there is no BLAS or it
+    /// cannot be asked.
+    pub fn kernels(self) -> Option<String> {
+        match self {
+            #[cfg(feature = "cholmod")]
+            Backend::Cholmod | Backend::Mumps => cholmod::kernels(),
+            _ => None,
+        }
+    }
+
     /// Threads of a factorisation; `None` where it cannot be asked.
     pub(crate) fn threads(self) -> Option<usize> {
         match self {
@@ -349,6 +359,16 @@ impl From<NotDefinite> for Error {
     fn from(cause: NotDefinite) -> Self {
         Error::internal(cause.to_string()).because(cause)
     }
+}
+
+/// What to tell a user where the BLAS computes with less than the processor has, and with which setting
+/// of the environment it would not; `None` where all is well. Libraries say it once, through their
+/// log; the program `brinell` begins anew with the setting.
+pub fn slow_kernels() -> Option<String> {
+    #[cfg(feature = "cholmod")]
+    return cholmod::slow_kernels();
+    #[cfg(not(feature = "cholmod"))]
+    None
 }
 
 /// The BLAS that the default backend uses, in words.

@@ -114,6 +114,8 @@ pub struct RunHeader {
     pub kind: String,
     /// The backend that factored the stiffness: `cholmod`, `faer` or `dense`.
     pub solver: String,
+    /// The processor whose kernels the BLAS of the backend used (`Haswell`); `None` without such.
+    pub kernels: Option<String>,
     /// Wall time of the whole run in seconds.
     pub wall_seconds: f64,
     /// Body names, in the order of the mesh.
@@ -130,6 +132,7 @@ impl RunHeader {
             scene_file: (model.scene.file.as_ref()).map(|file| file.display().to_string()),
             kind: model.kind.name().to_string(),
             solver: backend.name().to_string(),
+            kernels: backend.kernels(),
             wall_seconds,
             bodies: model.mesh.bodies.clone(),
             labels: Labels::of(model),

@@ -68,6 +68,7 @@ pub fn study_json(header: &RunHeader, study: &Study) -> Value {
         "scene_file": header.scene_file,
         "kind": header.kind,
         "solver": header.solver,
+        "kernels": header.kernels,
         "seconds": study.seconds,
         "stopped": study.stopped,
         "runs": study.runs.iter().map(run).collect::<Vec<_>>(),

@@ -36,6 +36,7 @@ pub(crate) struct Summary {
     units: Option<UnitNames>,
     half_width_is: Option<Extent>,
     solver: String,
+    kernels: Option<String>,
     #[serde(flatten)]
     sizes: Sizes,
     effects: Named<EffectEntry>,
@@ -182,6 +183,7 @@ impl Summary {
             units: header.labels.units(),
             half_width_is: Some(header.labels.extent()),
             solver: header.solver.clone(),
+            kernels: header.kernels.clone(),
             sizes: results.sizes,
             effects: results.effects.iter().map(EffectEntry::new).collect(),
             timings: timings(&results.timings, header.wall_seconds),
@@ -212,6 +214,7 @@ impl Summary {
             scene_file: self.scene_file.clone(),
             kind: self.kind.clone(),
             solver: self.solver.clone(),
+            kernels: self.kernels.clone(),
             wall_seconds: total.unwrap_or(f64::NAN),
             bodies: bodies.to_vec(),
             labels: self.labels(),

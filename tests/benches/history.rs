@@ -184,6 +184,7 @@ fn run(backend: Backend, changes: &str, directory: &Path) -> Result<Value, Failu
         scene_title: scene.title.clone(),
         kind: scene.kind.name().to_string(),
         solver: backend.name().to_string(),
+        kernels: backend.kernels(),
         bodies: analysis.model().mesh.bodies.clone(),
         ..RunHeader::default()
     };

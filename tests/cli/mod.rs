@@ -4,6 +4,7 @@ mod accuracy;
 mod directory;
 mod guide;
 mod interruption;
+mod kernels;
 mod mutations;
 mod outputs;
 mod pressure;

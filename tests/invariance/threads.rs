@@ -1,5 +1,6 @@
 //! One thread or two: the same bits.
 
+use crate::support::tools::with_these_kernels;
 use crate::support::{SMALL_BALL, limit, scene_file, sparse};
 use serde_json::Value;
 use std::path::Path;
@@ -16,7 +17,7 @@ fn run(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str])
     for set in overrides {
         command.args(["--set", set]);
     }
-    let output = limit::output(&mut command);
+    let output = limit::output(with_these_kernels(&mut command));
     assert!(
         output.status.success(),
         "{}",

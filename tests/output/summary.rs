@@ -95,6 +95,7 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "units": null,
         "half_width_is": "half_width",
         "solver": "dense",
+        "kernels": null,
         "nodes": 15, "elements": 4, "freedoms": 27, "contact_pairs": 2,
         "zone_freedoms": 9, "zone_elements": 2,
         "effects": effects,

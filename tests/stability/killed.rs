@@ -1,6 +1,7 @@
 //! Killed at any moment: `kill -9` leaves no time to tidy up.
 #![cfg(unix)]
 
+use crate::support::tools::with_these_kernels;
 use crate::support::{SMALL_BALL, limit, scene_file};
 use std::path::Path;
 use std::process::{Child, Command, Stdio};
@@ -18,7 +19,7 @@ const ROLLER: Case = ("roller_on_plate", &[]);
 const BALL: Case = ("ball_on_flat_3d", &SMALL_BALL);
 
 fn start((scene, sets): Case, out: &Path, more: &[&str]) -> Child {
-    Command::new(env!("CARGO_BIN_EXE_brinell"))
+    with_these_kernels(&mut Command::new(env!("CARGO_BIN_EXE_brinell")))
         .arg("run")
         .arg(scene_file(scene))
         .args(["-q", "--no-report", "--no-estimate", "--threads", "1"])

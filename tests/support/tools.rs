@@ -23,6 +23,14 @@ pub fn first_of(names: &[&'static str]) -> Option<&'static str> {
     names.iter().copied().find(|name| has(name))
 }
 
+/// Lets a program compute with the kernels of this process: bits depend on them.
+pub fn with_these_kernels(command: &mut std::process::Command) -> &mut std::process::Command {
+    if let Some(kernels) = brinell::linalg::Backend::default().kernels() {
+        command.env("OPENBLAS_CORETYPE", kernels);
+    }
+    command
+}
+
 #[test]
 fn a_program_on_the_path_is_found_and_another_is_not() {
     assert!(has("cargo") && !has("no such program"));

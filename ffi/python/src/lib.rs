@@ -6,6 +6,7 @@
 
 mod arrays;
 mod errors;
+mod kernels;
 mod lent;
 mod model;
 mod observer;

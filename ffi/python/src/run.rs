@@ -134,6 +134,7 @@ pub fn yield_load<'py>(
 
 /// Runs with the interpreter released.
 pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResult>> {
+    crate::kernels::warn_of_slow(py);
     let mut watcher = Watcher::new(way.callback);
     let start = Instant::now();
     let (backend, budget) = (way.backend, way.budget);

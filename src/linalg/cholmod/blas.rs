@@ -75,36 +75,52 @@ mod openblas {
 
 /// Name, build options, processor kernels and threads of the BLAS in use, for instance
 /// `OpenBLAS 0.3.21 DYNAMIC_ARCH NO_AFFINITY Haswell MAX_THREADS=64 (kernels Haswell, 2 threads)`.
-#[cfg(openblas)]
 pub fn blas_name() -> String {
-    let text = |pointer: *mut std::ffi::c_char| {
-        if pointer.is_null() {
-            return String::from("unknown");
-        }
-        // SAFETY: not null, and OpenBLAS returns pointers to static, terminated strings.
-        let text = unsafe { std::ffi::CStr::from_ptr(pointer) };
-        text.to_string_lossy().trim().to_owned()
-    };
-    // SAFETY: both functions take nothing and only read the library's configuration.
-    let (configuration, core) = unsafe {
-        (
-            openblas::openblas_get_config(),
-            openblas::openblas_get_corename(),
-        )
+    // Without OpenBLAS at build time nothing can be asked: the system's BLAS has no name.
+    let (Some(configuration), Some(kernels)) = (configuration(), kernels()) else {
+        return String::from("system BLAS, not known to be OpenBLAS");
     };
     let threads = blas_threads().unwrap_or(1);
-    format!(
-        "{} (kernels {}, {threads} thread{})",
-        text(configuration),
-        text(core),
-        if threads == 1 { "" } else { "s" }
-    )
+    let plural = if threads == 1 { "" } else { "s" };
+    format!("{configuration} (kernels {kernels}, {threads} thread{plural})")
 }
 
-/// Without OpenBLAS at build time nothing can be asked: the system's BLAS has no name.
-#[cfg(not(openblas))]
-pub fn blas_name() -> String {
-    String::from("system BLAS, not known to be OpenBLAS")
+/// Version and build options of OpenBLAS; `None` of another BLAS.
+fn configuration() -> Option<String> {
+    #[cfg(openblas)]
+    {
+        // SAFETY: takes nothing, reads the library's configuration.
+        text(unsafe { openblas::openblas_get_config() })
+    }
+    #[cfg(not(openblas))]
+    None
+}
+
+/// The processor whose kernels OpenBLAS uses (`Haswell`); `None` of another BLAS.
+pub fn kernels() -> Option<String> {
+    #[cfg(openblas)]
+    {
+        // SAFETY: takes nothing, reads the library's configuration.
+        text(unsafe { openblas::openblas_get_corename() })
+    }
+    #[cfg(not(openblas))]
+    None
+}
+
+/// Whether this OpenBLAS holds kernels for several processors, to choose from as it is loaded.
+pub(super) fn has_choice() -> bool {
+    configuration().is_some_and(|options| options.contains("DYNAMIC_ARCH"))
+}
+
+/// A text of OpenBLAS' configuration.
+#[cfg(openblas)]
+fn text(pointer: *mut std::ffi::c_char) -> Option<String> {
+    if pointer.is_null() {
+        return None;
+    }
+    // SAFETY: not null, and OpenBLAS returns pointers to static, terminated strings.
+    let text = unsafe { std::ffi::CStr::from_ptr(pointer) };
+    Some(text.to_string_lossy().trim().to_owned())
 }
 
 /// Threads that the BLAS uses; `None` where the BLAS cannot be asked.

@@ -20,6 +20,7 @@ const METIS_RESERVE: f64 = 2.0;
 impl Common {
     /// Starts CHOLMOD: silent, one given ordering, left-looking LL'.
     pub(super) fn start() -> Result<Self> {
+        super::kernels::warn_of_slow_kernels();
         let mut raw: MaybeUninit<sys::cholmod_common> = MaybeUninit::zeroed();
         // SAFETY: `cholmod_l_start` writes every field it reads later; all of them are integers,
         // floats, pointers or optional functions, for which zero is a valid value.

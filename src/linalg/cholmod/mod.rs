@@ -14,14 +14,16 @@
 mod blas;
 mod common;
 mod factor;
+mod kernels;
 mod matrix;
 mod openmp;
 mod ordering;
 #[cfg(test)]
 pub(in crate::linalg) mod tests;
 
-pub use blas::{blas_name, blas_threads, blas_threads_are_too_many, set_blas_threads};
+pub use blas::{blas_name, blas_threads, blas_threads_are_too_many, kernels, set_blas_threads};
 pub use common::cholmod_version;
+pub use kernels::{KERNEL_SETTING, better_kernels, slow_kernels};
 pub use ordering::Method;
 
 #[cfg(feature = "mumps")]
