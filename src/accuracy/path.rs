@@ -135,7 +135,7 @@ pub(super) fn increments_taken(scene: &Scene, results: &Results) -> usize {
     let targets = scene.program.targets.len().max(1);
     let taken = match scene.program.stepping {
         Stepping::Steps => scene.program.steps,
-        Stepping::Events => results.history.len().div_ceil(targets),
+        Stepping::Auto | Stepping::Events => results.history.len().div_ceil(targets),
     };
     taken.max(1)
 }

@@ -33,6 +33,7 @@ impl Places {
 
 /// `[ zone | contact | prescribed | 0 ]`: every element freedom has a place, so that nothing is
 /// decided in a loop.
+#[derive(Clone)]
 pub struct Nodal {
     values: Vec<f64>,
     n_zone: usize,
@@ -77,6 +78,11 @@ impl Nodal {
         for (value, (load, at_one)) in rest.iter_mut().zip(&self.prescribed) {
             *value = self.factors[*load] * at_one;
         }
+        &self.values
+    }
+
+    /// The values that were taken over last.
+    pub fn values(&self) -> &[f64] {
         &self.values
     }
 

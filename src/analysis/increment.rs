@@ -13,6 +13,7 @@ use super::search::{PROGRESS, Search};
 use super::step_length::{LengthSearch, StepLimit, step_limit};
 use super::stepping::Stepper;
 use super::zone::Evaluation;
+use crate::contact;
 use crate::error::Error;
 use crate::scene::PlasticIteration;
 use crate::substructure::Trailing;
@@ -25,8 +26,11 @@ pub enum EndsAt {
         /// Relative tolerance.
         gamma: f64,
     },
-    /// At the end of the piece, statuses frozen.
+    /// At the end of the piece, where each iterate has the statuses that are right for its initial
+    /// loads.
     EndOfPiece,
+    /// At the end of the piece, statuses frozen.
+    EndOfPieceFrozen,
 }
 
 /// An increment that was found.
@@ -113,6 +117,7 @@ impl Stepper<'_, '_> {
         let settings = self.rules.settings;
         let start = self.solver.at.clone();
         let before = self.solver.now.clone();
+        self.solver.zone.begin_at(&before.u, &start.factors);
         let rates = match ahead {
             Some(ahead) => self.secant(end, ahead),
             None => self.rates(end, settings.plastic_iteration == PlasticIteration::Newton),
@@ -148,6 +153,10 @@ impl Stepper<'_, '_> {
         }
         let mut state = before.clone();
         state.add(t, &rates);
+        let settles_contact = ends_at == EndsAt::EndOfPiece;
+        if settles_contact {
+            self.settle_contact(end, &mut state)?;
+        }
 
         let mut anderson = Anderson::default();
         let mut balance = self.solver.structure.sub.zeros();
@@ -288,6 +297,10 @@ impl Stepper<'_, '_> {
                     PlasticIteration::Plain => (self.solver.direction(balance.clone()), 1.0),
                 };
                 state.add(length, &direction);
+                if settles_contact && self.settle_contact(end, &mut state)? {
+                    known = None;
+                    anderson.restart();
+                }
             }
             if follows && (balanced || search.together) {
                 let limit = step_limit(&base, &values(self, &state), &exempt);
@@ -365,6 +378,26 @@ impl Stepper<'_, '_> {
         rates.rescale(&self.solver.now, 1.0 / self.solver.at.share_of(&at, end));
         rates.add(-1.0, &self.solver.now);
         rates
+    }
+
+    /// Gives an iterate the statuses, gaps and forces that are right for its initial loads: what
+    /// plastic flow asks for is a load, for which contact is solved in the dense matrix. Whether any
+    /// status changed; half a trailing solve if so.
+    fn settle_contact(
+        &mut self,
+        point: &LoadPoint,
+        state: &mut Equilibrium,
+    ) -> Result<bool, NoIncrement> {
+        let q = self.solver.forces_if_tied(point, &state.initial);
+        let (gap, force) = (&mut state.gap, &mut state.force);
+        let found = contact::solve(&mut self.solver.tableau, &q, gap, force);
+        let certificate = found.map_err(|_| NoIncrement::Undecided)?;
+        if certificate.changes == 0 {
+            return Ok(false);
+        }
+        self.solver.cost.counts.contact_changes += certificate.changes;
+        *state = self.solver.respond(point, state.initial.clone());
+        Ok(true)
     }
 
     /// What must stay positive: gaps of open pairs, forces of closed ones.

@@ -15,6 +15,11 @@ use std::ops::ControlFlow;
 /// means nothing there.
 const ARRIVED: f64 = 1e-9;
 
+/// Length of increments with `stepping = "auto"` in the square root of the load over that at the end
+/// of the piece, at the path error [`AT_STEP`]; the error falls with its square.
+const STEP: f64 = 0.07;
+const AT_STEP: f64 = 1e-3;
+
 /// An elastoplastic drive between two increments.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PlasticDrive {
@@ -61,6 +66,9 @@ impl PlasticDrive {
         }
         if solver.turns_back(end) {
             solver.assume_elastic();
+            if solver.predictor.last_step.iter().any(|step| *step != 0.0) {
+                solver.predictor.turn = solver.at.clone();
+            }
         }
         let monitored = monitor.map(|m| m(solver)).transpose()?;
         if is_hit(monitored) {
@@ -97,7 +105,7 @@ impl PlasticDrive {
             return Ok(Step::arrived(Arrival::ZoneOutgrown));
         }
         let may_be_elastic = !matches!(self.ahead, Ahead::Unknown) || solver.zone.is_idle();
-        if may_be_elastic && rules.program.stepping == Stepping::Events {
+        if may_be_elastic && rules.program.stepping != Stepping::Steps {
             if let Some(step) = self.follow(solver, end, monitor)? {
                 return Ok(step);
             }
@@ -133,6 +141,20 @@ impl PlasticDrive {
         Ok(step)
     }
 
+    /// The share of what is `left` of the way to the end of the piece that an increment may be long,
+    /// `gone` having been gone since the path turned: increments are of equal length in the square
+    /// root of the load. What the last ones leave counts most, and they are the longest.
+    fn share_by_path_error(gone: f64, left: f64, path_error: f64) -> f64 {
+        let step = STEP * (path_error / AT_STEP).sqrt();
+        let whole = gone + left;
+        let behind = (gone / whole).sqrt();
+        let n = ((1.0 - behind) / step).ceil().max(1.0);
+        let next = (behind + (1.0 - behind) / n).powi(2);
+        let shortest = gone / whole + 0.5 * step;
+        let share = (next.max(shortest) - gone / whole) * whole / left;
+        if n > 1.0 && share < 1.0 { share } else { 1.0 }
+    }
+
     /// An elastoplastic increment.
     fn increment(
         &mut self,
@@ -143,6 +165,11 @@ impl PlasticDrive {
     ) -> Result<Step> {
         let left = match rules.program.stepping {
             Stepping::Events => 1.0,
+            Stepping::Auto => {
+                let gone = solver.predictor.turn.distance(&solver.at);
+                let left = solver.at.distance(end);
+                Self::share_by_path_error(gone, left, rules.program.path_error)
+            }
             Stepping::Steps => 1.0 / rules.program.steps.saturating_sub(self.taken).max(1) as f64,
         };
         let distance = solver.at.distance(end);

@@ -18,19 +18,11 @@ impl Solver<'_> {
     pub fn respond(&mut self, point: &LoadPoint, initial: EliminatedLoad) -> Equilibrium {
         let n = self.structure.gaps.initial.len();
         let mut u = initial.eliminated.clone();
-        let mut q = initial.forces.clone();
         let factors = self.structure.model.factors_of_alike(&point.factors);
         for (load, factor) in self.structure.loads.condensed.iter().zip(factors) {
             u.add(factor, &load.eliminated);
-            for (q, t) in q.iter_mut().zip(&load.forces) {
-                *q += factor * t;
-            }
         }
-        for k in 0..n {
-            q[k] += point.interference * self.structure.gaps.forces[1][k]
-                - self.structure.gaps.forces[0][k];
-        }
-        self.add_springs(&mut q);
+        let q = self.forces_if_tied(point, &initial);
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         self.tableau.solve(&q, &mut gap, &mut force);
         // Displacements serve for strains: rigid motions, however large, are left out.
@@ -44,6 +36,23 @@ impl Solver<'_> {
             gap,
             force,
         }
+    }
+
+    /// Force of each pair at a load point, with initial loads, if all were tied without gap.
+    pub fn forces_if_tied(&self, point: &LoadPoint, initial: &EliminatedLoad) -> Vec<f64> {
+        let mut q = initial.forces.clone();
+        let factors = self.structure.model.factors_of_alike(&point.factors);
+        for (load, factor) in self.structure.loads.condensed.iter().zip(factors) {
+            for (q, t) in q.iter_mut().zip(&load.forces) {
+                *q += factor * t;
+            }
+        }
+        let [initial, by_interference] = &self.structure.gaps.forces;
+        for (q, (constant, change)) in q.iter_mut().zip(initial.iter().zip(by_interference)) {
+            *q += point.interference * change - constant;
+        }
+        self.add_springs(&mut q);
+        q
     }
 
     /// Completes a change of state that follows from its initial loads alone, closed pairs staying

@@ -64,6 +64,7 @@ fn solves(model: &Model) -> f64 {
     let [growing, alike] = [pairs_of(false), pairs_of(true)];
     let increments = match program.stepping {
         Stepping::Events => n_targets + ways(program) * (CHANGES[0] * growing + CHANGES[1] * alike),
+        Stepping::Auto => n_targets + 8.0 * ways(program),
         Stepping::Steps => program.steps as f64 * n_targets,
     };
     let mut yielding = model.materials.iter().zip(&model.may_yield);

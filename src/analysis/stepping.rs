@@ -67,7 +67,9 @@ impl<'s, 'm> Stepper<'s, 'm> {
                     ahead.take(),
                 ),
                 Stepping::Events => self.solve_step((end, 1e-3 * most), search, ahead.take())?,
-                Stepping::Steps => self.solve_step((end, most), search, ahead.take())?,
+                Stepping::Auto | Stepping::Steps => {
+                    self.solve_step((end, most), search, ahead.take())?
+                }
             };
             match outcome {
                 Ok(increment) => {
@@ -101,7 +103,9 @@ impl<'s, 'm> Stepper<'s, 'm> {
                 Err(NoIncrement::Jumps) => corrections = MOST_CORRECTIONS,
                 Err(NoIncrement::Stopped) => return Err(stopped()),
                 Err(NoIncrement::Failed(error)) => return Err(error),
-                Err(NoIncrement::Undecided) if stepping == Stepping::Steps && stepping == usual => {
+                Err(NoIncrement::Undecided)
+                    if stepping != Stepping::Events && stepping == usual =>
+                {
                     stepping = Stepping::Events;
                 }
                 Err(NoIncrement::Undecided) => return Err(self.not_settled(end, most)),
@@ -162,11 +166,28 @@ impl<'s, 'm> Stepper<'s, 'm> {
         // The end of the increment is the end of a piece of its own: a pair that closes has no gap
         // there, whatever gap it had.
         let goal = self.solver.at.towards(end, most);
+        let open = self.solver.tableau.open().to_vec();
+        match self.increment(&goal, 1.0, (EndsAt::EndOfPiece, search), ahead.take()) {
+            Ok(increment) => {
+                self.solver.border.clear();
+                return Ok(Ok(Increment {
+                    t: most,
+                    changes: Vec::new(),
+                    ..increment
+                }));
+            }
+            Err(NoIncrement::NotConverged(_) | NoIncrement::Undecided) => {
+                let border = self.solver.border.clone();
+                self.solver.restore_statuses(&open, &border);
+            }
+            Err(error) => return Ok(Err(error)),
+        }
         let mut fewest = usize::MAX;
         let mut patience = 6;
         let mut seen: HashSet<Vec<bool>> = HashSet::new();
         for _ in 0..10 * (self.solver.now.gap.len() + 10) {
-            let found = self.increment(&goal, 1.0, (EndsAt::EndOfPiece, search), ahead.take());
+            let found =
+                self.increment(&goal, 1.0, (EndsAt::EndOfPieceFrozen, search), ahead.take());
             let increment = match found {
                 Ok(increment) => increment,
                 Err(error) => return Ok(Err(error)),

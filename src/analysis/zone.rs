@@ -82,6 +82,11 @@ impl Zone {
         of_zone!(self, zone => zone.set_factors(factors));
     }
 
+    /// [`ZoneOf::begin_at`]
+    pub fn begin_at(&mut self, u: &Trailing, factors: &[f64]) {
+        of_zone!(self, zone => zone.begin_at(u, factors));
+    }
+
     /// [`ZoneOf::evaluate`]
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
         of_zone!(self, zone => zone.evaluate(u, initial_load))

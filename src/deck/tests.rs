@@ -135,6 +135,70 @@ fn loads_that_change_alike_give_load_factors() {
     assert_eq!(factors, [Some(1.0), Some(0.5)]);
 }
 
+/// An amplitude over step time begins anew in each step that names it, one over total time goes on.
+#[test]
+fn amplitudes_over_step_time_begin_anew_in_each_step() {
+    let deck = |second: &str| {
+        format!(
+            "\
+*NODE
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+*ELEMENT, TYPE=CPS4, ELSET=E
+1, 1, 2, 3, 4
+*MATERIAL, NAME=M
+*ELASTIC
+1., 0.
+*SOLID SECTION, ELSET=E, MATERIAL=M
+*AMPLITUDE, NAME=A
+0., 0., 1., 4., 2., 1., 3., 8.
+*AMPLITUDE, NAME=B
+0., 4., 2., 1., 3., 8.
+*AMPLITUDE, NAME=WHOLE, TIME=TOTAL TIME
+0., 0., 1., 4., 2., 1., 3., 8.
+*BOUNDARY
+1, 1, 2
+2, 2
+*STEP
+*STATIC
+1., 1.
+*CLOAD, AMPLITUDE=A
+3, 2, 10.
+*END STEP
+*STEP
+*STATIC
+1., 2.
+*CLOAD, AMPLITUDE={second}
+3, 2, 10.
+*END STEP
+"
+        )
+    };
+    let forces = |second: &str| -> Vec<f64> {
+        let deck = Deck::parse(deck(second).as_bytes(), "a.inp").unwrap();
+        let scene = small_strain(&deck).scene;
+        let load = &scene.load[0];
+        let size = load.force.unwrap().vector()[1];
+        let factor = |of: f64| match &load.history {
+            History::Proportional => of,
+            History::Constant => 1.0,
+            History::Table(rows) => {
+                let row = rows.iter().find(|row| row[0] == of);
+                row.unwrap_or_else(|| panic!("{rows:?} at {of}"))[1]
+            }
+        };
+        let targets = scene.program.targets.iter();
+        targets
+            .map(|t| size * factor(t.load_factor.unwrap()))
+            .collect()
+    };
+    let ends = |forces: &[f64]| [forces[0], forces[forces.len() - 1]];
+    assert_eq!(ends(&forces("B")), [40.0, 10.0]);
+    assert_eq!(ends(&forces("WHOLE")), [40.0, 80.0]);
+}
+
 /// Sets that hold themselves or each other end.
 #[test]
 fn sets_in_a_circle_are_the_sum_of_their_members() {

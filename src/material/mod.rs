@@ -11,10 +11,12 @@ mod hardening;
 mod lame;
 mod plane_stress;
 mod radial_return;
+mod way;
 
 pub use back_stresses::BackStresses;
 pub use hardening::Hardening;
 pub use lame::{Lame, Softening};
+pub use way::Memory;
 
 use crate::root::{self, Accuracy};
 use crate::scene;
@@ -262,6 +264,15 @@ pub fn von_mises<const S: usize>(stress: &[f64; S]) -> f64 {
     let (x, y, z) = (stress[0], stress[1], stress[2]);
     let shear: f64 = stress[3..].iter().map(|t| t * t).sum();
     (0.5 * ((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) + 3.0 * shear).sqrt()
+}
+
+/// `3/2 s:t` of the deviators of two stresses: the square of the von Mises stress where they are the
+/// same.
+#[inline]
+fn von_mises_product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
+    let difference = |i: usize, j: usize| (a[i] - a[j]) * (b[i] - b[j]);
+    let shear: f64 = (3..S).map(|k| a[k] * b[k]).sum();
+    0.5 * (difference(0, 1) + difference(1, 2) + difference(2, 0)) + 3.0 * shear
 }
 
 #[cfg(test)]

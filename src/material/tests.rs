@@ -2,6 +2,7 @@ use super::*;
 
 mod fading;
 mod solid;
+mod way;
 
 fn material(space: Space, nu: f64, hardening: Hardening) -> Material {
     Material {

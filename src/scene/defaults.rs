@@ -87,6 +87,10 @@ pub(super) fn steady() -> f64 {
     1e-3
 }
 
+pub(super) fn path_error() -> f64 {
+    1e-3
+}
+
 pub(super) fn gamma() -> f64 {
     1e-8
 }

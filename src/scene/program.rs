@@ -19,6 +19,10 @@ pub struct Program {
     /// Increments from one target to the next with `stepping = "steps"`.
     #[serde(default = "super::defaults::steps")]
     pub steps: usize,
+    /// Error of pressure and dent that the increments of `stepping = "auto"` may leave, as a share:
+    /// they become shorter with its square root.
+    #[serde(default = "super::defaults::path_error")]
+    pub path_error: f64,
     /// Relative tolerance with which events are landed on: a change of contact (paper 4.18, 4.23),
     /// and the maximum of the stress at first yield.
     #[serde(default = "super::defaults::gamma")]
@@ -50,6 +54,7 @@ impl Default for Program {
             unit: Unit::default(),
             stepping: Stepping::default(),
             steps: super::defaults::steps(),
+            path_error: super::defaults::path_error(),
             gamma: super::defaults::gamma(),
             targets: Vec::new(),
             cycles: super::defaults::cycles(),
@@ -73,6 +78,9 @@ pub enum Unit {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Stepping {
+    /// As the path demands it: elastic stretches from change to change of contact, increments in
+    /// which something flows as long as `path_error` allows.
+    Auto,
     /// Each increment ends at the next change of contact (paper 4.10 to 4.23).
     #[default]
     Events,

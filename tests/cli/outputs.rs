@@ -20,7 +20,6 @@ fn run_prints_a_report_and_writes_the_results() {
         "States\n",
         "pressed",
         "states.pressed.max_pressure",
-        "mesh and model",
         "total",
         "summary.json, history.csv, contact.csv, fields.pvd",
     ] {

@@ -94,7 +94,8 @@ impl<'m> Solver<'m> {
             && solver.tableau.open() == record.state.open
             && record.load_forces.len() == solver.structure.loads.forces.len()
             && record.load_forces.iter().all(|forces| forces.len() == n)
-            && record.predictor.last_step.len() == model.loads.len() + 1;
+            && record.predictor.last_step.len() == model.loads.len() + 1
+            && record.predictor.turn.factors.len() == model.loads.len();
         if !fits {
             return Err(unfit());
         }

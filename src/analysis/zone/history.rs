@@ -1,8 +1,10 @@
 //! What the points of a zone have gone through, and what back stresses that fade remember of it.
 
+use super::points::chunks_or_none;
 use crate::analysis::packed;
-use crate::material::{BackStresses, PlasticState, resized};
+use crate::material::{Memory, PlasticState, resized};
 use crate::results::EndState;
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
@@ -118,17 +120,12 @@ impl<const S: usize> BackStrains<S> {
         self.lost_work.get(point).copied().unwrap_or(0.0)
     }
 
-    /// Follows a point from one plastic state to the next.
-    pub fn carry(
-        &mut self,
-        laws: &BackStresses,
-        point: usize,
-        from: &PlasticState<S>,
-        to: &PlasticState<S>,
-    ) {
+    /// Takes over what a point remembers at the last evaluated state.
+    pub fn take(&mut self, point: usize, trial: &TrialBack<S>) {
         if !self.is_none() {
-            let strains = &mut self.strains[self.each * point..][..self.each];
-            self.lost_work[point] += laws.carry(strains, from, to);
+            let own = &mut self.strains[self.each * point..][..self.each];
+            own.copy_from_slice(&trial.strains[2 * self.each * point..][..self.each]);
+            self.lost_work[point] += trial.lost_work[point];
         }
     }
 
@@ -161,6 +158,76 @@ impl<const S: usize> BackStrains<S> {
         if !self.is_none() {
             self.strains[self.each * points.start..self.each * points.end].fill([0.0; S]);
             self.lost_work[points].fill(0.0);
+        }
+    }
+}
+
+/// What back stresses that fade remember at the end of an increment that is looked for: the strains of
+/// each point, as many places to compute them in, and the work that is lost on the way.
+pub struct TrialBack<const S: usize> {
+    each: usize,
+    strains: Vec<[f64; S]>,
+    lost_work: Vec<f64>,
+}
+
+/// Those of an element's points.
+pub struct TrialBackOf<'a, const S: usize> {
+    each: usize,
+    strains: &'a mut [[f64; S]],
+    lost_work: &'a mut [f64],
+}
+
+impl<const S: usize> TrialBack<S> {
+    /// `each` of so many points.
+    pub fn new(each: usize, n_points: usize) -> Self {
+        TrialBack {
+            each,
+            strains: vec![[0.0; S]; 2 * each * n_points],
+            lost_work: vec![0.0; if each > 0 { n_points } else { 0 }],
+        }
+    }
+
+    /// Bytes held.
+    pub fn bytes(&self) -> usize {
+        self.strains.capacity() * size_of::<[f64; S]>()
+            + self.lost_work.capacity() * size_of::<f64>()
+    }
+
+    /// Those of `n` elements of `stride` points, one after the other.
+    pub fn par_chunks_mut(
+        &mut self,
+        stride: usize,
+        n: usize,
+    ) -> impl IndexedParallelIterator<Item = TrialBackOf<'_, S>> {
+        let each = self.each;
+        chunks_or_none(&mut self.strains, 2 * each * stride, n)
+            .zip(chunks_or_none(&mut self.lost_work, stride, n))
+            .map(move |(strains, lost_work)| TrialBackOf {
+                each,
+                strains,
+                lost_work,
+            })
+    }
+}
+
+impl<const S: usize> TrialBackOf<'_, S> {
+    /// The places of a point.
+    #[inline]
+    pub fn memory_of(&mut self, point: usize) -> Memory<'_, S> {
+        let own = &mut self.strains[2 * self.each * point..][..2 * self.each];
+        let (strains, between) = own.split_at_mut(self.each);
+        Memory {
+            strains,
+            between,
+            lost_work: 0.0,
+        }
+    }
+
+    /// Keeps the work that a point loses.
+    #[inline]
+    pub fn keep_lost_work(&mut self, point: usize, work: f64) {
+        if let Some(own) = self.lost_work.get_mut(point) {
+            *own = work;
         }
     }
 }

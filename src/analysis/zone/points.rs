@@ -1,6 +1,6 @@
 //! The elements of the zone and the points at which they may yield.
 
-use super::history::BackStrains;
+use super::history::{BackStrains, TrialBack};
 use super::{Evaluation, History};
 use crate::analysis::free_strain::FreeStrains;
 use crate::analysis::gather::{GatheredElements, Nodal, Places};
@@ -32,6 +32,8 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     harder: Vec<f64>,
     /// Equal to `committed` except where `yields`.
     trial: Vec<PlasticState<S>>,
+    /// What back stresses that fade remember at the last evaluated state, where it `yields`.
+    trial_back: TrialBack<S>,
     /// `D - D_ep` at the last evaluated state; zero except where `yields`.
     pub(super) softening: Vec<Softening<S>>,
     /// What is not symmetric of it, times the dyad with its normal; empty where no back stress
@@ -52,8 +54,17 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     base: Trailing,
     /// The same on the prescribed displacements.
     base_on_prescribed: Vec<f64>,
+    /// Displacements and load factors that the history belongs to: where the way of an increment
+    /// begins. None before they are known: the whole is one step then.
+    begin: Option<Begin>,
     nodal: Nodal,
     sums: Nodal,
+}
+
+/// Where the way of an increment begins.
+struct Begin {
+    nodal: Nodal,
+    factors: Vec<f64>,
 }
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S, P, N> {
@@ -93,11 +104,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         }
         let (n_zone, n_contact) = places.sizes();
         let fading = model.materials.iter().map(|m| m.back_stresses.n_stored());
-        let back = BackStrains::new(fading.max().unwrap_or(0), n * stride);
+        let fading = fading.max().unwrap_or(0);
+        let back = BackStrains::new(fading, n * stride);
         ZoneOf {
             kernel: *kernel,
             turn: vec![[0.0; S]; if back.is_none() { 0 } else { n * stride }],
-            back,
             harder,
             forces: vec![[[0.0; D]; N]; n],
             free,
@@ -113,12 +124,15 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                 .collect(),
             committed: vec![PlasticState::default(); n * stride],
             trial: vec![PlasticState::default(); n * stride],
+            trial_back: TrialBack::new(fading, n * stride),
             softening: vec![Softening::NONE; n * stride],
             yields: vec![false; n * stride],
             yielding: vec![0; n],
             active: Vec::new(),
             base: Trailing::zeros(n_zone, n_contact),
             base_on_prescribed: vec![0.0; model.freedoms.prescribed.len()],
+            back,
+            begin: None,
             nodal: Nodal::new(model, places),
             sums: Nodal::new(model, places),
         }
@@ -132,6 +146,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             + self.forces.capacity() * size_of::<[[f64; D]; N]>()
             + self.committed.capacity() * 2 * size_of::<PlasticState<S>>()
             + self.back.bytes()
+            + self.trial_back.bytes()
             + self.harder.capacity() * size_of::<f64>()
             + self.turn.capacity() * size_of::<[f64; S]>()
             + self.softening.capacity() * size_of::<Softening<S>>()) as u64
@@ -143,28 +158,34 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.factors.copy_from_slice(factors);
     }
 
+    /// The displacements that the history belongs to, at load factors of their own: the strains of the
+    /// next evaluations are reached from theirs on straight ways.
+    pub fn begin_at(&mut self, u: &Trailing, factors: &[f64]) {
+        let begin = self.begin.get_or_insert_with(|| Begin {
+            nodal: self.nodal.clone(),
+            factors: factors.to_vec(),
+        });
+        begin.nodal.set_factors(factors);
+        begin.nodal.displacements(u);
+        begin.factors.copy_from_slice(factors);
+    }
+
     /// Integrates the flow rule for displacements `u` and adds up the initial loads: those of the
     /// committed plastic strains, plus what the points that yield add.
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
         let nodal = self.nodal.displacements(u);
         let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
         let (free, factors) = (&self.free, &self.factors);
-        let (back, harder) = (&self.back, &self.harder);
-        let turn = match self.turn.is_empty() {
-            true => Either::Left(
-                (0..elements.list.len())
-                    .into_par_iter()
-                    .map(|_| &mut [][..]),
-            ),
-            false => Either::Right(self.turn.par_chunks_mut(stride)),
-        };
+        let (back, harder, begin) = (&self.back, &self.harder, &self.begin);
+        let n = elements.list.len();
         (
             &self.gradients,
             &mut self.yielding,
             &mut self.forces,
             self.trial.par_chunks_mut(stride),
+            self.trial_back.par_chunks_mut(stride, n),
             self.softening.par_chunks_mut(stride),
-            turn,
+            chunks_or_none(&mut self.turn, stride, n),
             self.yields.par_chunks_mut(stride),
             self.committed.par_chunks(stride),
         )
@@ -172,11 +193,30 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             .enumerate()
             .with_min_len(GRAIN)
             .for_each(
-                |(i, (gradients, yielding, force, trial, softening, turn, yields, committed))| {
+                |(
+                    i,
+                    (
+                        gradients,
+                        yielding,
+                        force,
+                        trial,
+                        mut trial_back,
+                        softening,
+                        turn,
+                        yields,
+                        committed,
+                    ),
+                )| {
                     let packed = &elements.list[i];
                     let (material, law) = &materials[packed.body as usize];
-                    let mut strains = gradients.strains(&elements.displacements(i, nodal));
-                    free.take_off(i, factors, &mut strains);
+                    let strains_at = |nodal: &[f64], factors: &[f64]| {
+                        let mut strains = gradients.strains(&elements.displacements(i, nodal));
+                        free.take_off(i, factors, &mut strains);
+                        strains
+                    };
+                    let strains = strains_at(nodal, factors);
+                    // Where the ways begin is asked where something flows alone.
+                    let mut begins = None;
                     let mut added = [[0.0; P]; S];
                     *yielding = 0;
                     for g in 0..gradients.n_points() {
@@ -196,7 +236,15 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                             }
                             continue;
                         }
-                        let update = material.integrate(law, strain, &past);
+                        if let (None, Some(begin)) = (&begins, begin) {
+                            begins = Some(strains_at(begin.nodal.values(), &begin.factors));
+                        }
+                        let begin = begins.as_ref().map(|begins| at_point(begins, g));
+                        let way = (begin.as_ref(), strain);
+                        let mut memory = trial_back.memory_of(g);
+                        let update = material.integrate_along(law, way, &past, &mut memory);
+                        let lost_work = memory.lost_work;
+                        trial_back.keep_lost_work(g, lost_work);
                         trial[g] = update.state;
                         softening[g] = update.softening;
                         if let Some(turn) = turn.get_mut(g) {
@@ -286,29 +334,16 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
 
     /// Makes the last evaluated state the history.
     pub fn commit(&mut self) {
+        self.begin = None;
         if !self.active.is_empty() {
-            self.carry_back();
             for &i in &self.active {
                 let points = self.points_of(i as usize);
-                self.committed[points.clone()].copy_from_slice(&self.trial[points]);
+                self.committed[points.clone()].copy_from_slice(&self.trial[points.clone()]);
+                for point in points.filter(|&point| self.yields[point]) {
+                    self.back.take(point, &self.trial_back);
+                }
             }
             self.renew_base();
-        }
-    }
-
-    /// Lets back stresses that fade follow the last evaluated state.
-    fn carry_back(&mut self) {
-        if self.back.is_none() {
-            return;
-        }
-        for i in self.active.iter().map(|&i| i as usize) {
-            let laws = &self.materials[self.elements.list[i].body as usize]
-                .0
-                .back_stresses;
-            for point in self.points_of(i) {
-                let (from, to) = (&self.committed[point], &self.trial[point]);
-                self.back.carry(laws, point, from, to);
-            }
         }
     }
 
@@ -327,6 +362,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
 
     /// Puts a history back.
     pub fn restore(&mut self, history: &History) {
+        self.begin = None;
         self.put(0..self.committed.len(), history, 0);
         self.trial.copy_from_slice(&self.committed);
         self.renew_base();
@@ -335,6 +371,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     /// Puts the history of a zone of other elements (ascending) back; elements that were not in it
     /// have none.
     pub fn restore_of(&mut self, elements: &[usize], history: &History) {
+        self.begin = None;
         for i in 0..self.elements.list.len() {
             let points = i * self.stride..(i + 1) * self.stride;
             let element = self.elements.list[i].element as usize;
@@ -439,6 +476,18 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                 f64::max(largest, state.equivalent),
             )
         })
+    }
+}
+
+/// Pieces of so many values, or as many pieces without any where there are no values.
+pub(super) fn chunks_or_none<T: Send>(
+    values: &mut [T],
+    size: usize,
+    n: usize,
+) -> impl IndexedParallelIterator<Item = &mut [T]> {
+    match values.is_empty() {
+        true => Either::Left((0..n).into_par_iter().map(|_| &mut [][..])),
+        false => Either::Right(values.par_chunks_mut(size)),
     }
 }
 

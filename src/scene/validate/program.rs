@@ -5,6 +5,8 @@ use crate::number::exact;
 use crate::scene::{History, Scene, Target, Unit};
 use std::collections::BTreeSet;
 
+/// With less a tenfold load takes some ten thousand increments.
+const LEAST_PATH_ERROR: f64 = 1e-9;
 /// Each increment leaves a row of the history, and each target a state with all its contact pairs.
 const MOST_STEPS: usize = 10_000_000;
 const MOST_TARGETS: usize = 10_000;
@@ -35,6 +37,14 @@ impl Checks {
             format!(
                 "{} must be greater than 0 and at most 0.5",
                 exact(program.gamma)
+            ),
+        );
+        self.require(
+            program.path_error >= LEAST_PATH_ERROR && program.path_error <= 0.1,
+            "program.path_error",
+            format!(
+                "{} must be at least {LEAST_PATH_ERROR:e} and at most 0.1",
+                exact(program.path_error)
             ),
         );
         self.count("program.steps", program.steps, 1);

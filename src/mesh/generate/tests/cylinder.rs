@@ -1,5 +1,5 @@
 use super::*;
-use crate::mesh::generate::{ContactSize, cylinder_on_half_plane};
+use crate::mesh::generate::{ContactSize, contact_size, cylinder_on_half_plane};
 use crate::scene::CylinderOnHalfPlane;
 
 const RADIUS: f64 = 100.0;
@@ -331,4 +331,33 @@ fn refusals_name_key_and_value() {
                 .unwrap_err();
         assert!(error.message().contains("half_width ="), "{error}");
     }
+}
+
+/// A solid of some depth under its share of the force is meshed for the contact of the plane model,
+/// whole or half.
+#[test]
+fn an_extruded_cylinder_is_meshed_for_the_contact_of_the_plane_one() {
+    let size = |kind: &str, mesh: &str, total: f64| {
+        let text = format!(
+            "kind = \"{kind}\"\nsymmetry = 2\n{mesh}\n\
+             [mesh.cylinder_on_half_plane]\nradius = 10\nresolution = 4\nhalf_width = 0.2\n\
+             [materials.steel]\nyoungs_modulus = 210000\npoissons_ratio = 0.3\nyield_stress = 500\n\
+             [bodies]\ncylinder.material = \"steel\"\nhalf_plane.material = \"steel\"\n\
+             [[contact]]\nfirst = \"cylinder.contact\"\nsecond = \"half_plane.contact\"\n\
+             [[load]]\non = \"cylinder.top\"\n\
+             plane_force = {{ direction = \"y\", total = {total} }}\n\
+             [program]\ntargets = [{{ load_factor = 1 }}]\n"
+        );
+        let scene = crate::scene::Scene::parse(&text, "test.toml").unwrap();
+        let parameters = scene.mesh.cylinder_on_half_plane.as_ref().unwrap();
+        contact_size::of(&scene, parameters).unwrap().reach
+    };
+    let plane = size("plane_strain", "", -900.0);
+    let extruded = size(
+        "solid",
+        "[mesh]\nextrude = { depth = 3, elements = 2 }",
+        -2700.0,
+    );
+    assert!(plane > 0.2, "{plane}");
+    assert!((extruded / plane - 1.0).abs() < 1e-12, "{extruded} {plane}");
 }
