@@ -14,7 +14,7 @@ use super::estimate::{Judged, assess};
 use super::extrapolation::LEAST_ORDER;
 use super::meter::work;
 use super::outcome::{Outcome, PATH};
-use super::path::{increments_taken, with_steps};
+use super::path::with_error_over;
 use super::quantities::quantities;
 use super::runs::{Extent, Runs, analyse};
 use crate::analysis::Analysis;
@@ -130,7 +130,7 @@ struct Mesh {
 enum Next {
     Within,
     Finer(f64),
-    MoreSteps(usize),
+    ShorterPath(Box<Scene>, String),
     Never(String),
 }
 
@@ -179,10 +179,10 @@ impl Pursuit {
                 Next::Within => return self.end(last, String::new()),
                 Next::Never(why) => return self.end(last, why),
                 Next::Finer(by) => ratio / by,
-                Next::MoreSteps(steps) => {
-                    let why = "increments for each target: fewer leave too much of the error";
-                    self.choices.push(format!("{steps} {why}"));
-                    self.base = with_steps(&self.base, steps);
+                Next::ShorterPath(base, words) => {
+                    let why = "longer ones leave too much of the error";
+                    self.choices.push(format!("{words}: {why}"));
+                    self.base = *base;
                     self.sequence.pop();
                     ratio
                 }
@@ -308,10 +308,9 @@ impl Pursuit {
             );
         }
         if is_judged && outcome.path > PATH[0].max(outcome.mesh) && self.more_steps < MORE_STEPS {
-            let taken = increments_taken(&self.base, results) as f64;
-            let steps = (taken * outcome.path / PATH[1]).ceil().min(1e6) as usize;
             self.more_steps += 1;
-            return Next::MoreSteps(steps);
+            let (base, words) = with_error_over(&self.base, results, outcome.path / PATH[1]);
+            return Next::ShorterPath(Box::new(base), words);
         }
         let by = if is_judged { outcome.finer } else { STEP };
         Next::Finer(by.clamp(STEPS[0], STEPS[1]))

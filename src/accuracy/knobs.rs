@@ -21,6 +21,8 @@ const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-6, 1e-8];
 const GAMMAS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-6];
 /// Numbers of increments per target that are tried.
 const STEPS: [usize; 5] = [2, 5, 10, 20, 40];
+/// Path errors that are asked for with `stepping = "auto"`.
+const PATH_ERRORS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 /// Tolerance and gamma of the series of meshes with loose tolerances.
 const LOOSE: f64 = 1e-4;
 
@@ -232,7 +234,13 @@ fn of_path(scene: &Scene, backend: Backend, knobs: &[Knob]) -> Vec<Setting> {
             s.program.steps = steps;
         });
     }
-    if scene.program.stepping == Stepping::Steps {
+    for path_error in PATH_ERRORS {
+        turn(Knob::Stepping, format!("path error {path_error:e}"), &|s| {
+            s.program.stepping = Stepping::Auto;
+            s.program.path_error = path_error;
+        });
+    }
+    if scene.stepping() != Stepping::Events {
         let events = |s: &mut Scene| s.program.stepping = Stepping::Events;
         turn(Knob::Stepping, "events".to_string(), &events);
     }

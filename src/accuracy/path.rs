@@ -1,13 +1,14 @@
 //! The error of the way through the load program: the size of its increments, the tolerance of the
 //! plastic iteration and that with which changes of contact are found.
 //!
-//! The flow rule (implicit) is of first order in the increment: an error `c/n` for `n` increments
-//! changes by `c/n - c/m` when there are `m`, twice as many, or [`FEWEST`] where there were so few
-//! that first order is not to be seen yet. The changes of contact end the increments where the
-//! stepping is `events`, so there is nothing to divide; the scene is then run with fixed steps.
-//! Both are done on the coarsest mesh at hand on which everything yields that does in the run: the
-//! error of the path hardly depends on the mesh, but for the number of increments, by whose ratio
-//! it is scaled.
+//! Strains go straight from one end of an increment to the other, and flow is followed along that
+//! path (`material/strain_path.rs`): an error of second order in the increments, of a little less
+//! than that while there are few ([`ORDER`]). An error `c/n^p` for `n` increments changes by `c/n^p
+//! - c/m^p` when there are `m`, twice as many, or [`FEWEST`] where there were few. The changes of
+//! contact end the increments where the stepping is `events`, so there is nothing to divide; the
+//! scene is then run with fixed steps. Both are done on the coarsest mesh at hand on which
+//! everything yields that does in the run: the error of the path hardly depends on the mesh, but
+//! for the number of increments, by whose ratio it is scaled.
 //!
 //! Where nothing yields there is no such error: elastic contact follows its path exactly from event
 //! to event, and a state depends on its load alone.
@@ -20,11 +21,14 @@ use super::quantities::{quantities, value_of};
 use super::runs::{Finished, Runs};
 use crate::progress::Observer;
 use crate::results::Results;
-use crate::scene::{Scene, Stepping};
+use crate::scene::{LEAST_PATH_ERROR, Scene, Stepping};
 use std::collections::BTreeMap;
 
 /// Increments from target to target with which a run is compared at least.
 const FEWEST: usize = 8;
+/// Power of the length of increments with which the error of the path falls, as far as few of them
+/// show it.
+const ORDER: f64 = 1.5;
 /// By how much tolerances are changed.
 const FACTOR: f64 = 100.0;
 /// Tolerances below this are made looser, not tighter: [`FACTOR`] below them lies round-off.
@@ -70,10 +74,15 @@ pub(super) fn errors(
     let mut made = 0.0;
     let (tolerances, of_tolerances) = with_other_tolerances(&base.scene);
     let (increments, of_increments) = with_more_increments(&base.scene, &base.results);
-    let fewer = base.results.history.len() as f64 / results.history.len().max(1) as f64;
+    let fewer = match base.scene.stepping() {
+        Stepping::Events => base.results.history.len() as f64 / results.history.len().max(1) as f64,
+        // As many on every mesh.
+        Stepping::Auto | Stepping::Steps => 1.0,
+    };
+    let of_increments = of_increments * fewer.min(1.0).powf(ORDER);
     let repeated = [
         ("tolerances", tolerances, of_tolerances),
-        ("increments", increments, of_increments * fewer.min(1.0)),
+        ("increments", increments, of_increments),
     ];
     let own = quantities(&base.results);
     for (what, scene, share) in repeated {
@@ -122,18 +131,45 @@ fn with_other_tolerances(scene: &Scene) -> (Scene, f64) {
 }
 
 /// The scene with more increments than its run took, and what multiple of the difference is their
-/// error: the difference is that from `c/taken` to `c/steps`.
+/// error: the difference is that from `c/taken^p` to `c/steps^p`.
 fn with_more_increments(scene: &Scene, results: &Results) -> (Scene, f64) {
+    let share = |fewer: f64| 1.0 / (1.0 - fewer.powf(ORDER));
+    if scene.stepping() == Stepping::Auto {
+        let mut out = scene.clone();
+        out.program.path_error *= 0.25;
+        return (out, share(0.5));
+    }
     let taken = increments_taken(scene, results);
     let steps = FEWEST.max(2 * taken);
-    let share = 1.0 / (1.0 - taken as f64 / steps as f64);
-    (with_steps(scene, steps), share)
+    (with_steps(scene, steps), share(taken as f64 / steps as f64))
+}
+
+/// The scene with so many increments that the error of its path is a fraction of what it was, and
+/// that in words.
+pub(super) fn with_error_over(scene: &Scene, results: &Results, fraction: f64) -> (Scene, String) {
+    let more = fraction.max(1.0).powf(1.0 / ORDER);
+    if scene.stepping() == Stepping::Auto {
+        let mut out = scene.clone();
+        out.program.path_error = (out.program.path_error / (more * more)).max(LEAST_PATH_ERROR);
+        let words = format!(
+            "increments for a path error of {:.1e}",
+            out.program.path_error
+        );
+        return (out, words);
+    }
+    let steps = (increments_taken(scene, results) as f64 * more)
+        .ceil()
+        .min(1e6) as usize;
+    (
+        with_steps(scene, steps),
+        format!("{steps} increments for each target"),
+    )
 }
 
 /// Increments that a run took from target to target.
-pub(super) fn increments_taken(scene: &Scene, results: &Results) -> usize {
+fn increments_taken(scene: &Scene, results: &Results) -> usize {
     let targets = scene.program.targets.len().max(1);
-    let taken = match scene.program.stepping {
+    let taken = match scene.stepping() {
         Stepping::Steps => scene.program.steps,
         Stepping::Auto | Stepping::Events => results.history.len().div_ceil(targets),
     };
@@ -141,7 +177,7 @@ pub(super) fn increments_taken(scene: &Scene, results: &Results) -> usize {
 }
 
 /// The scene with so many fixed steps from target to target.
-pub(super) fn with_steps(scene: &Scene, steps: usize) -> Scene {
+fn with_steps(scene: &Scene, steps: usize) -> Scene {
     let mut out = scene.clone();
     out.program.stepping = Stepping::Steps;
     out.program.steps = steps;
@@ -167,17 +203,29 @@ mod tests {
         assert_eq!(share, 1.0 / 99.0);
     }
 
-    /// An error `c/n`: of 3 increments, compared with 8, and of 20, compared with 40.
+    /// An error `c/n^p`: of 3 increments, compared with 8, of 20, compared with 40, and of as many
+    /// as a path error asks for.
     #[test]
-    fn increments_are_extrapolated_with_first_order() {
+    fn increments_are_extrapolated_with_their_order() {
         let text = include_str!("../../data/scenes/thick_cylinder.toml");
         let scene = Scene::parse(text, "scene.toml").unwrap();
+        let error = |n: usize| (n as f64).powf(-ORDER);
         for (taken, steps) in [(3, FEWEST), (20, 40)] {
             let stepped = with_steps(&scene, taken);
             let (more, share) = with_more_increments(&stepped, &Results::default());
             assert_eq!(more.program.steps, steps);
-            let difference = 1.0 / taken as f64 - 1.0 / steps as f64;
-            assert!((share * difference * taken as f64 - 1.0).abs() < 1e-12);
+            let difference = error(taken) - error(steps);
+            assert!((share * difference / error(taken) - 1.0).abs() < 1e-12);
+            let (tenth, _) = with_error_over(&stepped, &Results::default(), 10.0);
+            assert!(error(tenth.program.steps) <= 0.1 * error(taken));
         }
+        let mut by_error = scene;
+        by_error.program.stepping = Stepping::Auto;
+        let (more, share) = with_more_increments(&by_error, &Results::default());
+        // A fourth of the error is asked for with half the length.
+        assert_eq!(more.program.path_error, 0.25 * by_error.program.path_error);
+        assert!((share * (error(1) - error(2)) - 1.0).abs() < 1e-12);
+        let (other, _) = with_error_over(&by_error, &Results::default(), 1e30);
+        assert_eq!(other.program.path_error, LEAST_PATH_ERROR);
     }
 }

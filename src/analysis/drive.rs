@@ -9,7 +9,7 @@ use super::recovery::{Peak, Recovery};
 use super::solver::Solver;
 use crate::contact::Change;
 use crate::error::{Error, ErrorKind, Result};
-use crate::scene::{Program, Settings};
+use crate::scene::{Program, Settings, Stepping};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -68,7 +68,9 @@ impl Step {
 pub struct Rules<'a> {
     /// Solver settings.
     pub settings: &'a Settings,
-    /// The program: from event to event within a tolerance, or so many fixed increments per piece.
+    /// How increments are chosen.
+    pub stepping: Stepping,
+    /// The program: the tolerances and numbers of increments.
     pub program: &'a Program,
     /// Absolute load factor up to which the zone was chosen.
     pub zone_until: f64,

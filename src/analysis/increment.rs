@@ -10,10 +10,10 @@ use super::collapse::Attempt;
 use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
 use super::search::{PROGRESS, Search};
+use super::settling::Rounds;
 use super::step_length::{LengthSearch, StepLimit, step_limit};
 use super::stepping::Stepper;
 use super::zone::Evaluation;
-use crate::contact;
 use crate::error::Error;
 use crate::scene::PlasticIteration;
 use crate::substructure::Trailing;
@@ -84,11 +84,6 @@ const PREDICTION: f64 = 0.02;
 /// convergence is linear, however exact the directions are: forcing terms that follow the residual
 /// cost a tenth more trailing solves for 4 % fewer material evaluations.
 const FORCING: f64 = 0.05;
-/// Cuts of a line search.
-const BACKTRACKS: usize = 12;
-/// Share of the slope at the start to which the slope beyond a minimum may grow: nearly the
-/// minimum.
-const OVERSHOOT: f64 = 0.1;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
 /// A change of contact in this last share of a piece counts as its end: the target comes first.
@@ -154,8 +149,9 @@ impl Stepper<'_, '_> {
         let mut state = before.clone();
         state.add(t, &rates);
         let settles_contact = ends_at == EndsAt::EndOfPiece;
+        let mut rounds = Rounds::default();
         if settles_contact {
-            self.settle_contact(end, &mut state)?;
+            self.settle_contact(end, &mut state, &mut rounds)?;
         }
 
         let mut anderson = Anderson::default();
@@ -169,6 +165,7 @@ impl Stepper<'_, '_> {
         let mut length_search = LengthSearch::default();
         let mut may_settle = true;
         let mut stretched = 1.0;
+        let mut is_predicted = settles_contact;
         let newton = settings.plastic_iteration == PlasticIteration::Newton;
         let most_iterations = match settings.plastic_iteration {
             PlasticIteration::Newton => settings.max_iterations,
@@ -221,8 +218,13 @@ impl Stepper<'_, '_> {
                     may_settle = balanced;
                 }
             }
-            if balanced && arrived && stretched > STRETCH {
-                stretched = 1.0;
+            if balanced && settles_contact && self.settle_contact(end, &mut state, &mut rounds)? {
+                continue;
+            }
+            // Without a change of contact at its end an increment is as long as its piece, and the
+            // pace of a far shorter one may have predicted it.
+            if balanced && arrived && (stretched > STRETCH || is_predicted) {
+                (stretched, is_predicted) = (1.0, false);
                 let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);
                 let initial = structure.eliminate(state.initial.load, cost);
                 state = self.solver.respond(&start.towards(end, t), initial);
@@ -297,7 +299,7 @@ impl Stepper<'_, '_> {
                     PlasticIteration::Plain => (self.solver.direction(balance.clone()), 1.0),
                 };
                 state.add(length, &direction);
-                if settles_contact && self.settle_contact(end, &mut state)? {
+                if settles_contact && self.settle_contact(end, &mut state, &mut rounds)? {
                     known = None;
                     anderson.restart();
                 }
@@ -380,26 +382,6 @@ impl Stepper<'_, '_> {
         rates
     }
 
-    /// Gives an iterate the statuses, gaps and forces that are right for its initial loads: what
-    /// plastic flow asks for is a load, for which contact is solved in the dense matrix. Whether any
-    /// status changed; half a trailing solve if so.
-    fn settle_contact(
-        &mut self,
-        point: &LoadPoint,
-        state: &mut Equilibrium,
-    ) -> Result<bool, NoIncrement> {
-        let q = self.solver.forces_if_tied(point, &state.initial);
-        let (gap, force) = (&mut state.gap, &mut state.force);
-        let found = contact::solve(&mut self.solver.tableau, &q, gap, force);
-        let certificate = found.map_err(|_| NoIncrement::Undecided)?;
-        if certificate.changes == 0 {
-            return Ok(false);
-        }
-        self.solver.cost.counts.contact_changes += certificate.changes;
-        *state = self.solver.respond(point, state.initial.clone());
-        Ok(true)
-    }
-
     /// What must stay positive: gaps of open pairs, forces of closed ones.
     fn values(&self, gap: &[f64], force: &[f64]) -> Vec<f64> {
         self.solver
@@ -447,42 +429,6 @@ impl Stepper<'_, '_> {
                 values[k] < -1e-9 * largest
             })
             .collect()
-    }
-
-    /// Length along a Newton direction. The energy of the increment is convex and the
-    /// out-of-balance force times the direction is the negative of its slope: while that has not
-    /// turned, the energy has fallen all the way. A length that overshoots is cut by the secant.
-    /// `None` where the direction leads nowhere; else `trial` holds the state there and the force
-    /// out of balance.
-    fn line_search(
-        &mut self,
-        state: &Equilibrium,
-        direction: &Equilibrium,
-        balance: &Trailing,
-        (trial, out): &mut (Equilibrium, Trailing),
-    ) -> Option<(f64, Evaluation)> {
-        let slope = balance.dot(&direction.u);
-        if slope <= 0.0 || !slope.is_finite() {
-            return None;
-        }
-        let mut length = 1.0;
-        for _ in 0..BACKTRACKS {
-            trial.copy_from(state);
-            trial.add(length, direction);
-            let evaluation = self.out_of_balance_at(trial, out);
-            let there = out.dot(&direction.u);
-            if there >= -OVERSHOOT * slope {
-                return Some((length, evaluation));
-            }
-            // Not a number: far too long.
-            let share = slope / (slope - there);
-            length *= if share.is_finite() {
-                share.clamp(0.01, 0.9)
-            } else {
-                0.01
-            };
-        }
-        None
     }
 
     /// The force that the stresses at `state` leave out of balance: what the plastic strains there

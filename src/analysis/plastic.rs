@@ -15,8 +15,9 @@ use std::ops::ControlFlow;
 /// means nothing there.
 const ARRIVED: f64 = 1e-9;
 
-/// Length of increments with `stepping = "auto"` in the square root of the load over that at the end
-/// of the piece, at the path error [`AT_STEP`]; the error falls with its square.
+/// Length of increments with `stepping = "auto"` in the square root of the load since flow began,
+/// over that at the end of the piece, at the path error [`AT_STEP`]; the error falls with its
+/// square.
 const STEP: f64 = 0.07;
 const AT_STEP: f64 = 1e-3;
 
@@ -66,9 +67,7 @@ impl PlasticDrive {
         }
         if solver.turns_back(end) {
             solver.assume_elastic();
-            if solver.predictor.last_step.iter().any(|step| *step != 0.0) {
-                solver.predictor.turn = solver.at.clone();
-            }
+            solver.predictor.onset = solver.at.clone();
         }
         let monitored = monitor.map(|m| m(solver)).transpose()?;
         if is_hit(monitored) {
@@ -105,7 +104,7 @@ impl PlasticDrive {
             return Ok(Step::arrived(Arrival::ZoneOutgrown));
         }
         let may_be_elastic = !matches!(self.ahead, Ahead::Unknown) || solver.zone.is_idle();
-        if may_be_elastic && rules.program.stepping != Stepping::Steps {
+        if may_be_elastic && rules.stepping != Stepping::Steps {
             if let Some(step) = self.follow(solver, end, monitor)? {
                 return Ok(step);
             }
@@ -114,6 +113,9 @@ impl PlasticDrive {
                 solver.arrive(end);
                 return solver.contact_step(from, "target", solves, Some(Arrival::End));
             }
+        }
+        if follows {
+            solver.predictor.onset = solver.at.clone();
         }
         self.ahead = Ahead::Unknown;
         self.increment(solver, end, monitor, rules)
@@ -141,17 +143,16 @@ impl PlasticDrive {
         Ok(step)
     }
 
-    /// The share of what is `left` of the way to the end of the piece that an increment may be long,
-    /// `gone` having been gone since the path turned: increments are of equal length in the square
-    /// root of the load. What the last ones leave counts most, and they are the longest.
+    /// The share of what is `left` of the way to the end of the piece that an increment may be
+    /// long, `gone` having been gone since flow began: increments are of equal length in the square
+    /// root of the load beyond that. Where flow begins little of the load makes much of it.
     fn share_by_path_error(gone: f64, left: f64, path_error: f64) -> f64 {
         let step = STEP * (path_error / AT_STEP).sqrt();
         let whole = gone + left;
         let behind = (gone / whole).sqrt();
         let n = ((1.0 - behind) / step).ceil().max(1.0);
         let next = (behind + (1.0 - behind) / n).powi(2);
-        let shortest = gone / whole + 0.5 * step;
-        let share = (next.max(shortest) - gone / whole) * whole / left;
+        let share = (next - gone / whole) * whole / left;
         if n > 1.0 && share < 1.0 { share } else { 1.0 }
     }
 
@@ -163,10 +164,10 @@ impl PlasticDrive {
         monitor: Option<&Monitor>,
         rules: Rules,
     ) -> Result<Step> {
-        let left = match rules.program.stepping {
+        let left = match rules.stepping {
             Stepping::Events => 1.0,
             Stepping::Auto => {
-                let gone = solver.predictor.turn.distance(&solver.at);
+                let gone = solver.predictor.onset.distance(&solver.at);
                 let left = solver.at.distance(end);
                 Self::share_by_path_error(gone, left, rules.program.path_error)
             }

@@ -300,6 +300,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let observer = &*self.observer;
         let rules = Rules {
             settings: &scene.analysis,
+            stepping: scene.stepping(),
             program: &scene.program,
             zone_until: match self.zone.spread {
                 Some(_) => self.position.zone_until,

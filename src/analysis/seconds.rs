@@ -36,6 +36,10 @@ const CHANGES: [f64; 2] = [0.7, 0.17];
 /// Trailing solves of an elastoplastic increment: where the material hardens; where it has next to
 /// no stiffness left, in a contact that grows; and where all of it may yield.
 const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
+/// The same of an increment in which contact may change, and how many such a way of the load takes
+/// at a path error of 1e-3.
+const SOLVES_OF_LONG: [f64; 3] = [25.0, 60.0, 60.0];
+const LONG: f64 = 10.0;
 /// Plastic modulus over Youngs modulus below which material counts as soft in that sense.
 const SOFT: f64 = 0.1;
 /// Rough seconds of ordering, analysis and factorisation.
@@ -62,11 +66,8 @@ fn solves(model: &Model) -> f64 {
         those.map(|pairs| pairs.len() as f64).sum()
     };
     let [growing, alike] = [pairs_of(false), pairs_of(true)];
-    let increments = match program.stepping {
-        Stepping::Events => n_targets + ways(program) * (CHANGES[0] * growing + CHANGES[1] * alike),
-        Stepping::Auto => n_targets + 8.0 * ways(program),
-        Stepping::Steps => program.steps as f64 * n_targets,
-    };
+    let changes = CHANGES[0] * growing + CHANGES[1] * alike;
+    let ways = ways(program);
     let mut yielding = model.materials.iter().zip(&model.may_yield);
     let soft = yielding.any(|(material, may)| {
         let slope = material
@@ -75,12 +76,21 @@ fn solves(model: &Model) -> f64 {
             .map(|h| h.slope(0.0) + material.back_stresses.linear());
         *may && slope.is_some_and(|slope| slope < SOFT * material.youngs_modulus)
     });
-    let each = match soft {
-        false => SOLVES[0],
-        true if growing > alike => SOLVES[1],
-        true => SOLVES[2],
+    let kind = match soft {
+        false => 0,
+        true if growing > alike => 1,
+        true => 2,
     };
-    each * increments
+    match model.scene.stepping() {
+        Stepping::Events => SOLVES[kind] * (n_targets + ways * changes),
+        Stepping::Steps => SOLVES_OF_LONG[kind] * program.steps as f64 * n_targets,
+        // Every other way unloads, elastically for the most part: from change to change.
+        Stepping::Auto => {
+            let loading = (0.5 * ways).ceil();
+            let each = LONG * (1e-3 / program.path_error).sqrt();
+            SOLVES_OF_LONG[kind] * (loading * each + 0.5 * n_targets) + (ways - loading) * changes
+        }
+    }
 }
 
 /// Whether all pairs of a contact would close together.

@@ -52,8 +52,8 @@ pub struct Predictor {
     /// Change of the load point over the piece of the last increment: distinguishes loading from
     /// unloading.
     pub last_step: Vec<f64>,
-    /// Where the path turned last: what flows since began to be loaded there.
-    pub turn: LoadPoint,
+    /// Where flow began last, after a stretch on which there was none.
+    pub onset: LoadPoint,
     /// Change of the initial loads over the last increment, for a load factor that changes by 1:
     /// the next one's are much the same.
     pub pace: Option<EliminatedLoad>,
@@ -100,7 +100,7 @@ impl<'m> Solver<'m> {
             border: Vec::new(),
             predictor: Predictor {
                 last_step: vec![0.0; model.loads.len() + 1],
-                turn: LoadPoint::unloaded(model.loads.len()),
+                onset: LoadPoint::unloaded(model.loads.len()),
                 pace: None,
             },
             scales: Scales::default(),
@@ -124,7 +124,7 @@ impl<'m> Solver<'m> {
         self.tableau.reset(&open);
         self.border.clear();
         self.predictor.last_step.fill(0.0);
-        self.predictor.turn = self.at.clone();
+        self.predictor.onset = self.at.clone();
         self.predictor.pace = None;
         self.fresh = true;
     }

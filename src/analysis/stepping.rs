@@ -6,6 +6,7 @@ use super::equilibrium::Equilibrium;
 use super::increment::{EndsAt, Increment, NoIncrement};
 use super::load_point::LoadPoint;
 use super::search::Search;
+use super::settling::Rounds;
 use super::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Stepping;
@@ -49,8 +50,12 @@ impl<'s, 'm> Stepper<'s, 'm> {
         let mut corrections = 0;
         let mut crossings = 0;
         let mut seen: Vec<Vec<bool>> = Vec::new();
-        // A fixed increment at whose end no statuses are right is followed from change to change.
-        let usual = self.rules.program.stepping;
+        let (open, border) = (
+            self.solver.tableau.open().to_vec(),
+            self.solver.border.clone(),
+        );
+        // An increment at whose end no statuses are right is followed from change to change.
+        let usual = self.rules.stepping;
         let mut stepping = usual;
         let mut search = Search::FIRST;
         loop {
@@ -67,9 +72,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
                     ahead.take(),
                 ),
                 Stepping::Events => self.solve_step((end, 1e-3 * most), search, ahead.take())?,
-                Stepping::Auto | Stepping::Steps => {
-                    self.solve_step((end, most), search, ahead.take())?
-                }
+                Stepping::Auto => self.solve_together((end, most), search, ahead.take()),
+                Stepping::Steps => self.solve_step((end, most), search, ahead.take())?,
             };
             match outcome {
                 Ok(increment) => {
@@ -106,6 +110,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
                 Err(NoIncrement::Undecided)
                     if stepping != Stepping::Events && stepping == usual =>
                 {
+                    self.solver.restore_statuses(&open, &border);
                     stepping = Stepping::Events;
                 }
                 Err(NoIncrement::Undecided) => return Err(self.not_settled(end, most)),
@@ -117,6 +122,15 @@ impl<'s, 'm> Stepper<'s, 'm> {
                     // too.
                     let worth_cutting = CUT * most >= smallest;
                     let cut_enough = !worth_cutting || most < CUT_TOGETHER * left;
+                    if stepping == Stepping::Auto {
+                        self.solver.restore_statuses(&open, &border);
+                        if most == left && worth_cutting {
+                            most *= CUT;
+                        } else {
+                            (stepping, most) = (Stepping::Events, left);
+                        }
+                        continue;
+                    }
                     if stepping == Stepping::Events && search.together && cut_enough {
                         (search, most) = (Search::APART, left);
                         continue;
@@ -130,7 +144,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
                         let error = self.not_found(&goal, &attempt);
                         // Close to a limit load no length may be right: a fixed one needs none.
                         let undecided = error.kind() == ErrorKind::Analysis;
-                        if undecided && stepping == Stepping::Events && stepping == usual {
+                        if undecided && stepping == Stepping::Events && usual != Stepping::Steps {
                             stepping = Stepping::Steps;
                             (search, most) = (Search::FIRST, left);
                             continue;
@@ -154,36 +168,43 @@ impl<'s, 'm> Stepper<'s, 'm> {
         }
     }
 
-    /// A fixed increment, contact solved at its end: statuses that come out wrong are flipped, all
-    /// at once while that makes them fewer, else the least index alone (finite: Habetler and
-    /// Kostreva 1978, doi:10.1137/0316011).
+    /// An increment at whose end contact is solved in one iteration with the plastic flow.
+    fn solve_together(
+        &mut self,
+        (end, most): (&LoadPoint, f64),
+        search: Search,
+        ahead: Option<(LoadPoint, Equilibrium)>,
+    ) -> std::result::Result<Increment, NoIncrement> {
+        // The end of the increment is the end of a piece of its own: a pair that closes has no gap
+        // there, whatever gap it had.
+        let goal = self.solver.at.towards(end, most);
+        let increment = self.increment(&goal, 1.0, (EndsAt::EndOfPiece, search), ahead)?;
+        self.solver.border.clear();
+        Ok(Increment {
+            t: most,
+            changes: Vec::new(),
+            ..increment
+        })
+    }
+
+    /// As [`Stepper::solve_together`] or, where that does not converge, with plastic flow for each
+    /// set of statuses.
     fn solve_step(
         &mut self,
         (end, most): (&LoadPoint, f64),
         search: Search,
         mut ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> Result<std::result::Result<Increment, NoIncrement>> {
-        // The end of the increment is the end of a piece of its own: a pair that closes has no gap
-        // there, whatever gap it had.
         let goal = self.solver.at.towards(end, most);
         let open = self.solver.tableau.open().to_vec();
-        match self.increment(&goal, 1.0, (EndsAt::EndOfPiece, search), ahead.take()) {
-            Ok(increment) => {
-                self.solver.border.clear();
-                return Ok(Ok(Increment {
-                    t: most,
-                    changes: Vec::new(),
-                    ..increment
-                }));
-            }
+        match self.solve_together((end, most), search, ahead.take()) {
             Err(NoIncrement::NotConverged(_) | NoIncrement::Undecided) => {
                 let border = self.solver.border.clone();
                 self.solver.restore_statuses(&open, &border);
             }
-            Err(error) => return Ok(Err(error)),
+            found => return Ok(found),
         }
-        let mut fewest = usize::MAX;
-        let mut patience = 6;
+        let mut rounds = Rounds::default();
         let mut seen: HashSet<Vec<bool>> = HashSet::new();
         for _ in 0..10 * (self.solver.now.gap.len() + 10) {
             let found =
@@ -192,21 +213,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
                 Ok(increment) => increment,
                 Err(error) => return Ok(Err(error)),
             };
-            let (gap, force) = (&increment.state.gap, &increment.state.force);
-            let r_tol = 1e-9
-                * force
-                    .iter()
-                    .fold(self.solver.scales.force, |m, r| m.max(*r));
-            let g_tol = 1e-9 * gap.iter().fold(0.0f64, |m, g| m.max(*g));
-            let wrong: Vec<usize> = (0..gap.len())
-                .filter(|&k| {
-                    if self.solver.tableau.open()[k] {
-                        gap[k] < -g_tol
-                    } else {
-                        force[k] < -r_tol
-                    }
-                })
-                .collect();
+            let wrong = self.wrong_at_end(&increment.state);
             if wrong.is_empty() {
                 self.solver.border.clear();
                 return Ok(Ok(Increment {
@@ -215,12 +222,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
                     ..increment
                 }));
             }
-            if wrong.len() < fewest {
-                (fewest, patience) = (wrong.len(), 6);
-            } else {
-                patience -= i32::from(patience > 0);
-            }
-            let take = if patience > 0 { wrong.len() } else { 1 };
+            let take = rounds.take(wrong.len());
             if take == 1 && !seen.insert(self.solver.tableau.open().to_vec()) {
                 break;
             }

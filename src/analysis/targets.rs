@@ -186,12 +186,12 @@ impl<'m> Run<'m, '_> {
         }
     }
 
-    /// Power of the load in which changes of contact lie evenly: that of the width of Hertz'
-    /// contacts where the contact grows pair by pair.
+    /// Power of the load in which increments lie evenly: where changes of contact end them that of
+    /// the width of Hertz' contacts, if the contact grows pair by pair.
     fn changes_by_load(&self) -> f64 {
         let model = self.model();
         let mut contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
-        let grows = model.scene.program.stepping == Stepping::Events
+        let grows = model.scene.stepping() != Stepping::Steps
             && contacts.any(|pairs| !gaps_are_alike(pairs));
         match (grows, model.kind) {
             (false, _) => 1.0,

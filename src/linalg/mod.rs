@@ -361,9 +361,9 @@ impl From<NotDefinite> for Error {
     }
 }
 
-/// What to tell a user where the BLAS computes with less than the processor has, and with which setting
-/// of the environment it would not; `None` where all is well. Libraries say it once, through their
-/// log; the program `brinell` begins anew with the setting.
+/// What to tell a user where the BLAS computes with less than the processor has, and with which
+/// setting of the environment it would not; `None` where all is well. Libraries say it once,
+/// through their log; the program `brinell` begins anew with the setting.
 pub fn slow_kernels() -> Option<String> {
     #[cfg(feature = "cholmod")]
     return cholmod::slow_kernels();

@@ -11,12 +11,12 @@ mod hardening;
 mod lame;
 mod plane_stress;
 mod radial_return;
-mod way;
+mod strain_path;
 
 pub use back_stresses::BackStresses;
 pub use hardening::Hardening;
 pub use lame::{Lame, Softening};
-pub use way::Memory;
+pub use strain_path::Memory;
 
 use crate::root::{self, Accuracy};
 use crate::scene;
@@ -266,8 +266,8 @@ pub fn von_mises<const S: usize>(stress: &[f64; S]) -> f64 {
     (0.5 * ((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) + 3.0 * shear).sqrt()
 }
 
-/// `3/2 s:t` of the deviators of two stresses: the square of the von Mises stress where they are the
-/// same.
+/// `3/2 s:t` of the deviators of two stresses: the square of the von Mises stress where they are
+/// the same.
 #[inline]
 fn von_mises_product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     let difference = |i: usize, j: usize| (a[i] - a[j]) * (b[i] - b[j]);

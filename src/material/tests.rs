@@ -2,7 +2,7 @@ use super::*;
 
 mod fading;
 mod solid;
-mod way;
+mod strain_path;
 
 fn material(space: Space, nu: f64, hardening: Hardening) -> Material {
     Material {

@@ -49,7 +49,8 @@ pub use key_places::KeyPlaces;
 pub use material::{Body, Material, Plastic};
 pub use over_temperature::MaterialRow;
 pub use program::{
-    DisplacementTarget, PlasticIteration, Program, Settings, Stepping, Target, Unit, YieldMethod,
+    DisplacementTarget, LEAST_PATH_ERROR, PlasticIteration, Program, Settings, Stepping, Target,
+    Unit, YieldMethod,
 };
 pub(crate) use read::closest;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
@@ -135,6 +136,15 @@ pub struct Scene {
 }
 
 impl Scene {
+    /// How its increments are chosen: in plane stress, where flow is not followed along their ways,
+    /// `auto` is `events`.
+    pub fn stepping(&self) -> Stepping {
+        match (self.program.stepping, self.kind) {
+            (Stepping::Auto, Kind::PlaneStress) => Stepping::Events,
+            (stepping, _) => stepping,
+        }
+    }
+
     /// Where `start_from` is.
     pub(crate) fn start_folder(&self) -> Option<PathBuf> {
         Some(self.beside(self.start_from.as_ref()?))

@@ -6,6 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// The least path error that can be asked for: with less a leg takes some ten thousand increments.
+pub const LEAST_PATH_ERROR: f64 = 1e-9;
+
 /// The load program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -79,10 +82,10 @@ pub enum Unit {
 #[serde(rename_all = "lowercase")]
 pub enum Stepping {
     /// As the path demands it: elastic stretches from change to change of contact, increments in
-    /// which something flows as long as `path_error` allows.
+    /// which something flows as long as `path_error` allows. In plane stress as `events`.
+    #[default]
     Auto,
     /// Each increment ends at the next change of contact (paper 4.10 to 4.23).
-    #[default]
     Events,
     /// A fixed number of increments per target, contact solved at the end of each.
     Steps,

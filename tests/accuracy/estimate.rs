@@ -108,6 +108,7 @@ fn few_increments_state_the_error_that_they_make() {
             &[
                 &format!("mesh.parts.0.element={element}"),
                 "mesh.parts.0.ring.elements=[16,6]",
+                "program.stepping=events",
                 "program.targets=[{ name = \"pressed\", load_factor = 180.0 }, \
                  { name = \"unloaded\", load_factor = 0.0 }]",
             ],

@@ -99,7 +99,8 @@ fn a_study_prices_accuracy_against_the_closed_form() {
         .iter()
         .filter(|r| r.knob == Knob::Stepping)
         .count();
-    assert_eq!(settings, 5);
+    // Fixed increments, path errors, and from change to change of contact.
+    assert_eq!(settings, 5 + 3 + 1);
     for run in &found.runs {
         assert!(
             run.usage.wall_seconds > 0.0 && run.factor[0] > 0.0 && run.counts.factorizations > 0

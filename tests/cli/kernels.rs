@@ -1,5 +1,5 @@
-//! The program begins anew where OpenBLAS computes with less than the processor has. An OpenBLAS that
-//! does not know the processor is played by a library that is loaded before it.
+//! The program begins anew where OpenBLAS computes with less than the processor has. An OpenBLAS
+//! that does not know the processor is played by a library that is loaded before it.
 
 use crate::support::limit;
 use crate::support::tools;
@@ -105,7 +105,8 @@ fn results_of_other_kernels_agree_to_round_off() {
     for (state, twin) in &pairs {
         for key in ["load", "max_pressure", "half_width", "approach"] {
             let (a, b) = (state[key].as_f64().unwrap(), twin[key].as_f64().unwrap());
-            // Round-off times the condition of the model, some 1e4, as far as plastic flow keeps it.
+            // Round-off times the condition of the model, some 1e4, as far as plastic flow keeps
+            // it.
             assert!(
                 (a - b).abs() <= 1e-8 * a.abs().max(1.0),
                 "{key}: {a} and {b}"

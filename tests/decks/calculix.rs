@@ -19,7 +19,9 @@ const FULL: &[&str] = &["mesh.formulation=full"];
 const CASES: [Case; 18] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
-    case("plastic", &[], 2e-4),
+    // Flow turns, and CalculiX takes each of its increments in one step of the implicit rule; with
+    // ten times as many increments brinell changes by 3e-6.
+    case("plastic", &[], 1.5e-3),
     case("bricks", FULL, PRINTED),
     case("ring", &[], PRINTED),
     case("tetrahedra", &[], PRINTED),

@@ -77,7 +77,8 @@ fn force_and_displacement_lead_to_the_same_dent() {
             "mesh.cylinder_on_half_plane.resolution=8",
             "mesh.cylinder_on_half_plane.contact_width=2.0",
         ];
-        let mut scene = load(name, &[PRESSED, mesh[0], mesh[1]]);
+        let stepping = "program.stepping=events";
+        let mut scene = load(name, &[PRESSED, stepping, mesh[0], mesh[1]]);
         let by_force = run(&scene);
         let pressed = state(&by_force, "pressed");
         scene.program.unit = brinell::scene::Unit::Load;

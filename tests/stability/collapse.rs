@@ -86,7 +86,6 @@ fn a_tolerance_below_round_off_is_no_obstacle() {
 #[test]
 fn an_iteration_that_is_cut_short_is_no_limit_load() {
     for (name, overrides) in [
-        ("hard/all_closed", vec!["analysis.max_iterations=1"]),
         (
             "hard/nearly_incompressible",
             vec!["analysis.max_iterations=1"],

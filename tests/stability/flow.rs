@@ -80,7 +80,7 @@ fn unloading_and_reloading_comes_back_to_the_same_state() {
 /// number of closed pairs by those that it names.
 #[test]
 fn events_of_plastic_increments_say_what_happened() {
-    let results = run_file("hard/unload_reload", &[]);
+    let results = run_file("hard/unload_reload", &["program.stepping=events"]);
     let mut seen = [0, 0];
     for (before, row) in results.history.iter().zip(&results.history[1..]) {
         let (closes, opens) = (

@@ -91,6 +91,7 @@ fn a_strip_that_is_too_short_ends_the_run_at_its_end() {
         "ball_on_half_space",
         &[
             "mesh.cylinder_on_half_plane.contact_width=2.0",
+            "program.stepping=events",
             "program.targets=[{yield=true},{load_factor=50.0},{load_factor=0.0}]",
         ],
     );

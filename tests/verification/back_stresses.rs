@@ -316,8 +316,14 @@ fn ssnp14_with_linear_kinematic_hardening() {
         for material in [format!("kinematic_modulus = {modulus:?}"), halves.clone()] {
             let strains = plate(kind, &material, histories, 30);
             for (found, published) in strains.iter().zip(published) {
-                close(found[0], published[0], 1e-6);
-                close(found[1], published[1], 1e-6);
+                // The published strains are those of thirty steps of the implicit rule. In space flow
+                // is followed along the strain path instead: they differ by the error of those.
+                let bound = match kind {
+                    Kind::PlaneStress => 1e-6,
+                    _ => 1e-3,
+                };
+                close(found[0], published[0], bound);
+                close(found[1], published[1], bound);
             }
         }
     }
@@ -356,9 +362,15 @@ fn tension_and_shear_in_turns_follow_the_law() {
             );
         }
     }
-    let solid = plate(Kind::Solid, &material, histories, 30);
-    for (solid, plane) in solid.iter().flatten().zip(plane[0].iter().flatten()) {
-        close(*solid, *plane, 1e-7);
+    // In space flow is followed along the strain path of each increment: of second order.
+    let [coarse, fine] = [30, 60].map(|n| plate(Kind::Solid, &material, histories, n));
+    for (k, exact) in exact.iter().enumerate().skip(1) {
+        let size = exact[0].hypot(exact[1]);
+        for i in 0..2 {
+            let [coarse, fine] = [&coarse, &fine].map(|found| (found[k][i] - exact[i]).abs());
+            assert!(coarse < 4e-4 * size, "{k} {i}: {coarse} of {size}");
+            assert!(fine < 1.5e-4 * size, "{k} {i}: {fine} of {size}");
+        }
     }
 }
 

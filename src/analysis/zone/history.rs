@@ -1,9 +1,9 @@
 //! What the points of a zone have gone through, and what back stresses that fade remember of it.
 
-use super::points::chunks_or_none;
 use crate::analysis::packed;
 use crate::material::{Memory, PlasticState, resized};
 use crate::results::EndState;
+use rayon::iter::Either;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -121,7 +121,7 @@ impl<const S: usize> BackStrains<S> {
     }
 
     /// Takes over what a point remembers at the last evaluated state.
-    pub fn take(&mut self, point: usize, trial: &TrialBack<S>) {
+    pub fn take(&mut self, point: usize, trial: &PathEnds<S>) {
         if !self.is_none() {
             let own = &mut self.strains[self.each * point..][..self.each];
             own.copy_from_slice(&trial.strains[2 * self.each * point..][..self.each]);
@@ -162,25 +162,26 @@ impl<const S: usize> BackStrains<S> {
     }
 }
 
-/// What back stresses that fade remember at the end of an increment that is looked for: the strains of
-/// each point, as many places to compute them in, and the work that is lost on the way.
-pub struct TrialBack<const S: usize> {
+/// What the strain paths of an increment that is looked for leave besides plastic states: what back
+/// stresses that fade remember at their ends.
+pub struct PathEnds<const S: usize> {
     each: usize,
+    /// `each` strains of a point, and as many places to compute them in.
     strains: Vec<[f64; S]>,
     lost_work: Vec<f64>,
 }
 
 /// Those of an element's points.
-pub struct TrialBackOf<'a, const S: usize> {
+pub struct PathEndsOf<'a, const S: usize> {
     each: usize,
     strains: &'a mut [[f64; S]],
     lost_work: &'a mut [f64],
 }
 
-impl<const S: usize> TrialBack<S> {
-    /// `each` of so many points.
+impl<const S: usize> PathEnds<S> {
+    /// Those of so many points with `each` back stresses that fade.
     pub fn new(each: usize, n_points: usize) -> Self {
-        TrialBack {
+        PathEnds {
             each,
             strains: vec![[0.0; S]; 2 * each * n_points],
             lost_work: vec![0.0; if each > 0 { n_points } else { 0 }],
@@ -198,11 +199,11 @@ impl<const S: usize> TrialBack<S> {
         &mut self,
         stride: usize,
         n: usize,
-    ) -> impl IndexedParallelIterator<Item = TrialBackOf<'_, S>> {
+    ) -> impl IndexedParallelIterator<Item = PathEndsOf<'_, S>> {
         let each = self.each;
         chunks_or_none(&mut self.strains, 2 * each * stride, n)
             .zip(chunks_or_none(&mut self.lost_work, stride, n))
-            .map(move |(strains, lost_work)| TrialBackOf {
+            .map(move |(strains, lost_work)| PathEndsOf {
                 each,
                 strains,
                 lost_work,
@@ -210,7 +211,7 @@ impl<const S: usize> TrialBack<S> {
     }
 }
 
-impl<const S: usize> TrialBackOf<'_, S> {
+impl<const S: usize> PathEndsOf<'_, S> {
     /// The places of a point.
     #[inline]
     pub fn memory_of(&mut self, point: usize) -> Memory<'_, S> {
@@ -229,5 +230,17 @@ impl<const S: usize> TrialBackOf<'_, S> {
         if let Some(own) = self.lost_work.get_mut(point) {
             *own = work;
         }
+    }
+}
+
+/// Pieces of so many values, or as many pieces without any where there are no values.
+pub(super) fn chunks_or_none<T: Send>(
+    values: &mut [T],
+    size: usize,
+    n: usize,
+) -> impl IndexedParallelIterator<Item = &mut [T]> {
+    match values.is_empty() {
+        true => Either::Left((0..n).into_par_iter().map(|_| &mut [][..])),
+        false => Either::Right(values.par_chunks_mut(size)),
     }
 }

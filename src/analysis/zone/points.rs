@@ -1,6 +1,6 @@
 //! The elements of the zone and the points at which they may yield.
 
-use super::history::{BackStrains, TrialBack};
+use super::history::{BackStrains, PathEnds, chunks_or_none};
 use super::{Evaluation, History};
 use crate::analysis::free_strain::FreeStrains;
 use crate::analysis::gather::{GatheredElements, Nodal, Places};
@@ -9,7 +9,6 @@ use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, Material, Past, PlasticState, Softening};
 use crate::model::Model;
 use crate::substructure::Trailing;
-use rayon::iter::Either;
 use rayon::prelude::*;
 
 /// Elements that a thread takes at a time.
@@ -32,8 +31,8 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     harder: Vec<f64>,
     /// Equal to `committed` except where `yields`.
     trial: Vec<PlasticState<S>>,
-    /// What back stresses that fade remember at the last evaluated state, where it `yields`.
-    trial_back: TrialBack<S>,
+    /// How the last evaluated state was reached, where it `yields`.
+    path_ends: PathEnds<S>,
     /// `D - D_ep` at the last evaluated state; zero except where `yields`.
     pub(super) softening: Vec<Softening<S>>,
     /// What is not symmetric of it, times the dyad with its normal; empty where no back stress
@@ -54,14 +53,14 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     base: Trailing,
     /// The same on the prescribed displacements.
     base_on_prescribed: Vec<f64>,
-    /// Displacements and load factors that the history belongs to: where the way of an increment
-    /// begins. None before they are known: the whole is one step then.
+    /// Displacements and load factors that the history belongs to: where the strain paths of an
+    /// increment begin. None before they are known: the whole is one step then.
     begin: Option<Begin>,
     nodal: Nodal,
     sums: Nodal,
 }
 
-/// Where the way of an increment begins.
+/// Where the strain paths of an increment begin.
 struct Begin {
     nodal: Nodal,
     factors: Vec<f64>,
@@ -124,7 +123,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                 .collect(),
             committed: vec![PlasticState::default(); n * stride],
             trial: vec![PlasticState::default(); n * stride],
-            trial_back: TrialBack::new(fading, n * stride),
+            path_ends: PathEnds::new(fading, n * stride),
             softening: vec![Softening::NONE; n * stride],
             yields: vec![false; n * stride],
             yielding: vec![0; n],
@@ -146,7 +145,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             + self.forces.capacity() * size_of::<[[f64; D]; N]>()
             + self.committed.capacity() * 2 * size_of::<PlasticState<S>>()
             + self.back.bytes()
-            + self.trial_back.bytes()
+            + self.path_ends.bytes()
             + self.harder.capacity() * size_of::<f64>()
             + self.turn.capacity() * size_of::<[f64; S]>()
             + self.softening.capacity() * size_of::<Softening<S>>()) as u64
@@ -158,8 +157,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.factors.copy_from_slice(factors);
     }
 
-    /// The displacements that the history belongs to, at load factors of their own: the strains of the
-    /// next evaluations are reached from theirs on straight ways.
+    /// The displacements that the history belongs to, at load factors of their own: the strains of
+    /// the next evaluations are reached from theirs on straight paths.
     pub fn begin_at(&mut self, u: &Trailing, factors: &[f64]) {
         let begin = self.begin.get_or_insert_with(|| Begin {
             nodal: self.nodal.clone(),
@@ -183,7 +182,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             &mut self.yielding,
             &mut self.forces,
             self.trial.par_chunks_mut(stride),
-            self.trial_back.par_chunks_mut(stride, n),
+            self.path_ends.par_chunks_mut(stride, n),
             self.softening.par_chunks_mut(stride),
             chunks_or_none(&mut self.turn, stride, n),
             self.yields.par_chunks_mut(stride),
@@ -200,7 +199,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                         yielding,
                         force,
                         trial,
-                        mut trial_back,
+                        mut path_ends,
                         softening,
                         turn,
                         yields,
@@ -215,7 +214,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                         strains
                     };
                     let strains = strains_at(nodal, factors);
-                    // Where the ways begin is asked where something flows alone.
+                    // Where strain paths begin matters where something flows alone.
                     let mut begins = None;
                     let mut added = [[0.0; P]; S];
                     *yielding = 0;
@@ -240,11 +239,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                             begins = Some(strains_at(begin.nodal.values(), &begin.factors));
                         }
                         let begin = begins.as_ref().map(|begins| at_point(begins, g));
-                        let way = (begin.as_ref(), strain);
-                        let mut memory = trial_back.memory_of(g);
-                        let update = material.integrate_along(law, way, &past, &mut memory);
+                        let path = (begin.as_ref(), strain);
+                        let mut memory = path_ends.memory_of(g);
+                        let update = material.integrate_along(law, path, &past, &mut memory);
                         let lost_work = memory.lost_work;
-                        trial_back.keep_lost_work(g, lost_work);
+                        path_ends.keep_lost_work(g, lost_work);
                         trial[g] = update.state;
                         softening[g] = update.softening;
                         if let Some(turn) = turn.get_mut(g) {
@@ -340,7 +339,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                 let points = self.points_of(i as usize);
                 self.committed[points.clone()].copy_from_slice(&self.trial[points.clone()]);
                 for point in points.filter(|&point| self.yields[point]) {
-                    self.back.take(point, &self.trial_back);
+                    self.back.take(point, &self.path_ends);
                 }
             }
             self.renew_base();
@@ -476,18 +475,6 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                 f64::max(largest, state.equivalent),
             )
         })
-    }
-}
-
-/// Pieces of so many values, or as many pieces without any where there are no values.
-pub(super) fn chunks_or_none<T: Send>(
-    values: &mut [T],
-    size: usize,
-    n: usize,
-) -> impl IndexedParallelIterator<Item = &mut [T]> {
-    match values.is_empty() {
-        true => Either::Left((0..n).into_par_iter().map(|_| &mut [][..])),
-        false => Either::Right(values.par_chunks_mut(size)),
     }
 }
 

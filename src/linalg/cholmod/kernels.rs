@@ -1,9 +1,10 @@
 //! Whether OpenBLAS computes with the vectors that the processor has.
 //!
-//! OpenBLAS chooses its kernels by the model of the processor as it is loaded. A release that is older
-//! than the processor does not know the model and takes those of an old one, with a half or a quarter
-//! of the speed; `OPENBLAS_CORETYPE`, which it reads at the same moment, names others. So a program
-//! can begin anew with the variable set ([`better_kernels`]), and a library can only say so.
+//! OpenBLAS chooses its kernels by the model of the processor as it is loaded. A release that is
+//! older than the processor does not know the model and takes those of an old one, with a half or a
+//! quarter of the speed; `OPENBLAS_CORETYPE`, which it reads at the same moment, names others. So a
+//! program can begin anew with the variable set ([`better_kernels`]), and a library can only say
+//! so.
 
 use super::blas;
 use std::sync::Once;
@@ -25,8 +26,8 @@ enum Vectors {
 }
 
 impl Vectors {
-    /// Those of OpenBLAS' kernels of a name (`driver/others/dynamic.c`); `None` of a name that is not
-    /// known here, as of releases to come.
+    /// Those of OpenBLAS' kernels of a name (`driver/others/dynamic.c`); `None` of a name that is
+    /// not known here, as of releases to come.
     fn of_kernels(name: &str) -> Option<Self> {
         match name {
             "Katmai" | "Coppermine" | "Northwood" | "Prescott" | "Banias" | "Atom" | "Core2"
@@ -80,8 +81,9 @@ fn better(kernels: &str, processor: Vectors) -> Option<&'static str> {
     (Vectors::of_kernels(kernels)? < processor).then(|| processor.kernels())
 }
 
-/// The value of `OPENBLAS_CORETYPE` ([`KERNEL_SETTING`]) with which this process would compute faster;
-/// `None` where OpenBLAS uses what the processor has, has no choice of kernels, or was told which.
+/// The value of `OPENBLAS_CORETYPE` ([`KERNEL_SETTING`]) with which this process would compute
+/// faster; `None` where OpenBLAS uses what the processor has, has no choice of kernels, or was told
+/// which.
 pub fn better_kernels() -> Option<&'static str> {
     let is_told = std::env::var_os(KERNEL_SETTING).is_some();
     if is_told || !blas::has_choice() {
@@ -100,8 +102,8 @@ pub(super) fn warn_of_slow_kernels() {
     });
 }
 
-/// What a library tells its user where OpenBLAS computes with less than the processor has; it cannot
-/// change that in a process that has begun.
+/// What a library tells its user where OpenBLAS computes with less than the processor has; it
+/// cannot change that in a process that has begun.
 pub fn slow_kernels() -> Option<String> {
     let better = better_kernels()?;
     Some(format!(

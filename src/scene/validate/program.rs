@@ -2,11 +2,9 @@
 
 use super::Checks;
 use crate::number::exact;
-use crate::scene::{History, Scene, Target, Unit};
+use crate::scene::{History, LEAST_PATH_ERROR, Scene, Target, Unit};
 use std::collections::BTreeSet;
 
-/// With less a tenfold load takes some ten thousand increments.
-const LEAST_PATH_ERROR: f64 = 1e-9;
 /// Each increment leaves a row of the history, and each target a state with all its contact pairs.
 const MOST_STEPS: usize = 10_000_000;
 const MOST_TARGETS: usize = 10_000;

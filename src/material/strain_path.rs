@@ -1,37 +1,41 @@
-//! The flow rule along the straight way of strain of an increment.
+//! The flow rule along the strain path of an increment, which is straight.
 //!
 //! The implicit rule lets the whole of an increment flow in the direction that flow has at its end.
 //! That is exact while the direction does not turn, and wrong by half the angle where it does: of
-//! first order in the increments. Here the way is cut where the direction of flow has turned by
-//! [`MOST_TURN`], and each part is integrated twice by the implicit rule, in one step and in two
-//! halves: twice the second less the first is of second order (Richardson), and where the material
-//! loses most of its stiffness it stays as stable as the rule itself.
+//! first order in the increments. Here the path is cut into [`PARTS`] in which the direction of
+//! flow turns by the same angle, a few tenths at most, and each part is integrated twice by the
+//! implicit rule, in one step and in two halves: twice the second less the first is of second order
+//! (Richardson), and where the material loses most of its stiffness it stays as stable as the rule
+//! itself. What comes out changes smoothly with the end of the path, so that iterations converge.
+//!
+//! In plane stress the strain across the plane turns a path that is straight in the plane where
+//! flow begins, also of a bar that is pulled: the implicit rule, exact for stresses in proportion,
+//! stays.
 //!
 //! # Source
-//! L. F. Richardson (1911), doi:10.1098/rsta.1911.0009; substeps of a straight way of strain: J. C.
-//! J. Schreyer, R. F. Kulak, J. M. Kramer (1979), doi:10.1115/1.3454607.
+//! L. F. Richardson (1911), doi:10.1098/rsta.1911.0009; substeps along strain paths: S. W.
+//! Sloan (1987), doi:10.1002/nme.1620240505.
 
 use super::{Lame, Material, Past, PlasticState, Update, von_mises_product};
+use crate::space::Space;
 
-/// The angle, in radians, that the direction of flow may turn by in one part of the way.
-const MOST_TURN: f64 = 0.2;
-/// Below this angle the implicit rule is as good: the square of it is round-off beside its effect.
-const LEAST_TURN: f64 = 1e-4;
-/// Parts of a way at most; the last takes what is left.
-const MOST_PARTS: usize = 40;
+/// Parts of a path. Flow goes outwards, so that none turns by more than a fourth of a right angle.
+const PARTS: u32 = 4;
+/// Below this angle, in radians, the implicit rule is as good: half its square is round-off.
+const LEAST_TURN: f64 = 1e-7;
 
-/// What back stresses that fade remember on the way: empty where there are none.
+/// What back stresses that fade remember on the path: empty where there are none.
 pub struct Memory<'a, const S: usize> {
     /// At the end of what is integrated so far.
     pub strains: &'a mut [[f64; S]],
     /// In the middle of a part.
     pub between: &'a mut [[f64; S]],
-    /// Work per volume that was lost since the begin of the way.
+    /// Work per volume that was lost since the begin of the path.
     pub lost_work: f64,
 }
 
-/// A way of strain: its ends, and the law of the material.
-struct Way<'a, const S: usize> {
+/// A straight strain path, and the law of the material.
+struct StrainPath<'a, const S: usize> {
     material: &'a Material,
     law: &'a Lame,
     begin: &'a [f64; S],
@@ -40,10 +44,10 @@ struct Way<'a, const S: usize> {
 }
 
 impl Material {
-    /// Integrates the flow rule along the straight way from the total strain that belongs to the
+    /// Integrates the flow rule along the straight path from the total strain that belongs to the
     /// history `old` to another, by the implicit rule in one step where the first is not known;
     /// `memory` is left at its end where the point yields. The tangent is that of the implicit rule
-    /// over the whole way.
+    /// over the whole path.
     pub(crate) fn integrate_along<const S: usize>(
         &self,
         law: &Lame,
@@ -57,24 +61,24 @@ impl Material {
         }
         memory.strains.copy_from_slice(old.back);
         memory.lost_work = 0.0;
-        let way = Way {
+        let path = StrainPath {
             material: self,
             law,
             begin: begin.unwrap_or(end),
             end,
             harder: old.harder,
         };
-        if begin.is_none() {
-            way.carry(old.state, &whole.state, memory);
+        if begin.is_none() || self.space == Space::PlaneStress {
+            path.carry(old.state, &whole.state, memory);
             return whole;
         }
-        let state = way.integrate(old, &whole.state, memory);
+        let state = path.integrate(old, &whole.state, memory);
         Update { state, ..whole }
     }
 }
 
-impl<const S: usize> Way<'_, S> {
-    /// The strain at a share of the way.
+impl<const S: usize> StrainPath<'_, S> {
+    /// The strain at a share of the path.
     fn at(&self, share: f64) -> [f64; S] {
         std::array::from_fn(|k| self.begin[k] + share * (self.end[k] - self.begin[k]))
     }
@@ -93,36 +97,29 @@ impl<const S: usize> Way<'_, S> {
     ) -> PlasticState<S> {
         let mut state = *old.state;
         let mut share = self.begin_of_flow(old);
-        for part in 0..MOST_PARTS {
+        for left in (1..=PARTS).rev() {
             let past = Past {
                 state: &state,
                 back: memory.strains,
                 harder: self.harder,
             };
             let here = self.relative(&self.at(share), &past);
-            let there = self.relative(self.end, &past);
-            let (turn, most) = turn(&here, &there);
-            if part == 0 && turn < LEAST_TURN {
+            let turn = Turn::between(&here, &self.relative(self.end, &past));
+            if left == PARTS && turn.angle < LEAST_TURN {
                 self.carry(old.state, whole, memory);
                 return *whole;
             }
-            let is_last = turn <= MOST_TURN || part + 1 == MOST_PARTS;
-            let next = if is_last {
-                1.0
-            } else {
-                share + most * (1.0 - share)
+            let next = match left {
+                1 => 1.0,
+                _ => share + turn.share_of_angle(1.0 / f64::from(left)) * (1.0 - share),
             };
-            let coarse = (part == 0 && is_last).then_some(whole);
-            state = self.twice(&state, [share, next], coarse, memory);
-            if is_last {
-                break;
-            }
+            state = self.twice(&state, [share, next], memory);
             share = next;
         }
         self.onto_the_yield_surface(state, memory)
     }
 
-    /// The share of the way at which the yield surface is reached.
+    /// The share of the path at which the yield surface is reached.
     fn begin_of_flow(&self, old: &Past<S>) -> f64 {
         let Some(hardening) = &self.material.hardening else {
             return 1.0;
@@ -153,12 +150,11 @@ impl<const S: usize> Way<'_, S> {
         }
     }
 
-    /// A part of the way in one step and in two, extrapolated.
+    /// A part of the path in one step and in two, extrapolated.
     fn twice(
         &self,
         from: &PlasticState<S>,
         [begin, end]: [f64; 2],
-        coarse: Option<&PlasticState<S>>,
         memory: &mut Memory<S>,
     ) -> PlasticState<S> {
         let to = self.at(end);
@@ -170,10 +166,7 @@ impl<const S: usize> Way<'_, S> {
             };
             self.material.integrate(self.law, strain, &past).state
         };
-        let one = match coarse {
-            Some(coarse) => *coarse,
-            None => step(&to, from, memory.strains),
-        };
+        let one = step(&to, from, memory.strains);
         let half = step(&self.at(0.5 * (begin + end)), from, memory.strains);
         memory.between.copy_from_slice(memory.strains);
         let laws = &self.material.back_stresses;
@@ -192,12 +185,39 @@ impl<const S: usize> Way<'_, S> {
         }
     }
 
-    /// What extrapolation leaves beyond the yield surface flows off.
+    /// What extrapolation leaves beyond the yield surface flows off, and what it leaves inside of it
+    /// flows back: else the next increment would begin with an elastic stretch that there is not.
     fn onto_the_yield_surface(
         &self,
-        state: PlasticState<S>,
+        mut state: PlasticState<S>,
         memory: &mut Memory<S>,
     ) -> PlasticState<S> {
+        if let Some(hardening) = &self.material.hardening {
+            let past = Past {
+                state: &state,
+                back: memory.strains,
+                harder: self.harder,
+            };
+            let stress = self.relative(self.end, &past);
+            let size = von_mises_product(&stress, &stress).sqrt();
+            let inside = past.yield_stress(hardening, 0.0) - size;
+            if inside > 0.0 && size > 0.0 {
+                let resistance = 3.0 * self.material.shear_modulus()
+                    + self.material.back_stresses.modulus(0.0)
+                    + hardening.slope(state.equivalent);
+                let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+                let back = inside / resistance;
+                state.equivalent -= back;
+                for (k, strain) in state.strain.iter_mut().enumerate() {
+                    // Shear strains are engineering strains.
+                    *strain -= back / size
+                        * match k < 3 {
+                            true => 1.5 * (stress[k] - mean),
+                            false => 3.0 * stress[k],
+                        };
+                }
+            }
+        }
         let past = Past {
             state: &state,
             back: memory.strains,
@@ -216,15 +236,33 @@ impl<const S: usize> Way<'_, S> {
     }
 }
 
-/// The angle between the deviators of two stresses, and the share of the way from one to the other
-/// at which it is [`MOST_TURN`].
-fn turn<const S: usize>(from: &[f64; S], to: &[f64; S]) -> (f64, f64) {
-    let size = von_mises_product(from, from).sqrt();
-    let along = von_mises_product(from, to) / size;
-    let across = (von_mises_product(to, to) - along * along).max(0.0).sqrt();
-    let angle = across.atan2(along);
-    let tangent = MOST_TURN.tan();
-    // from + x (to - from): x across / (size + x (along - size)) is the tangent of the angle.
-    let share = size * tangent / (across - (along - size) * tangent);
-    (angle, share.clamp(0.0, 1.0))
+/// From one stress to another, as deviators in the plane of both.
+struct Turn {
+    size: f64,
+    along: f64,
+    across: f64,
+    angle: f64,
+}
+
+impl Turn {
+    fn between<const S: usize>(from: &[f64; S], to: &[f64; S]) -> Self {
+        let size = von_mises_product(from, from).sqrt();
+        let along = von_mises_product(from, to) / size;
+        // What is left of the other without its part along the first: no difference of squares.
+        let off: [f64; S] = std::array::from_fn(|k| to[k] - along / size * from[k]);
+        let across = von_mises_product(&off, &off).sqrt();
+        Turn {
+            size,
+            along,
+            across,
+            angle: across.atan2(along),
+        }
+    }
+
+    /// The share of the straight path at which a share of the angle has been turned:
+    /// `x across / (size + x (along - size))` is its tangent.
+    fn share_of_angle(&self, share: f64) -> f64 {
+        let tangent = (share * self.angle).tan();
+        self.size * tangent / (self.across - (self.along - self.size) * tangent)
+    }
 }

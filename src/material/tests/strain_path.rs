@@ -1,0 +1,179 @@
+//! The path of an increment: against very small steps.
+
+use super::*;
+
+impl<const S: usize> Point<S> {
+    /// Goes along the straight path from a total strain to another.
+    fn follow(&mut self, m: &Material, path: [&[f64; S]; 2]) -> Update<S> {
+        let (mut strains, mut between) = (self.back.clone(), self.back.clone());
+        let mut memory = Memory {
+            strains: &mut strains,
+            between: &mut between,
+            lost_work: 0.0,
+        };
+        let path = (Some(path[0]), path[1]);
+        let update = m.integrate_along(&m.lame(), path, &self.past(), &mut memory);
+        if update.yields {
+            self.lost_work += memory.lost_work;
+            self.back = strains;
+        }
+        self.state = update.state;
+        update
+    }
+}
+
+fn between<const S: usize>([begin, end]: [&[f64; S]; 2], share: f64) -> [f64; S] {
+    std::array::from_fn(|k| begin[k] + share * (end[k] - begin[k]))
+}
+
+/// Random numbers in -1 .. 1.
+fn random(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+    2.0 * ((*seed >> 11) as f64 / (1u64 << 53) as f64) - 1.0
+}
+
+fn distance<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
+    let difference: [f64; S] = std::array::from_fn(|k| a[k] - b[k]);
+    von_mises(&difference)
+}
+
+/// A point that was brought beyond yield, its strain, and one that lies `size` from it.
+fn turned<const S: usize>(m: &Material, size: f64, seed: &mut u64) -> (Point<S>, [[f64; S]; 2]) {
+    let mut strain = || -> [f64; S] {
+        std::array::from_fn(|k| match (m.space, k) {
+            (Space::PlaneStress, 2) => 0.0,
+            _ => random(seed),
+        })
+    };
+    let (first, change) = (strain().map(|e| 0.01 * e), strain());
+    let mut point = Point::new(m);
+    for i in 1..=20 {
+        point.advance(m, &first.map(|e| e * f64::from(i) / 20.0));
+    }
+    let end = std::array::from_fn(|k| first[k] + size * change[k]);
+    (point, [first, end])
+}
+
+/// Where so many small steps of the implicit rule lead to.
+fn in_steps<const S: usize>(
+    point: &Point<S>,
+    m: &Material,
+    [begin, end]: [&[f64; S]; 2],
+    n: i32,
+) -> Point<S> {
+    let mut point = point.clone();
+    for i in 1..=n {
+        point.advance(m, &between([begin, end], f64::from(i) / f64::from(n)));
+    }
+    point
+}
+
+/// Mean and largest error of the stress, over the yield stress, of the implicit rule in one step
+/// and of the path; the same of the work that back stresses lose, over what they lose.
+fn errors<const S: usize>(space: Space, size: f64) -> [[f64; 2]; 3] {
+    let mut seed = 5;
+    let (mut out, mut count) = ([[0.0f64; 2]; 3], 0.0);
+    for curve in curves() {
+        for m in each_kind(material(space, 0.3, curve)) {
+            for _ in 0..2 {
+                let (point, [begin, end]) = turned::<S>(&m, size, &mut seed);
+                let path = [&begin, &end];
+                let [coarse, fine] = [200, 400].map(|n| in_steps(&point, &m, path, n));
+                let extrapolated = |a: f64, b: f64| 2.0 * b - a;
+                let exact: [f64; S] = {
+                    let [a, b] = [&coarse, &fine].map(|p| m.lame().stress(&end, &p.state.strain));
+                    std::array::from_fn(|k| extrapolated(a[k], b[k]))
+                };
+                let work = extrapolated(coarse.lost_work, fine.lost_work) - point.lost_work;
+                let whole = point.clone().advance(&m, &end);
+                let mut followed = point.clone();
+                followed.follow(&m, path);
+                let stress = m.lame().stress(&end, &followed.state.strain);
+                let found = followed.lost_work - point.lost_work;
+                let errors = [
+                    distance(&whole, &exact),
+                    distance(&stress, &exact),
+                    if work > 0.0 {
+                        (found / work - 1.0).abs()
+                    } else {
+                        0.0
+                    },
+                ];
+                for ([mean, largest], error) in out.iter_mut().zip(errors) {
+                    (*mean, *largest) = (*mean + error, largest.max(error));
+                }
+                count += 1.0;
+            }
+        }
+    }
+    out.map(|[sum, largest]| [sum / count, largest])
+}
+
+/// PathEnds of a tenth, a half, twice and ten times the strain at yield, in any direction.
+#[test]
+fn a_way_is_followed_however_flow_turns_on_it() {
+    for size in [5e-4, 2.5e-3, 1e-2, 5e-2] {
+        for (space, [whole, path, work]) in [
+            (Space::Solid, errors::<6>(Space::Solid, size)),
+            (Space::PlaneStrain, errors::<4>(Space::PlaneStrain, size)),
+        ] {
+            let all = format!("{space:?} {size}: {whole:?} {path:?} {work:?}");
+            assert!(path[0] < 0.1 * whole[0] && path[0] < 2e-3, "{all}");
+            assert!(path[1] < 2e-2 && work[1] < 2e-2, "{all}");
+        }
+    }
+}
+
+/// Where flow does not turn the implicit rule is exact, and the path the same to round-off.
+#[test]
+fn a_straight_way_is_that_of_the_implicit_rule() {
+    for curve in curves() {
+        for m in each_kind(material(Space::Solid, 0.3, curve)) {
+            let strain = [0.01, -0.004, -0.006, 0.002, 0.003, -0.001];
+            let mut whole = Point::new(&m);
+            whole.advance(&m, &strain);
+            let mut path = Point::new(&m);
+            path.follow(&m, [&[0.0; 6], &strain]);
+            for (a, b) in whole.state.strain.iter().zip(&path.state.strain) {
+                assert!((a - b).abs() < 1e-14, "{a} {b}");
+            }
+            let (a, b) = (whole.lost_work, path.lost_work);
+            assert!((a - b).abs() <= 1e-12 * a, "{a} {b}");
+        }
+    }
+}
+
+/// The state at the end follows the end smoothly: iterations converge.
+#[test]
+fn the_end_of_a_way_moves_smoothly() {
+    let mut seed = 11;
+    for m in each_kind(material(Space::Solid, 0.3, Hardening::linear(1.0, 0.0))) {
+        for _ in 0..40 {
+            let (point, [begin, end]) = turned::<6>(&m, 4e-3, &mut seed);
+            let stress_at = |share: f64| {
+                let there = between([&begin, &end], share);
+                let (mut strains, mut between) = (point.back.clone(), point.back.clone());
+                let mut memory = Memory {
+                    strains: &mut strains,
+                    between: &mut between,
+                    lost_work: 0.0,
+                };
+                let path = (Some(&begin), &there);
+                let state = m
+                    .integrate_along(&m.lame(), path, &point.past(), &mut memory)
+                    .state;
+                m.lame().stress(&there, &state.strain)
+            };
+            let ends: Vec<[f64; 6]> = (0..40)
+                .map(|i| stress_at(1.0 - 1e-7 * f64::from(i)))
+                .collect();
+            let steps: Vec<f64> = ends
+                .windows(2)
+                .map(|pair| distance(&pair[0], &pair[1]))
+                .collect();
+            let largest = steps.iter().fold(0.0f64, |m, s| m.max(*s));
+            // E times the change of strain, and not the error of the path, 1e-3, all at once.
+            assert!(largest < 1e-5, "{steps:?}");
+        }
+    }
+}
