@@ -3,12 +3,12 @@
 //!
 //! Strains go straight from one end of an increment to the other, and flow is followed along that
 //! path (`material/strain_path.rs`): an error of second order in the increments, of a little less
-//! than that while there are few ([`ORDER`]). An error `c/n^p` for `n` increments changes by `c/n^p
-//! - c/m^p` when there are `m`, twice as many, or [`FEWEST`] where there were few. The changes of
-//! contact end the increments where the stepping is `events`, so there is nothing to divide; the
-//! scene is then run with fixed steps. Both are done on the coarsest mesh at hand on which
-//! everything yields that does in the run: the error of the path hardly depends on the mesh, but
-//! for the number of increments, by whose ratio it is scaled.
+//! than that while there are few ([`ORDER`]). With `n` increments it is `c/n^p`, and the difference
+//! to `m`, twice as many or [`FEWEST`] where there were few, shows `c`. The changes of contact end
+//! the increments where the stepping is `events`, so there is nothing to divide; the scene is then
+//! run with fixed steps. Both are done on the coarsest mesh at hand on which everything yields that
+//! does in the run: the error of the path hardly depends on the mesh, but for the number of
+//! increments, by whose ratio it is scaled.
 //!
 //! Where nothing yields there is no such error: elastic contact follows its path exactly from event
 //! to event, and a state depends on its load alone.

@@ -185,7 +185,7 @@ impl<const S: usize> StrainPath<'_, S> {
         }
     }
 
-    /// What extrapolation leaves beyond the yield surface flows off, and what it leaves inside of it
+    /// What extrapolation leaves beyond the yield surface flows off, and what it leaves inside it
     /// flows back: else the next increment would begin with an elastic stretch that there is not.
     fn onto_the_yield_surface(
         &self,

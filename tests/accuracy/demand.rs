@@ -6,7 +6,7 @@ use brinell::accuracy::{Extent, Reached, reach};
 use brinell::linalg::Backend;
 use brinell::progress::{Observer, Silent};
 use brinell::results::{Demand, Results};
-use brinell::scene::{AccuracyDemand, Scene, Stepping};
+use brinell::scene::{AccuracyDemand, Kind, Scene};
 use brinell::{ErrorKind, Result};
 
 pub fn demanding(scene: &Scene, accuracy: &str) -> Scene {
@@ -68,16 +68,16 @@ fn the_true_error_is_within_the_demanded_one() {
     }
 }
 
-/// Perfectly plastic and without contact: nothing ends an increment but the targets, and what is
-/// asked for is above all that of the path.
+/// Perfectly plastic, in plane stress, without contact: nothing ends an increment but the target,
+/// and what is asked for is above all that of the path.
 #[test]
 fn increments_follow_where_the_path_is_too_coarse() {
-    let targets = "program.targets=[{ load_factor = 170.0 }]";
+    let targets = "program.targets=[{ load_factor = 150.0 }]";
     let mut scene = tube("quad8", 16, targets);
-    scene.program.stepping = Stepping::Events;
+    scene.kind = Kind::PlaneStress;
     let found = reached(
         &scene,
-        "states.alpha 170.approach = 0.05 %",
+        "states.alpha 150.approach = 0.05 %",
         Extent::Program,
     );
     let choices = demand(&found.results).choices;
@@ -88,7 +88,7 @@ fn increments_follow_where_the_path_is_too_coarse() {
         "{choices:?}"
     );
     let rows = &found.results.accuracy.as_ref().unwrap().quantities;
-    for row in rows.iter().filter(|r| r.quantity.ends_with("170.approach")) {
+    for row in rows.iter().filter(|r| r.quantity.ends_with("150.approach")) {
         assert!(
             row.path.unwrap() > 0.0 && row.relative_error.unwrap() <= 0.0005,
             "{row:?}"

@@ -104,8 +104,8 @@ fn elastoplastic_increments_over_fourteen_orders_of_magnitude() {
     assert!((b.max_equivalent_plastic_strain / strain - 1.0).abs() < 1e-2);
 }
 
-/// Elastoplastic: states of coarse increments are off by O(increment) at most. Fixed steps and events
-/// converge to one answer.
+/// Elastoplastic: states of coarse increments are off by O(increment) at most. Fixed steps and
+/// events converge to one answer.
 #[test]
 fn elastoplastic_states_converge_to_one_answer() {
     let of = |steps: usize| {

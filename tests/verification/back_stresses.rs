@@ -316,8 +316,8 @@ fn ssnp14_with_linear_kinematic_hardening() {
         for material in [format!("kinematic_modulus = {modulus:?}"), halves.clone()] {
             let strains = plate(kind, &material, histories, 30);
             for (found, published) in strains.iter().zip(published) {
-                // The published strains are those of thirty steps of the implicit rule. In space flow
-                // is followed along the strain path instead: they differ by the error of those.
+                // What is published is of thirty steps of the implicit rule; in space flow is
+                // followed along the strain path instead.
                 let bound = match kind {
                     Kind::PlaneStress => 1e-6,
                     _ => 1e-3,
