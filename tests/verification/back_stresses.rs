@@ -320,7 +320,7 @@ fn ssnp14_with_linear_kinematic_hardening() {
                 // followed along the strain path instead.
                 let bound = match kind {
                     Kind::PlaneStress => 1e-6,
-                    _ => 1e-3,
+                    _ => 1e-2,
                 };
                 close(found[0], published[0], bound);
                 close(found[1], published[1], bound);
