@@ -26,8 +26,8 @@ pub enum EndsAt {
         /// Relative tolerance.
         gamma: f64,
     },
-    /// At the end of the piece, where each iterate has the statuses that are right for its initial
-    /// loads.
+    /// At the end of the piece, statuses changing with the iterates
+    /// ([`Stepper::settle_contact`]).
     EndOfPiece,
     /// At the end of the piece, statuses frozen.
     EndOfPieceFrozen,
@@ -221,8 +221,8 @@ impl Stepper<'_, '_> {
             if balanced && settles_contact && self.settle_contact(end, &mut state, &mut rounds)? {
                 continue;
             }
-            // Without a change of contact at its end an increment is as long as its piece, and the
-            // pace of a far shorter one may have predicted it.
+            // The loads that predicted an increment to the end of its piece may be those of a far
+            // shorter one: they are eliminated anew, too.
             if balanced && arrived && (stretched > STRETCH || is_predicted) {
                 (stretched, is_predicted) = (1.0, false);
                 let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);

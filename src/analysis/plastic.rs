@@ -21,6 +21,11 @@ const ARRIVED: f64 = 1e-9;
 const STEP: f64 = 0.07;
 const AT_STEP: f64 = 1e-3;
 
+/// Increments from where flow begins to the end of a piece, for a path error.
+pub(super) fn increments_of_a_leg(path_error: f64) -> f64 {
+    (AT_STEP / path_error).sqrt() / STEP
+}
+
 /// An elastoplastic drive between two increments.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PlasticDrive {
@@ -147,10 +152,11 @@ impl PlasticDrive {
     /// long, `gone` having been gone since flow began: increments are of equal length in the square
     /// root of the load beyond that. Where flow begins little of the load makes much of it.
     fn share_by_path_error(gone: f64, left: f64, path_error: f64) -> f64 {
-        let step = STEP * (path_error / AT_STEP).sqrt();
         let whole = gone + left;
         let behind = (gone / whole).sqrt();
-        let n = ((1.0 - behind) / step).ceil().max(1.0);
+        let n = ((1.0 - behind) * increments_of_a_leg(path_error))
+            .ceil()
+            .max(1.0);
         let next = (behind + (1.0 - behind) / n).powi(2);
         let share = (next - gone / whole) * whole / left;
         if n > 1.0 && share < 1.0 { share } else { 1.0 }

@@ -1,5 +1,6 @@
 //! Roughly how long a run will take, before it begins.
 
+use super::plastic::increments_of_a_leg;
 use crate::linalg::{Backend, Prediction};
 use crate::model::{Model, Pair};
 use crate::results::Sizes;
@@ -36,10 +37,8 @@ const CHANGES: [f64; 2] = [0.7, 0.17];
 /// Trailing solves of an elastoplastic increment: where the material hardens; where it has next to
 /// no stiffness left, in a contact that grows; and where all of it may yield.
 const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
-/// The same of an increment in which contact may change, and how many such a way of the load takes
-/// at a path error of 1e-3.
+/// The same of an increment in which contact may change.
 const SOLVES_OF_LONG: [f64; 3] = [25.0, 60.0, 60.0];
-const LONG: f64 = 10.0;
 /// Plastic modulus over Youngs modulus below which material counts as soft in that sense.
 const SOFT: f64 = 0.1;
 /// Rough seconds of ordering, analysis and factorisation.
@@ -87,7 +86,7 @@ fn solves(model: &Model) -> f64 {
         // Every other way unloads, elastically for the most part: from change to change.
         Stepping::Auto => {
             let loading = (0.5 * ways).ceil();
-            let each = LONG * (1e-3 / program.path_error).sqrt();
+            let each = increments_of_a_leg(program.path_error);
             SOLVES_OF_LONG[kind] * (loading * each + 0.5 * n_targets) + (ways - loading) * changes
         }
     }

@@ -65,8 +65,10 @@ impl Stepper<'_, '_> {
         }
         let take = rounds.take(wrong.len());
         let tableau = &mut self.solver.tableau;
-        // Closing first keeps bodies held.
-        wrong.sort_by_key(|&k| !tableau.open()[k]);
+        if take > 1 {
+            // Closing first keeps bodies held.
+            wrong.sort_by_key(|&k| !tableau.open()[k]);
+        }
         let changes = (wrong.iter().filter(|&&k| tableau.flip(k)))
             .take(take)
             .count();

@@ -16,6 +16,28 @@ fn directions(scene: &Scene, on: &str) -> Vec<Direction> {
     of.next().map_or(Vec::new(), |support| support.fix.clone())
 }
 
+/// A square of one element that stands on its lower side, and what a deck goes on with.
+fn square(rest: &str) -> Scene {
+    let square = "\
+*NODE
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+*ELEMENT, TYPE=CPS4, ELSET=E
+1, 1, 2, 3, 4
+*MATERIAL, NAME=M
+*ELASTIC
+1., 0.
+*SOLID SECTION, ELSET=E, MATERIAL=M
+*BOUNDARY
+1, 1, 2
+2, 2
+";
+    let deck = Deck::parse(format!("{square}{rest}").as_bytes(), "a.inp").unwrap();
+    small_strain(&deck).scene
+}
+
 #[test]
 fn a_deck_begins_with_a_keyword() {
     for text in ["1, 2", "$MeshFormat", "kind = \"solid\""] {
@@ -83,20 +105,6 @@ fn every_keyword_becomes_what_it_means() {
 #[test]
 fn loads_that_change_alike_give_load_factors() {
     let text = "\
-*NODE
-1, 0., 0.
-2, 1., 0.
-3, 1., 1.
-4, 0., 1.
-*ELEMENT, TYPE=CPS4, ELSET=E
-1, 1, 2, 3, 4
-*MATERIAL, NAME=M
-*ELASTIC
-1., 0.
-*SOLID SECTION, ELSET=E, MATERIAL=M
-*BOUNDARY
-1, 1, 2
-2, 2
 *STEP
 *STATIC
 1., 4.
@@ -115,8 +123,7 @@ fn loads_that_change_alike_give_load_factors() {
 1, P3, -1.
 *END STEP
 ";
-    let deck = Deck::parse(text.as_bytes(), "a.inp").unwrap();
-    let scene = small_strain(&deck).scene;
+    let scene = square(text);
     assert!(
         scene
             .load
@@ -138,29 +145,15 @@ fn loads_that_change_alike_give_load_factors() {
 /// An amplitude over step time begins anew in each step that names it, one over total time goes on.
 #[test]
 fn amplitudes_over_step_time_begin_anew_in_each_step() {
-    let deck = |second: &str| {
+    let steps = |second: &str| {
         format!(
             "\
-*NODE
-1, 0., 0.
-2, 1., 0.
-3, 1., 1.
-4, 0., 1.
-*ELEMENT, TYPE=CPS4, ELSET=E
-1, 1, 2, 3, 4
-*MATERIAL, NAME=M
-*ELASTIC
-1., 0.
-*SOLID SECTION, ELSET=E, MATERIAL=M
 *AMPLITUDE, NAME=A
 0., 0., 1., 4., 2., 1., 3., 8.
 *AMPLITUDE, NAME=B
 0., 4., 2., 1., 3., 8.
 *AMPLITUDE, NAME=WHOLE, TIME=TOTAL TIME
 0., 0., 1., 4., 2., 1., 3., 8.
-*BOUNDARY
-1, 1, 2
-2, 2
 *STEP
 *STATIC
 1., 1.
@@ -177,8 +170,7 @@ fn amplitudes_over_step_time_begin_anew_in_each_step() {
         )
     };
     let forces = |second: &str| -> Vec<f64> {
-        let deck = Deck::parse(deck(second).as_bytes(), "a.inp").unwrap();
-        let scene = small_strain(&deck).scene;
+        let scene = square(&steps(second));
         let load = &scene.load[0];
         let size = load.force.unwrap().vector()[1];
         let factor = |of: f64| match &load.history {

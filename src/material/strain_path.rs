@@ -128,26 +128,17 @@ impl<const S: usize> StrainPath<'_, S> {
         let start = self.relative(self.begin, old);
         let end = self.relative(self.end, old);
         let change: [f64; S] = std::array::from_fn(|k| end[k] - start[k]);
-        let inside = size * size - von_mises_product(&start, &start);
-        let (b, a) = (
-            von_mises_product(&start, &change),
-            von_mises_product(&change, &change),
-        );
-        // a x^2 + 2 b x = inside, the larger root; none of it where flow goes on.
-        if inside <= 0.0 && b >= 0.0 {
-            return 0.0;
-        }
-        let root = (b * b + a * inside.max(0.0)).sqrt();
-        let share = if b > 0.0 {
-            inside / (b + root)
-        } else {
-            (root - b) / a
+        // a x^2 + 2 b x = inside has one root from 0 on, as the begin is inside to round-off.
+        let inside = (size * size - von_mises_product(&start, &start)).max(0.0);
+        let a = von_mises_product(&change, &change);
+        let b = von_mises_product(&start, &change);
+        let root = (b * b + a * inside).sqrt();
+        let share = match b > 0.0 {
+            true => inside / (b + root),
+            false => (root - b) / a,
         };
-        if share.is_finite() {
-            share.clamp(0.0, 1.0)
-        } else {
-            0.0
-        }
+        // The lower bound is what a path of no length is given, too.
+        share.max(0.0).min(1.0)
     }
 
     /// A part of the path in one step and in two, extrapolated.
@@ -185,39 +176,13 @@ impl<const S: usize> StrainPath<'_, S> {
         }
     }
 
-    /// What extrapolation leaves beyond the yield surface flows off, and what it leaves inside it
-    /// flows back: else the next increment would begin with an elastic stretch that there is not.
+    /// What extrapolation leaves beyond the yield surface flows off. It leaves nothing inside: the
+    /// surface is convex, and the stress goes on from one point of it beyond another.
     fn onto_the_yield_surface(
         &self,
-        mut state: PlasticState<S>,
+        state: PlasticState<S>,
         memory: &mut Memory<S>,
     ) -> PlasticState<S> {
-        if let Some(hardening) = &self.material.hardening {
-            let past = Past {
-                state: &state,
-                back: memory.strains,
-                harder: self.harder,
-            };
-            let stress = self.relative(self.end, &past);
-            let size = von_mises_product(&stress, &stress).sqrt();
-            let inside = past.yield_stress(hardening, 0.0) - size;
-            if inside > 0.0 && size > 0.0 {
-                let resistance = 3.0 * self.material.shear_modulus()
-                    + self.material.back_stresses.modulus(0.0)
-                    + hardening.slope(state.equivalent);
-                let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
-                let back = inside / resistance;
-                state.equivalent -= back;
-                for (k, strain) in state.strain.iter_mut().enumerate() {
-                    // Shear strains are engineering strains.
-                    *strain -= back / size
-                        * match k < 3 {
-                            true => 1.5 * (stress[k] - mean),
-                            false => 3.0 * stress[k],
-                        };
-                }
-            }
-        }
         let past = Past {
             state: &state,
             back: memory.strains,

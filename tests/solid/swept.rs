@@ -45,6 +45,8 @@ on = "cylinder.top"
 plane_force = {{ direction = "y", total = {} }}
 
 [program]
+stepping = "steps"
+steps = 12
 targets = [{{ load_factor = 1.0 }}, {{ load_factor = 2.0 }}, {{ load_factor = 0.0 }}]
 "#,
         supports.concat(),
@@ -62,8 +64,9 @@ fn run(scene: &Scene) -> Results {
     results
 }
 
-/// The paper's cylinder, drawn out between planes of symmetry, has the plane model's history to
-/// round-off, twice its first yield and back; its contact is a strip.
+/// The paper's cylinder, drawn out between planes of symmetry, has the plane model's history, twice
+/// its first yield and back; its contact is a strip. Increments begin where the recovered stress
+/// yields, which layers of elements change: strain paths are not the same to round-off.
 #[test]
 fn an_extruded_cylinder_is_that_of_plane_strain() {
     let depth = 0.25;
@@ -99,7 +102,6 @@ fn an_extruded_cylinder_is_that_of_plane_strain() {
                 largest.max_equivalent_plastic_strain,
             ),
         ] {
-            // The plastic iteration ends at 1e-10 of the force.
             assert!((x - y).abs() < 1e-6 * scale, "{} {what}: {x} {y}", a.name);
         }
         assert_eq!(closed(b), 3 * closed(a));
@@ -147,7 +149,7 @@ fn a_revolved_ball_is_the_axisymmetric_one() {
 }
 
 /// Sectors of 45 and 60 degrees between planes of symmetry have the history of the quarter with
-/// elements of the same angle: every sector is a part of the whole.
+/// elements of the same angle: every sector is a part of the whole. They begin to yield as above.
 #[test]
 fn sectors_between_planes_at_an_angle_are_parts_of_the_quarter() {
     let force = 20.0;
@@ -193,7 +195,7 @@ fn sectors_between_planes_at_an_angle_are_parts_of_the_quarter() {
                 ),
             ] {
                 assert!(
-                    (x - y).abs() < 1e-5 * scale,
+                    (x - y).abs() < 1e-6 * scale,
                     "{angle} {} {what}: {x} {y}",
                     a.name
                 );

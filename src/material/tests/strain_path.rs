@@ -68,58 +68,69 @@ fn in_steps<const S: usize>(
     point
 }
 
-/// Mean and largest error of the stress, over the yield stress, of the implicit rule in one step
-/// and of the path; the same of the work that back stresses lose, over what they lose.
-fn errors<const S: usize>(space: Space, size: f64) -> [[f64; 2]; 3] {
+/// Where so many paths one after the other lead to.
+fn in_paths<const S: usize>(
+    point: &Point<S>,
+    m: &Material,
+    path: [&[f64; S]; 2],
+    n: i32,
+) -> Point<S> {
+    let mut point = point.clone();
+    let at = |i: i32| between(path, f64::from(i) / f64::from(n));
+    for i in 0..n {
+        point.follow(m, [&at(i), &at(i + 1)]);
+    }
+    point
+}
+
+/// Mean errors of the stress, over the yield stress, of the implicit rule in one step and of one,
+/// two and four paths; and of the work that back stresses lose, over it.
+fn errors<const S: usize>(space: Space, size: f64) -> ([f64; 4], [f64; 4]) {
     let mut seed = 5;
-    let (mut out, mut count) = ([[0.0f64; 2]; 3], 0.0);
+    let (mut stress, mut work, mut count) = ([0.0f64; 4], [0.0f64; 4], 0.0);
     for curve in curves() {
         for m in each_kind(material(space, 0.3, curve)) {
             for _ in 0..2 {
                 let (point, [begin, end]) = turned::<S>(&m, size, &mut seed);
                 let path = [&begin, &end];
-                let [coarse, fine] = [200, 400].map(|n| in_steps(&point, &m, path, n));
-                let extrapolated = |a: f64, b: f64| 2.0 * b - a;
-                let exact: [f64; S] = {
-                    let [a, b] = [&coarse, &fine].map(|p| m.lame().stress(&end, &p.state.strain));
-                    std::array::from_fn(|k| extrapolated(a[k], b[k]))
+                let of = |p: &Point<S>| {
+                    let lost = p.lost_work - point.lost_work;
+                    (m.lame().stress(&end, &p.state.strain), lost)
                 };
-                let work = extrapolated(coarse.lost_work, fine.lost_work) - point.lost_work;
-                let whole = point.clone().advance(&m, &end);
-                let mut followed = point.clone();
-                followed.follow(&m, path);
-                let stress = m.lame().stress(&end, &followed.state.strain);
-                let found = followed.lost_work - point.lost_work;
-                let errors = [
-                    distance(&whole, &exact),
-                    distance(&stress, &exact),
-                    if work > 0.0 {
-                        (found / work - 1.0).abs()
-                    } else {
-                        0.0
-                    },
-                ];
-                for ([mean, largest], error) in out.iter_mut().zip(errors) {
-                    (*mean, *largest) = (*mean + error, largest.max(error));
+                let [(coarse, lost_coarse), (fine, lost_fine)] =
+                    [400, 800].map(|n| of(&in_steps(&point, &m, path, n)));
+                let exact: [f64; S] = std::array::from_fn(|k| 2.0 * fine[k] - coarse[k]);
+                let lost = 2.0 * lost_fine - lost_coarse;
+                let mut whole = point.clone();
+                whole.advance(&m, &end);
+                let [one, two, four] = [1, 2, 4].map(|n| in_paths(&point, &m, path, n));
+                for (i, found) in [whole, one, two, four].iter().enumerate() {
+                    let (found, found_lost) = of(found);
+                    stress[i] += distance(&found, &exact);
+                    work[i] += (found_lost - lost).abs();
                 }
-                count += 1.0;
+                count += lost.abs();
             }
         }
     }
-    out.map(|[sum, largest]| [sum / count, largest])
+    (stress.map(|sum| sum / 18.0), work.map(|sum| sum / count))
 }
 
-/// PathEnds of a tenth, a half, twice and ten times the strain at yield, in any direction.
+/// Paths of a tenth, a half, twice and ten times the strain at yield, in any direction: a tenth of
+/// the error of the implicit rule at most. Second order leaves a sixteenth of it to fourths; a
+/// seventh is asked for, as tables of hardening have kinks and ten times is far from small.
 #[test]
 fn a_path_is_followed_however_flow_turns_on_it() {
     for size in [5e-4, 2.5e-3, 1e-2, 5e-2] {
-        for (space, [whole, path, work]) in [
-            (Space::Solid, errors::<6>(Space::Solid, size)),
-            (Space::PlaneStrain, errors::<4>(Space::PlaneStrain, size)),
+        for (stress, work) in [
+            errors::<6>(Space::Solid, size),
+            errors::<4>(Space::PlaneStrain, size),
         ] {
-            let all = format!("{space:?} {size}: {whole:?} {path:?} {work:?}");
-            assert!(path[0] < 0.1 * whole[0] && path[0] < 1e-2, "{all}");
-            assert!(path[1] < 3e-2 && work[1] < 2e-2, "{all}");
+            for [whole, one, two, four] in [stress, work] {
+                let all = format!("{size}: {stress:?} {work:?}");
+                assert!(one < 0.1 * whole, "{all}");
+                assert!(two < one / 2.0 && four < one / 7.0, "{all}");
+            }
         }
     }
 }
