@@ -6,7 +6,7 @@ use super::increment::{Increment, STRETCH};
 use super::load_point::LoadPoint;
 use super::plastic::PlasticDrive;
 use super::recovery::{Peak, Recovery};
-use super::solver::Solver;
+use super::solver::{Pace, Solver};
 use crate::contact::Change;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::{Program, Settings, Stepping};
@@ -237,7 +237,10 @@ impl Solver<'_> {
             let mut pace = increment.state.initial.clone();
             pace.add(-1.0, &self.now.initial);
             pace.scale(1.0 / way);
-            pace
+            Pace {
+                initial: pace,
+                distance: way,
+            }
         });
         self.at = start.towards(end, increment.t);
         self.now = increment.state;

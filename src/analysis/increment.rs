@@ -113,9 +113,15 @@ impl Stepper<'_, '_> {
         let start = self.solver.at.clone();
         let before = self.solver.now.clone();
         self.solver.zone.begin_at(&before.u, &start.factors);
+        let mut stretched = 1.0;
         let rates = match ahead {
             Some(ahead) => self.secant(end, ahead),
-            None => self.rates(end, settings.plastic_iteration == PlasticIteration::Newton),
+            None => {
+                if let Some(pace) = &self.solver.predictor.pace {
+                    stretched = f64::max(most * start.distance(end) / pace.distance, 1.0);
+                }
+                self.rates(end, settings.plastic_iteration == PlasticIteration::Newton)
+            }
         };
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
         let values = |stepper: &Self, state: &Equilibrium| stepper.values(&state.gap, &state.force);
@@ -164,8 +170,6 @@ impl Stepper<'_, '_> {
         let mut damping = 0.0;
         let mut length_search = LengthSearch::default();
         let mut may_settle = true;
-        let mut stretched = 1.0;
-        let mut is_predicted = settles_contact;
         let newton = settings.plastic_iteration == PlasticIteration::Newton;
         let most_iterations = match settings.plastic_iteration {
             PlasticIteration::Newton => settings.max_iterations,
@@ -221,10 +225,8 @@ impl Stepper<'_, '_> {
             if balanced && settles_contact && self.settle_contact(end, &mut state, &mut rounds)? {
                 continue;
             }
-            // The loads that predicted an increment to the end of its piece may be those of a far
-            // shorter one: they are eliminated anew, too.
-            if balanced && arrived && (stretched > STRETCH || is_predicted) {
-                (stretched, is_predicted) = (1.0, false);
+            if balanced && arrived && stretched > STRETCH {
+                stretched = 1.0;
                 let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);
                 let initial = structure.eliminate(state.initial.load, cost);
                 state = self.solver.respond(&start.towards(end, t), initial);
@@ -359,7 +361,7 @@ impl Stepper<'_, '_> {
         let needs_tangent = yields && pace.is_none();
         let mut initial = self.solver.now.initial.clone();
         if let Some(pace) = pace {
-            initial.add(self.solver.at.distance(end), pace);
+            initial.add(self.solver.at.distance(end), &pace.initial);
         }
         // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses
         // decide.

@@ -54,9 +54,17 @@ pub struct Predictor {
     pub last_step: Vec<f64>,
     /// Where flow began last, after a stretch on which there was none.
     pub onset: LoadPoint,
-    /// Change of the initial loads over the last increment, for a load factor that changes by 1:
-    /// the next one's are much the same.
-    pub pace: Option<EliminatedLoad>,
+    /// How initial loads changed over the last increment: over the next one much the same.
+    pub pace: Option<Pace>,
+}
+
+/// A change of initial loads with the load.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Pace {
+    /// The change for a distance of 1 between load points.
+    pub initial: EliminatedLoad,
+    /// The distance over which it was found.
+    pub distance: f64,
 }
 
 /// The largest figures of the run so far: what residuals and round-off are measured against.

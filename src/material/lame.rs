@@ -1,5 +1,6 @@
 //! Isotropic tensors: the elastic law, and what plastic flow takes off it.
 
+use super::sum;
 use serde::{Deserialize, Serialize};
 
 /// `lambda 1 1' + 2 mu I` acting on strain vectors with engineering shear:
@@ -44,7 +45,10 @@ impl Lame {
     /// The stress of an elastic strain.
     #[inline]
     pub fn times<const S: usize>(&self, strain: &[f64; S]) -> [f64; S] {
-        let mut out = strain.map(|e| self.mu * e);
+        let mut out = *strain;
+        for stress in &mut out {
+            *stress *= self.mu;
+        }
         let volume = self.lambda * (strain[0] + strain[1] + self.across * strain[2]);
         for stress in &mut out[..3] {
             *stress = 2.0 * *stress + volume;
@@ -56,7 +60,7 @@ impl Lame {
     /// The stress of a total strain with a plastic part.
     #[inline]
     pub fn stress<const S: usize>(&self, strain: &[f64; S], plastic: &[f64; S]) -> [f64; S] {
-        self.times(&std::array::from_fn(|i| strain[i] - plastic[i]))
+        self.times(&sum(1.0, strain, -1.0, plastic))
     }
 }
 

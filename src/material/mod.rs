@@ -228,6 +228,23 @@ impl Material {
             _ => radial_return::integrate(self, hardening, &trial, old),
         }
     }
+
+    /// The state that [`Material::integrate`] finds, without the tangent; not in plane stress.
+    fn flow<const S: usize>(
+        &self,
+        law: &Lame,
+        strain: &[f64; S],
+        old: &Past<S>,
+    ) -> PlasticState<S> {
+        let Some(hardening) = &self.hardening else {
+            return *old.state;
+        };
+        let trial = self.relative_stress(law, strain, old);
+        if von_mises(&trial) <= old.yield_stress(hardening, 0.0) {
+            return *old.state;
+        }
+        radial_return::flow(self, hardening, &trial, old).state
+    }
 }
 
 /// The increment of equivalent plastic strain at which the excess over the yield stress, positive
@@ -241,6 +258,16 @@ fn flow_to_root(excess: impl Fn(f64) -> f64, stiffness: f64, scale: f64) -> f64 
         place: f64::EPSILON,
     };
     root::between([(0.0, first), (end, excess(end))], accuracy, excess)
+}
+
+/// `a x + b y`, as a loop: arrays made of closures are slow where nothing is inlined.
+#[inline]
+fn sum<const S: usize>(a: f64, x: &[f64; S], b: f64, y: &[f64; S]) -> [f64; S] {
+    let mut out = [0.0; S];
+    for k in 0..S {
+        out[k] = a * x[k] + b * y[k];
+    }
+    out
 }
 
 /// A strain with engineering shear as a tensor's components.

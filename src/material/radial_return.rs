@@ -23,15 +23,27 @@
 //! its closed form.
 
 use super::{
-    Hardening, Lame, Material, Past, Softening, Update, double_dot, flow_to_root, von_mises,
+    Hardening, Lame, Material, Past, PlasticState, Softening, Update, double_dot, flow_to_root,
+    von_mises,
 };
 
-pub(super) fn integrate<const S: usize>(
+/// What an increment flows.
+pub(super) struct Flow<const S: usize> {
+    /// At its end.
+    pub state: PlasticState<S>,
+    /// `s(d)`.
+    s: [f64; S],
+    d: f64,
+    /// `H` at its end.
+    slope: f64,
+}
+
+pub(super) fn flow<const S: usize>(
     material: &Material,
     hardening: &Hardening,
     trial: &[f64; S],
     old: &Past<S>,
-) -> Update<S> {
+) -> Flow<S> {
     let g = material.shear_modulus();
     let laws = &material.back_stresses;
     let start = deviator(trial);
@@ -51,19 +63,28 @@ pub(super) fn integrate<const S: usize>(
         let d = flow_to_root(excess, 3.0 * g, old.yield_stress(hardening, 0.0));
         (d, hardening.slope(equivalent + d), at(d))
     };
-    let norm = double_dot(&s, &s).sqrt();
-    let q = 1.5f64.sqrt() * norm;
-    let multiplier = 1.5 * d / q;
+    let multiplier = 1.5 * d / von_mises(&s);
     let mut state = *old.state;
     state.equivalent += d;
-    for (i, (strain, s)) in state.strain.iter_mut().zip(&s).enumerate() {
+    for i in 0..S {
         // Shear strains are engineering strains.
-        *strain += if i < 3 {
-            multiplier * s
-        } else {
-            2.0 * multiplier * s
-        };
+        let doubled = if i < 3 { 1.0 } else { 2.0 };
+        state.strain[i] += doubled * multiplier * s[i];
     }
+    Flow { state, s, d, slope }
+}
+
+pub(super) fn integrate<const S: usize>(
+    material: &Material,
+    hardening: &Hardening,
+    trial: &[f64; S],
+    old: &Past<S>,
+) -> Update<S> {
+    let Flow { state, s, d, slope } = flow(material, hardening, trial, old);
+    let g = material.shear_modulus();
+    let laws = &material.back_stresses;
+    let norm = double_dot(&s, &s).sqrt();
+    let q = 1.5f64.sqrt() * norm;
     let normal = s.map(|s| s / norm);
     let forgetting = laws.forgetting(old.back, d);
     let along_flow = double_dot(&normal, &forgetting);

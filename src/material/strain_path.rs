@@ -16,7 +16,7 @@
 //! L. F. Richardson (1911), doi:10.1098/rsta.1911.0009; substeps along strain paths: S. W.
 //! Sloan (1987), doi:10.1002/nme.1620240505.
 
-use super::{Lame, Material, Past, PlasticState, Update, von_mises_product};
+use super::{Lame, Material, Past, PlasticState, Update, sum, von_mises_product};
 use crate::space::Space;
 
 /// Parts of a path. Flow goes outwards, so that none turns by more than a fourth of a right angle.
@@ -80,7 +80,7 @@ impl Material {
 impl<const S: usize> StrainPath<'_, S> {
     /// The strain at a share of the path.
     fn at(&self, share: f64) -> [f64; S] {
-        std::array::from_fn(|k| self.begin[k] + share * (self.end[k] - self.begin[k]))
+        sum(1.0 - share, self.begin, share, self.end)
     }
 
     /// The stress less the back stress of a strain.
@@ -127,7 +127,7 @@ impl<const S: usize> StrainPath<'_, S> {
         let size = old.yield_stress(hardening, 0.0);
         let start = self.relative(self.begin, old);
         let end = self.relative(self.end, old);
-        let change: [f64; S] = std::array::from_fn(|k| end[k] - start[k]);
+        let change = sum(1.0, &end, -1.0, &start);
         // a x^2 + 2 b x = inside has one root from 0 on, as the begin is inside to round-off.
         let inside = (size * size - von_mises_product(&start, &start)).max(0.0);
         let a = von_mises_product(&change, &change);
@@ -155,7 +155,7 @@ impl<const S: usize> StrainPath<'_, S> {
                 back,
                 harder: self.harder,
             };
-            self.material.integrate(self.law, strain, &past).state
+            self.material.flow(self.law, strain, &past)
         };
         let one = step(&to, from, memory.strains);
         let half = step(&self.at(0.5 * (begin + end)), from, memory.strains);
@@ -167,10 +167,10 @@ impl<const S: usize> StrainPath<'_, S> {
         lost -= laws.carry(memory.strains, from, &one);
         memory.lost_work += lost;
         for (own, fine) in memory.strains.iter_mut().zip(memory.between.iter()) {
-            *own = std::array::from_fn(|k| 2.0 * fine[k] - own[k]);
+            *own = sum(2.0, fine, -1.0, own);
         }
         PlasticState {
-            strain: std::array::from_fn(|k| 2.0 * two.strain[k] - one.strain[k]),
+            strain: sum(2.0, &two.strain, -1.0, &one.strain),
             // Flow that turns is no shorter for being followed more closely, but for round-off.
             equivalent: (2.0 * two.equivalent - one.equivalent).max(two.equivalent),
         }
@@ -188,11 +188,9 @@ impl<const S: usize> StrainPath<'_, S> {
             back: memory.strains,
             harder: self.harder,
         };
-        let update = self.material.integrate(self.law, self.end, &past);
-        if update.yields {
-            self.carry(&state, &update.state, memory);
-        }
-        update.state
+        let flowed = self.material.flow(self.law, self.end, &past);
+        self.carry(&state, &flowed, memory);
+        flowed
     }
 
     fn carry(&self, from: &PlasticState<S>, to: &PlasticState<S>, memory: &mut Memory<S>) {
@@ -214,7 +212,7 @@ impl Turn {
         let size = von_mises_product(from, from).sqrt();
         let along = von_mises_product(from, to) / size;
         // What is left of the other without its part along the first: no difference of squares.
-        let off: [f64; S] = std::array::from_fn(|k| to[k] - along / size * from[k]);
+        let off = sum(1.0, to, -along / size, from);
         let across = von_mises_product(&off, &off).sqrt();
         Turn {
             size,

@@ -88,7 +88,7 @@ impl<'m> Solver<'m> {
         let n = model.pairs.len();
         let fits = solver.knows(&record.state)
             && (record.predictor.pace.iter())
-                .all(|pace| pace.is_like(&record.state.equilibrium.initial))
+                .all(|pace| pace.initial.is_like(&record.state.equilibrium.initial))
             && solver.set_springs(&record.state.springs)
             && solver.tableau.replay(&record.pivots)
             && solver.tableau.open() == record.state.open
