@@ -59,6 +59,9 @@ fn tube(cases: &mut Cases) -> Result<()> {
     for shape in [Shape::Quad4, Shape::Quad8] {
         for part in tube.mesh.parts.iter_mut().flatten() {
             part.element = shape;
+            if let Some(ring) = &mut part.ring {
+                ring.elements = [8, 6];
+            }
         }
         for nu in [0.3, 0.49, 0.4999] {
             for material in tube.materials.values_mut() {
@@ -86,7 +89,7 @@ fn column(cases: &mut Cases) -> Result<()> {
 fn slender(cases: &mut Cases) -> Result<()> {
     let mut blocks = scene(include_str!("../../data/scenes/hard/slender_elements.toml"))?;
     let mut strains = Vec::new();
-    for elements in [[8, 4], [600, 4]] {
+    for elements in [[4, 2], [300, 2]] {
         for block in blocks.mesh.parts.iter_mut().flatten() {
             if let Some(block) = &mut block.block {
                 block.elements = elements;

@@ -30,6 +30,7 @@ pub struct Family {
 }
 
 /// What is known.
+#[derive(PartialEq)]
 pub enum Truth {
     /// Some quantities, exactly.
     Exact(Vec<(&'static str, f64)>),
@@ -60,11 +61,6 @@ impl Claim {
 const SAME: f64 = 1e-6;
 
 impl Family {
-    /// The claims of all its meshes; a mesh that cannot be run makes none.
-    pub fn claims(&self) -> Vec<Claim> {
-        self.claims_beside(&self.known())
-    }
-
     /// The values that are known, by path.
     pub fn known(&self) -> BTreeMap<String, f64> {
         match &self.truth {
@@ -79,7 +75,7 @@ impl Family {
         }
     }
 
-    /// The claims of all its meshes beside known values.
+    /// The claims of all its meshes beside known values; a mesh that cannot be run makes none.
     pub fn claims_beside(&self, truth: &BTreeMap<String, f64>) -> Vec<Claim> {
         let mut out = Vec::new();
         for (mesh, scene) in &self.meshes {
@@ -110,6 +106,17 @@ impl Family {
         }
         out
     }
+}
+
+/// The claims of families; neighbours with the same finer mesh share its run.
+pub fn claims_of(families: &[Family]) -> Vec<Claim> {
+    let same = families.chunk_by(|a, b| a.truth == b.truth);
+    same.flat_map(|same| {
+        let known = same[0].known();
+        let claims = same.iter().map(|family| family.claims_beside(&known));
+        claims.collect::<Vec<_>>().concat()
+    })
+    .collect()
 }
 
 /// A run to its end; `None` where it does not get there.

@@ -33,9 +33,9 @@ fn limit(shape: &str, nu: f64) -> (Option<f64>, Vec<String>) {
 #[test]
 fn limit_loads_of_all_shapes_that_claim_not_to_lock() {
     for shape in ["quad4", "quad8", "tri6"] {
-        // What locks does so where the volume hardly changes.
-        let some = if shape == "quad4" { 0 } else { either(2, 0) };
-        for nu in &[0.3, 0.49, 0.4999][some..] {
+        // `stability::flow` has all shapes at 0.4999, where what locks does so.
+        let all = if shape == "quad4" { 1 } else { either(0, 3) };
+        for nu in &[0.3, 0.49, 0.4999][..either(all, 3)] {
             let nu = *nu;
             let (limit, warnings) = limit(shape, nu);
             let limit = limit.unwrap_or(f64::INFINITY);

@@ -8,7 +8,7 @@
 
 use crate::support::msh::{Body, Msh};
 use crate::support::random::Random;
-use crate::support::{close, parse, try_run};
+use crate::support::{close, either, parse, try_run};
 use brinell::linalg::Backend;
 use brinell::results::Results;
 use std::fmt::Write;
@@ -365,7 +365,8 @@ fn with_supports(text: &str, held: Held, as_displacements: bool) -> String {
 fn no_state_is_elastic_while_a_gauss_point_is_beyond_yield() {
     let (mut yielded, mut elastic, mut refused) = (0, 0, 0);
     let folder = tempfile::tempdir().unwrap();
-    for seed in 1..=300u64 {
+    let seeds = either(100, 300);
+    for seed in 1..=seeds {
         let mut random = Random::new(seed);
         let file = folder.path().join(format!("{seed}.msh"));
         let (text, held) = block(&mut random, &file);
@@ -405,7 +406,7 @@ fn no_state_is_elastic_while_a_gauss_point_is_beyond_yield() {
         }
     }
     assert!(
-        yielded > 200 && elastic > 200 && refused < 60,
+        yielded > 2 * seeds / 3 && elastic > 2 * seeds / 3 && refused < seeds / 5,
         "{yielded} {elastic} {refused}"
     );
 }

@@ -27,6 +27,11 @@ pub fn smaller(name: &str) -> &'static [&'static str] {
     let text = std::fs::read_to_string(path).unwrap();
     if text.contains("[mesh.curved_bodies]") {
         &["mesh.curved_bodies.resolution=3"]
+    } else if name == "hard/slender_elements" {
+        &[
+            "mesh.parts.0.block.elements=[300,2]",
+            "mesh.parts.1.block.elements=[300,2]",
+        ]
     } else if name == "square_punch" {
         &super::SMALL_PUNCH
     } else {
