@@ -240,6 +240,7 @@ impl Solver<'_> {
             Pace {
                 initial: pace,
                 distance: way,
+                stretched: increment.stretched,
             }
         });
         self.at = start.towards(end, increment.t);

@@ -48,6 +48,8 @@ pub struct Increment {
     pub residual: f64,
     /// Guard elements that yield: the zone is too small.
     pub guard_yields: usize,
+    /// By how much what predicted it was stretched since its loads were eliminated.
+    pub stretched: f64,
 }
 
 /// Why no increment was found.
@@ -98,6 +100,9 @@ const AT_START: f64 = 1e-9;
 /// eliminated load are rounded apart, by `eps` of the whole, and that grows with the change. It
 /// stays below 1e-12, a hundredth of the tightest tolerance.
 pub(super) const STRETCH: f64 = 1e4;
+/// The same of increments to the end of their piece, all of one run after the other: where they are
+/// of equal length in the root of the load the last is some thirty times as long as the first.
+const STRETCH_OF_LONG: f64 = 1e2;
 
 impl Stepper<'_, '_> {
     /// Goes from the current state towards `end`, at most to share `most` of the way. A state that
@@ -113,17 +118,18 @@ impl Stepper<'_, '_> {
         let start = self.solver.at.clone();
         let before = self.solver.now.clone();
         self.solver.zone.begin_at(&before.u, &start.factors);
+        let follows = matches!(ends_at, EndsAt::NextChange { .. });
         let mut stretched = 1.0;
         let rates = match ahead {
             Some(ahead) => self.secant(end, ahead),
             None => {
-                if let Some(pace) = &self.solver.predictor.pace {
-                    stretched = f64::max(most * start.distance(end) / pace.distance, 1.0);
+                if let (Some(pace), false) = (&self.solver.predictor.pace, follows) {
+                    let ratio = most * start.distance(end) / pace.distance;
+                    stretched = pace.stretched * f64::max(ratio, 1.0);
                 }
                 self.rates(end, settings.plastic_iteration == PlasticIteration::Newton)
             }
         };
-        let follows = matches!(ends_at, EndsAt::NextChange { .. });
         let values = |stepper: &Self, state: &Equilibrium| stepper.values(&state.gap, &state.force);
         let base = values(self, &before);
         // A pair whose opening would set a body free cannot open: its force may come down to the
@@ -225,7 +231,8 @@ impl Stepper<'_, '_> {
             if balanced && settles_contact && self.settle_contact(end, &mut state, &mut rounds)? {
                 continue;
             }
-            if balanced && arrived && stretched > STRETCH {
+            let most_stretched = if follows { STRETCH } else { STRETCH_OF_LONG };
+            if balanced && arrived && stretched > most_stretched {
                 stretched = 1.0;
                 let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);
                 let initial = structure.eliminate(state.initial.load, cost);
@@ -254,6 +261,7 @@ impl Stepper<'_, '_> {
                     iterations,
                     residual,
                     guard_yields: evaluation.guard_yields,
+                    stretched,
                 });
             }
             if !stalled {

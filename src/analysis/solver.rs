@@ -65,6 +65,8 @@ pub struct Pace {
     pub initial: EliminatedLoad,
     /// The distance over which it was found.
     pub distance: f64,
+    /// By how much it was stretched since its loads were eliminated.
+    pub stretched: f64,
 }
 
 /// The largest figures of the run so far: what residuals and round-off are measured against.

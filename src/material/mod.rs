@@ -229,21 +229,21 @@ impl Material {
         }
     }
 
-    /// The state that [`Material::integrate`] finds, without the tangent; not in plane stress.
+    /// What [`Material::integrate`] finds, without the tangent; not in plane stress.
     fn flow<const S: usize>(
         &self,
         law: &Lame,
         strain: &[f64; S],
         old: &Past<S>,
-    ) -> PlasticState<S> {
+    ) -> radial_return::Flow<S> {
         let Some(hardening) = &self.hardening else {
-            return *old.state;
+            return radial_return::Flow::none(*old.state);
         };
         let trial = self.relative_stress(law, strain, old);
         if von_mises(&trial) <= old.yield_stress(hardening, 0.0) {
-            return *old.state;
+            return radial_return::Flow::none(*old.state);
         }
-        radial_return::flow(self, hardening, &trial, old).state
+        radial_return::flow(self, hardening, &trial, old)
     }
 }
 

@@ -38,6 +38,33 @@ pub(super) struct Flow<const S: usize> {
     slope: f64,
 }
 
+impl<const S: usize> Flow<S> {
+    /// Of no flow.
+    pub fn none(state: PlasticState<S>) -> Self {
+        Flow {
+            state,
+            s: [0.0; S],
+            d: 0.0,
+            slope: 0.0,
+        }
+    }
+
+    /// The direction of flow as a stress of size 1; `None` where there is none.
+    pub fn normal(&self) -> Option<[f64; S]> {
+        let norm = double_dot(&self.s, &self.s).sqrt();
+        (norm > 0.0).then(|| self.s.map(|s| s / norm))
+    }
+
+    /// `(3/2) d/q`: the plastic strain of a trial stress across the flow, over that stress.
+    pub fn across(&self) -> f64 {
+        if self.d > 0.0 {
+            1.5 * self.d / von_mises(&self.s)
+        } else {
+            0.0
+        }
+    }
+}
+
 pub(super) fn flow<const S: usize>(
     material: &Material,
     hardening: &Hardening,

@@ -46,8 +46,13 @@ struct StrainPath<'a, const S: usize> {
 impl Material {
     /// Integrates the flow rule along the straight path from the total strain that belongs to the
     /// history `old` to another, by the implicit rule in one step where the first is not known;
-    /// `memory` is left at its end where the point yields. The tangent is that of the implicit rule
-    /// over the whole path.
+    /// `memory` is left at its end where the point yields.
+    ///
+    /// The tangent is that of the implicit rule over the whole path, but for its normal, that of
+    /// the end, and for what flow takes off strains across it, that of the path while flow does not
+    /// turn: [`Across`]. One step takes off `3 G d/q = x/(1 + x)` where the path takes `1 - (1 -
+    /// exp(-x))/x`: a difference that would be the pace of iterations. Where back stresses fade it
+    /// is that of one step.
     pub(crate) fn integrate_along<const S: usize>(
         &self,
         law: &Lame,
@@ -72,8 +77,38 @@ impl Material {
             path.carry(old.state, &whole.state, memory);
             return whole;
         }
-        let state = path.integrate(old, &whole.state, memory);
-        Update { state, ..whole }
+        let Some((state, lost, normal)) = path.integrate(old, &whole.state, memory) else {
+            return whole;
+        };
+        let mut update = Update { state, ..whole };
+        if self.back_stresses.n_stored() == 0 {
+            let softening = &mut update.softening;
+            let isotropic = Lame::of_deviator(2.0 * self.shear_modulus() * lost);
+            softening.along += 2.0 * (softening.isotropic.mu - isotropic.mu);
+            softening.isotropic = isotropic;
+            softening.normal = normal.unwrap_or(softening.normal);
+        }
+        update
+    }
+}
+
+/// What a small strain across the flow, spread over the path as the strain is, has become on the
+/// way, over `2 G` times it: a stress less the back stress, and what plastic strains took off it.
+#[derive(Debug, Clone, Copy)]
+struct Across {
+    stress: f64,
+    lost: f64,
+}
+
+impl Across {
+    /// After a share of the path along which flow makes `across` of a trial stress
+    /// ([`super::radial_return::Flow::across`]); `moduli` are `2 G` and that of the back stresses.
+    fn after(self, share: f64, across: f64, moduli: [f64; 2]) -> Self {
+        let trial = self.stress + share;
+        Across {
+            stress: trial * (1.0 - across * (moduli[0] + moduli[1])),
+            lost: self.lost + trial * across * moduli[0],
+        }
     }
 }
 
@@ -88,15 +123,21 @@ impl<const S: usize> StrainPath<'_, S> {
         self.material.relative_stress(self.law, strain, past)
     }
 
-    /// The state at the end; `whole` is that of the implicit rule in one step.
+    /// The state at the end, the share that flow takes off strains across it, and its direction
+    /// there; `None` where it is `whole`, that of the implicit rule in one step.
     fn integrate(
         &self,
         old: &Past<S>,
         whole: &PlasticState<S>,
         memory: &mut Memory<S>,
-    ) -> PlasticState<S> {
+    ) -> Option<(PlasticState<S>, f64, Option<[f64; S]>)> {
         let mut state = *old.state;
         let mut share = self.begin_of_flow(old);
+        let mut across = Across {
+            stress: share,
+            lost: 0.0,
+        };
+        let mut normal = None;
         for left in (1..=PARTS).rev() {
             let past = Past {
                 state: &state,
@@ -107,16 +148,17 @@ impl<const S: usize> StrainPath<'_, S> {
             let turn = Turn::between(&here, &self.relative(self.end, &past));
             if left == PARTS && turn.angle < LEAST_TURN {
                 self.carry(old.state, whole, memory);
-                return *whole;
+                return None;
             }
             let next = match left {
                 1 => 1.0,
                 _ => share + turn.share_of_angle(1.0 / f64::from(left)) * (1.0 - share),
             };
-            state = self.twice(&state, [share, next], memory);
+            (state, across, normal) = self.twice((&state, across), [share, next], memory);
             share = next;
         }
-        self.onto_the_yield_surface(state, memory)
+        let state = self.onto_the_yield_surface(state, memory);
+        Some((state, across.lost.clamp(0.0, 1.0), normal))
     }
 
     /// The share of the path at which the yield surface is reached.
@@ -137,17 +179,18 @@ impl<const S: usize> StrainPath<'_, S> {
             true => inside / (b + root),
             false => (root - b) / a,
         };
-        // The lower bound is what a path of no length is given, too.
-        share.max(0.0).min(1.0)
+        // A path of no length is 0 / 0.
+        if share > 0.0 { share.min(1.0) } else { 0.0 }
     }
 
-    /// A part of the path in one step and in two, extrapolated.
+    /// A part of the path in one step and in two, extrapolated; and the direction of flow in the
+    /// last: of the stress itself round-off is all that is left where strains are large.
     fn twice(
         &self,
-        from: &PlasticState<S>,
+        (from, across): (&PlasticState<S>, Across),
         [begin, end]: [f64; 2],
         memory: &mut Memory<S>,
-    ) -> PlasticState<S> {
+    ) -> (PlasticState<S>, Across, Option<[f64; S]>) {
         let to = self.at(end);
         let step = |strain: &[f64; S], state: &PlasticState<S>, back: &[[f64; S]]| {
             let past = Past {
@@ -157,23 +200,37 @@ impl<const S: usize> StrainPath<'_, S> {
             };
             self.material.flow(self.law, strain, &past)
         };
-        let one = step(&to, from, memory.strains);
-        let half = step(&self.at(0.5 * (begin + end)), from, memory.strains);
-        memory.between.copy_from_slice(memory.strains);
         let laws = &self.material.back_stresses;
+        let moduli = [
+            2.0 * self.material.shear_modulus(),
+            2.0 / 3.0 * laws.linear(),
+        ];
+        let one = step(&to, from, memory.strains);
+        let across_one = across.after(end - begin, one.across(), moduli);
+        let half = step(&self.at(0.5 * (begin + end)), from, memory.strains);
+        let across_half = across.after(0.5 * (end - begin), half.across(), moduli);
+        let (one, half) = (one.state, half.state);
+        memory.between.copy_from_slice(memory.strains);
         let mut lost = 2.0 * laws.carry(memory.between, from, &half);
         let two = step(&to, &half, memory.between);
+        let across_two = across_half.after(0.5 * (end - begin), two.across(), moduli);
+        let (two, normal) = (two.state, two.normal());
         lost += 2.0 * laws.carry(memory.between, &half, &two);
         lost -= laws.carry(memory.strains, from, &one);
         memory.lost_work += lost;
         for (own, fine) in memory.strains.iter_mut().zip(memory.between.iter()) {
             *own = sum(2.0, fine, -1.0, own);
         }
-        PlasticState {
+        let state = PlasticState {
             strain: sum(2.0, &two.strain, -1.0, &one.strain),
             // Flow that turns is no shorter for being followed more closely, but for round-off.
             equivalent: (2.0 * two.equivalent - one.equivalent).max(two.equivalent),
-        }
+        };
+        let across = Across {
+            stress: 2.0 * across_two.stress - across_one.stress,
+            lost: 2.0 * across_two.lost - across_one.lost,
+        };
+        (state, across, normal)
     }
 
     /// What extrapolation leaves beyond the yield surface flows off. It leaves nothing inside: the
@@ -188,7 +245,7 @@ impl<const S: usize> StrainPath<'_, S> {
             back: memory.strains,
             harder: self.harder,
         };
-        let flowed = self.material.flow(self.law, self.end, &past);
+        let flowed = self.material.flow(self.law, self.end, &past).state;
         self.carry(&state, &flowed, memory);
         flowed
     }

@@ -79,7 +79,7 @@ fn assert_threads_change_no_bit(solver: &str, scenes: usize) {
         let folder = tempfile::tempdir().unwrap();
         let [one, two] = ["1", "2"].map(|threads| {
             let out = folder.path().join(threads);
-            run(name, [solver, threads], &out, &overrides);
+            run(name, [solver, threads], &out, overrides);
             out
         });
         assert_eq!(summary(&one), summary(&two), "{name}");

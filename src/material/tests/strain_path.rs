@@ -188,3 +188,57 @@ fn the_end_of_a_path_moves_smoothly() {
         }
     }
 }
+
+/// Mean errors of the tangent against differences of the path's own end, and of that of one step,
+/// over the elastic stiffness: paths go on as before but for a random part.
+fn tangent_errors(size: f64, randomness: f64) -> [f64; 2] {
+    let (mut seed, mut errors, mut count) = (7, [0.0; 2], 0.0);
+    for curve in curves() {
+        for mut m in each_kind(material(Space::Solid, 0.3, curve)) {
+            if m.back_stresses.n_stored() > 0 {
+                m.back_stresses = BackStresses::default();
+            }
+            let elastic = m.lame();
+            for _ in 0..10 {
+                let (point, [begin, aside]) = turned::<6>(&m, size, &mut seed);
+                let end: [f64; 6] = std::array::from_fn(|k| {
+                    begin[k] + size * 100.0 * begin[k] + randomness * (aside[k] - begin[k])
+                });
+                let follow = |end: &[f64; 6]| {
+                    let mut point = point.clone();
+                    let update = point.follow(&m, [&begin, end]);
+                    (elastic.stress(end, &update.state.strain), update.softening)
+                };
+                let (direction, h): ([f64; 6], f64) =
+                    (std::array::from_fn(|_| random(&mut seed)), 1e-6 * size);
+                let [ahead, behind] =
+                    [h, -h].map(|h| follow(&std::array::from_fn(|k| end[k] + h * direction[k])).0);
+                let slope: [f64; 6] = std::array::from_fn(|k| (ahead[k] - behind[k]) / (2.0 * h));
+                let whole = elastic.times(&direction);
+                let tangents = [follow(&end).1, point.integrate(&m, &end).softening];
+                for (error, tangent) in errors.iter_mut().zip(&tangents) {
+                    let lost = tangent.times(&direction);
+                    let left: [f64; 6] = std::array::from_fn(|k| whole[k] - lost[k]);
+                    *error += distance(&left, &slope);
+                }
+                count += von_mises(&whole);
+            }
+        }
+    }
+    errors.map(|error| error / count)
+}
+
+/// It is that of the path where flow turns little, and nearer than that of one step where it turns
+/// in any direction.
+#[test]
+fn the_tangent_is_nearer_to_the_path_than_that_of_one_step() {
+    for size in [1e-3, 5e-3, 2e-2] {
+        let [own, one_step] = tangent_errors(size, 0.1);
+        let [turned, turned_one_step] = tangent_errors(size, 1.0);
+        assert!(own < 0.1 * one_step, "{size}: {own} {one_step}");
+        assert!(
+            turned < 0.6 * turned_one_step,
+            "{size}: {turned} {turned_one_step}"
+        );
+    }
+}
