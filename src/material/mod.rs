@@ -184,6 +184,21 @@ impl Material {
         }
     }
 
+    /// The stress of a total strain less the back stress, without further flow, and the hardening,
+    /// where it does not lie within the yield surface: no number does not either.
+    #[inline]
+    fn beyond_yield<const S: usize>(
+        &self,
+        law: &Lame,
+        strain: &[f64; S],
+        old: &Past<S>,
+    ) -> Option<(&Hardening, [f64; S])> {
+        let hardening = self.hardening.as_ref()?;
+        let trial = self.relative_stress(law, strain, old);
+        let within = von_mises(&trial) <= old.yield_stress(hardening, 0.0);
+        (!within).then_some((hardening, trial))
+    }
+
     /// Whether a total strain lies within the yield surface of a history: [`Material::integrate`]
     /// then changes nothing.
     #[inline]
@@ -193,10 +208,7 @@ impl Material {
         strain: &[f64; S],
         old: &Past<S>,
     ) -> bool {
-        self.hardening.as_ref().is_none_or(|hardening| {
-            let trial = self.relative_stress(law, strain, old);
-            von_mises(&trial) <= old.yield_stress(hardening, 0.0)
-        })
+        self.beyond_yield(law, strain, old).is_none()
     }
 
     /// Integrates the flow rule: total strain at the end of the increment, history at its start.
@@ -210,19 +222,14 @@ impl Material {
         strain: &[f64; S],
         old: &Past<S>,
     ) -> Update<S> {
-        let idle = Update {
-            state: *old.state,
-            softening: Softening::NONE,
-            turn: [0.0; S],
-            yields: false,
+        let Some((hardening, trial)) = self.beyond_yield(law, strain, old) else {
+            return Update {
+                state: *old.state,
+                softening: Softening::NONE,
+                turn: [0.0; S],
+                yields: false,
+            };
         };
-        let Some(hardening) = &self.hardening else {
-            return idle;
-        };
-        let trial = self.relative_stress(law, strain, old);
-        if von_mises(&trial) <= old.yield_stress(hardening, 0.0) {
-            return idle;
-        }
         match self.space {
             Space::PlaneStress => plane_stress::integrate(self, hardening, &trial, old),
             _ => radial_return::integrate(self, hardening, &trial, old),
@@ -236,14 +243,10 @@ impl Material {
         strain: &[f64; S],
         old: &Past<S>,
     ) -> radial_return::Flow<S> {
-        let Some(hardening) = &self.hardening else {
-            return radial_return::Flow::none(*old.state);
-        };
-        let trial = self.relative_stress(law, strain, old);
-        if von_mises(&trial) <= old.yield_stress(hardening, 0.0) {
-            return radial_return::Flow::none(*old.state);
+        match self.beyond_yield(law, strain, old) {
+            Some((hardening, trial)) => radial_return::flow(self, hardening, &trial, old),
+            None => radial_return::Flow::none(*old.state),
         }
-        radial_return::flow(self, hardening, &trial, old)
     }
 }
 

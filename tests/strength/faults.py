@@ -39,8 +39,8 @@ f(3, "element/mod.rs", "if let Some(mean) = &self.mean {",
   "if let Some(mean) = self.mean.as_ref().filter(|_| !" + on(3) + ") {",
   "element", "strains at the sampling points (first yield) keep the local dilatation instead of the mean (B-bar)",
   "unit element; verification (yield_load), accuracy")
-f(4, "material/radial_return.rs", "2.0 * multiplier * s\n",
-  x(4, "if i == 5 { multiplier * s } else { 2.0 * multiplier * s }", "2.0 * multiplier * s") + "\n",
+f(4, "material/radial_return.rs", "if i < 3 { 1.0 } else { 2.0 };",
+  x(4, "if i < 3 || i == 5 { 1.0 } else { 2.0 }", "if i < 3 { 1.0 } else { 2.0 }") + ";",
   "material", "plastic shear strain zx (space only) lacks the factor 2 of engineering strain",
   "unit material (solid), solid, verification, invariance (mirrors)")
 f(5, "material/plane_stress.rs", "(start[j] + forgotten[j]) / b[j]",
