@@ -28,6 +28,7 @@ mod moments;
 mod readings;
 mod topology;
 
+use crate::model::images::Images;
 use crate::model::mirror::Mirror;
 use crate::model::{ContactSurface, Model};
 use crate::results::ContactPatch;
@@ -95,6 +96,7 @@ struct Shape<'a> {
     pressure: &'a [f64],
     members: BTreeSet<usize>,
     planes: Vec<Mirror>,
+    images: Images,
     /// Those opposite to one of the planes.
     opposite: Vec<Mirror>,
     /// Distance between the planes of symmetry at its two ends and the direction across them, where
@@ -122,7 +124,8 @@ impl<'a> Shape<'a> {
             places.any(|x| plane.holds(x, surface.facet_length))
         };
         let ends = surface.mirrors.iter().filter(ends_on);
-        let (planes, opposite) = Mirror::at_right_angles(ends.copied());
+        let (planes, opposite) = Images::planes(ends.copied());
+        let images = Images::of(&planes);
         let mut normal = [0.0; 3];
         let mut origin = [0.0; 3];
         let mut area = 0.0;
@@ -136,10 +139,7 @@ impl<'a> Shape<'a> {
                 model.mesh.point(pair.slave),
             );
         }
-        for plane in &planes {
-            origin = along(origin, -plane.beyond(origin), plane.normal());
-            normal = along(normal, -dot(plane.normal(), normal), plane.normal());
-        }
+        let (origin, normal) = (images.mean(origin), images.mean_direction(normal));
         let closes = length(normal) <= CLOSED * area;
         let normal = match &planes[..] {
             _ if !closes => direction(normal),
@@ -167,6 +167,7 @@ impl<'a> Shape<'a> {
             pressure,
             members,
             planes,
+            images,
             opposite,
             endless,
             closes,
@@ -186,7 +187,7 @@ impl<'a> Shape<'a> {
             self.member_faces().for_each(|(_, corners)| {
                 sums.add_parts(&[self.places(corners)], |_| 1.0);
             });
-            let (_, [x, y]) = sums.moments(|_, _| ()).axes();
+            let (_, [x, y]) = sums.moments(&[]).axes();
             let [a, b] = self.axes;
             self.axes = [
                 along(along([0.0; 3], x, a), y, b),
@@ -203,6 +204,11 @@ impl<'a> Shape<'a> {
             }
         }
         self.units = extents.map(|extent| extent / faces);
+        let first = |plane: &Mirror| dot(plane.normal(), self.planes[0].normal()).abs();
+        if self.planes.iter().skip(1).any(|plane| first(plane) > 1e-6) {
+            // A sector that fills the turn has no axis before another.
+            self.units = [0.5 * (self.units[0] + self.units[1]); 2];
+        }
     }
 
     /// The faces at the pairs that touch, by number and corners.
@@ -248,8 +254,17 @@ impl<'a> Shape<'a> {
     fn mirrored(&self, k: usize) -> Vec<[f64; 2]> {
         let pair = &self.model.pairs[k];
         let near = 1e-6 * pair.area.sqrt();
-        let mut images = vec![self.model.mesh.point(pair.slave)];
-        for plane in self.planes.iter().chain(&self.opposite) {
+        let x = self.model.mesh.point(pair.slave);
+        let mut images: Vec<Vector> = Vec::new();
+        for image in self.images.iter().map(|image| image.of(x)) {
+            if images
+                .iter()
+                .all(|other| length(difference(image, *other)) > 2.0 * near)
+            {
+                images.push(image);
+            }
+        }
+        for plane in &self.opposite {
             for i in 0..images.len() {
                 if plane.beyond(images[i]).abs() > near {
                     images.push(plane.image(images[i]));
@@ -262,10 +277,11 @@ impl<'a> Shape<'a> {
     /// How many mirror images make the whole, the model's part included, as far as the scene
     /// declares them where it does; of a strip without end those across its width.
     fn copies(&self) -> f64 {
-        let planes = self.planes.len();
+        let images = self.images.count();
         let copies = match self.model.scene.symmetry {
-            1 => 1 << (planes - usize::from(self.endless.is_some())),
-            declared => (1 << planes).min(declared),
+            1 if self.endless.is_some() => images / 2,
+            1 => images,
+            declared => images.min(declared),
         };
         copies as f64
     }

@@ -4,7 +4,7 @@
 //! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
 use super::patch_fit::{CUBIC, Frame, PatchFit};
-use crate::model::mirror::Reflection;
+use crate::model::images::Reflection;
 use std::collections::HashMap;
 
 /// Least pivot of the scaled normal equations.

@@ -26,7 +26,8 @@ use super::solver::Solver;
 use crate::element::Kernel;
 use crate::material::{Lame, Material, von_mises};
 use crate::model::Model;
-use crate::model::mirror::{Conditions, Mirror, Reflection, mirrors};
+use crate::model::images::Images;
+use crate::model::mirror::{Conditions, mirrors};
 use crate::space::{Space, Vector};
 use crate::substructure::Trailing;
 use cell::Cell;
@@ -418,24 +419,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         });
         let reach = reach(D, self.sampling[i].positions.len());
         let mut samples: Vec<Sample<D>> = Vec::new();
+        let images = Images::of(&mirrors);
         for &i in &own {
-            // The point, its images, and the images of images in planes at right angles.
-            let mut images = vec![(in_space(self.positions[i]), None, 0)];
-            for (number, mirror) in mirrors.iter().enumerate() {
-                let once = mirror.reflection();
-                for k in 0..images.len() {
-                    let (at, before, used): (Vector, Option<Reflection>, usize) = images[k];
-                    let others = mirrors.iter().enumerate().take(number);
-                    let meets_others = |(j, other): (usize, &Mirror)| {
-                        used & (1 << j) != 0 && !other.is_normal_to(mirror)
-                    };
-                    if !others.into_iter().any(meets_others) {
-                        let reflection = before.map_or(once, |before| once.after(&before));
-                        images.push((mirror.image(at), Some(reflection), used | (1 << number)));
-                    }
-                }
-            }
-            for (at, reflection, _) in images {
+            for image in images.iter() {
+                let at = image.of(in_space(self.positions[i]));
+                let reflection = image.reflection();
                 let position: [f64; D] = frame.relative(at);
                 // Images are kept as far as a weight reaches from a point of the element.
                 let far = position.iter().map(|x| x * x).sum::<f64>().sqrt();

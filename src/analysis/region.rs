@@ -1,6 +1,6 @@
 //! The region round a contact in which yielding is looked for.
 
-use crate::model::mirror::Mirror;
+use crate::model::images::Images;
 use crate::model::{ContactSurface, Model};
 use crate::space::{Vector, difference, length};
 
@@ -50,7 +50,8 @@ impl Region {
     pub(super) fn round(model: &Model, contact: &ContactSurface, reach: Reach) -> Self {
         let solid = model.mesh.is_solid();
         let planes = contact.mirrors.iter().filter(|_| solid);
-        let (mirrors, opposite) = Mirror::at_right_angles(planes.copied());
+        let (planes, opposite) = Images::planes(planes.copied());
+        let images = Images::of(&planes);
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut take = |x: Vector| {
             for d in 0..3 {
@@ -61,8 +62,7 @@ impl Region {
         for pair in &model.pairs[contact.range.clone()] {
             for node in pair.nodes() {
                 let x = model.mesh.point(node);
-                take(x);
-                mirrors.iter().for_each(|mirror| take(mirror.image(x)));
+                images.iter().for_each(|image| take(image.of(x)));
             }
         }
         // Between two planes of symmetry there is no end and no width.

@@ -302,7 +302,7 @@ fn progress_is_done_with_the_last_increment_only() {
     let path = format!("{root}/data/scenes/ball_on_half_space.toml");
     let changes = [
         "program.targets=[{ yield = true }, { load_factor = 8.0 }, { load_factor = 0.0 }]",
-        "mesh.cylinder_on_half_plane.resolution=8",
+        "mesh.cylinder_on_half_plane.resolution=5",
     ];
     let scene = Scene::load_with(path, &changes.map(str::to_string)).unwrap();
     let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();

@@ -21,8 +21,10 @@ use crate::space::Space;
 
 /// Parts of a path. Flow goes outwards, so that none turns by more than a fourth of a right angle.
 const PARTS: u32 = 4;
-/// Below this angle, in radians, the implicit rule is as good: half its square is round-off.
-const LEAST_TURN: f64 = 1e-7;
+/// Below this angle, in radians, the implicit rule is as good, and parts of equal angle are lost in
+/// round-off. The rule's stress is off by half the angle across the flow: where a path goes from
+/// one to the other the stress jumps by as much, which must stay far below what equilibrium asks.
+const LEAST_TURN: f64 = 1e-12;
 
 /// What back stresses that fade remember on the path: empty where there are none.
 pub struct Memory<'a, const S: usize> {

@@ -32,11 +32,13 @@ pub struct Mirror {
     offset: f64,
 }
 
-/// One reflection or several after one another: the orthogonal matrix, row by row.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reflection([Vector; 3]);
-
 impl Mirror {
+    /// The plane with a unit normal away from the body.
+    #[cfg(test)]
+    pub(super) fn new(normal: Vector, offset: f64) -> Self {
+        Mirror { normal, offset }
+    }
+
     /// The planes of symmetry on which each contact ends: an end of its surface lies on them, and
     /// they bound all its bodies. A node that is held by itself, so that a body stays in place,
     /// bounds nothing.
@@ -75,24 +77,6 @@ impl Mirror {
         out
     }
 
-    /// Of some planes those at right angles to one another, the first ones first, and those
-    /// opposite to one of these: between the two a contact goes on without end. Mirror images of
-    /// mirror images agree for planes at right angles.
-    pub fn at_right_angles(planes: impl Iterator<Item = Mirror>) -> (Vec<Mirror>, Vec<Mirror>) {
-        let (mut out, mut opposite): (Vec<Mirror>, Vec<Mirror>) = (Vec::new(), Vec::new());
-        for plane in planes {
-            let is_parallel = |other: &Mirror| length_of(cross(plane.normal, other.normal)) < SAME;
-            if out.iter().all(|other| plane.is_normal_to(other)) {
-                out.push(plane);
-            } else if out.iter().any(is_parallel)
-                && opposite.iter().all(|other| plane.is_normal_to(other))
-            {
-                opposite.push(plane);
-            }
-        }
-        (out, opposite)
-    }
-
     /// The plane with its normal away from a contact that ends on it: its pairs lie on one side,
     /// and in a solid an edge of a face lies in it.
     fn at_end(self, model: &Model, contact: &ContactSurface, near: f64) -> Option<Mirror> {
@@ -124,10 +108,7 @@ impl Mirror {
         let ours = |element: &usize| mesh.element_body[*element] == body;
         let elements: Vec<usize> = (0..mesh.n_elements()).filter(ours).collect();
         let off = |node: usize| self.beyond(mesh.point(node));
-        let is_held = |node: usize, along: Vector| {
-            let slot = Conditions::slot(model, node, along);
-            slot.is_some_and(|slot| Conditions::is_held(model, slot))
-        };
+        let is_held = |node: usize, along: Vector| Conditions::hold_node(model, node, along);
         let stays =
             |node: usize| off(node) < -near || (off(node) <= near && is_held(node, self.normal));
         let nodes = |&element: &usize| mesh.nodes(element).iter().map(|&node| node as usize);
@@ -168,16 +149,9 @@ impl Mirror {
         along(x, -2.0 * self.beyond(x), self.normal)
     }
 
-    /// How stresses are reflected: `1 - 2 n n'`.
-    pub fn reflection(&self) -> Reflection {
-        let n = self.normal;
-        let entry = |i: usize, j: usize| f64::from(u8::from(i == j)) - 2.0 * n[i] * n[j];
-        Reflection([0, 1, 2].map(|i| [0, 1, 2].map(|j| entry(i, j))))
-    }
-
-    /// Whether two planes are at right angles.
-    pub fn is_normal_to(&self, other: &Mirror) -> bool {
-        dot(self.normal, other.normal).abs() < SAME
+    /// Whether two planes are parallel.
+    pub fn is_parallel_to(&self, other: &Mirror) -> bool {
+        length_of(cross(self.normal, other.normal)) < SAME
     }
 
     /// Whether a point lies on it, beside facets of a length.
@@ -188,30 +162,6 @@ impl Mirror {
     /// Distance of a point beyond the plane.
     pub fn beyond(&self, x: Vector) -> f64 {
         dot(self.normal, x) - self.offset
-    }
-}
-
-impl Reflection {
-    /// This one after another.
-    pub fn after(&self, other: &Reflection) -> Reflection {
-        Reflection(self.0.map(|row| {
-            let terms = row.iter().zip(&other.0);
-            terms.fold([0.0; 3], |sum, (share, row)| along(sum, *share, *row))
-        }))
-    }
-
-    /// The reflected stress `[xx, yy, zz, xy | yz, zx]`: `R sigma R'`.
-    pub fn of<const S: usize>(&self, stress: [f64; S]) -> [f64; S] {
-        let shear = |k: usize| stress.get(k).copied().unwrap_or(0.0);
-        let tensor = [
-            [stress[0], stress[3], shear(5)],
-            [stress[3], stress[1], shear(4)],
-            [shear(5), shear(4), stress[2]],
-        ];
-        let reflected =
-            |i: usize, j: usize| -> f64 { dot(self.0[i], tensor.map(|row| dot(row, self.0[j]))) };
-        const AXES: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [1, 2], [2, 0]];
-        std::array::from_fn(|k| reflected(AXES[k][0], AXES[k][1]))
     }
 }
 
@@ -287,11 +237,31 @@ impl Conditions {
         self.loaded[node] || slots.any(|slot| self.is_bound(*slot))
     }
 
+    /// Whether a node does not move in a direction: that lies among its held axes, as where planes
+    /// meet at an angle.
+    fn hold_node(model: &Model, node: usize, direction: Vector) -> bool {
+        let slots = model.freedoms.of_node(node).iter();
+        let axes = slots.zip(model.freedoms.local(node));
+        let held = axes.filter(|(slot, _)| Self::is_held(model, **slot));
+        let left = held.fold(direction, |left, (_, axis)| {
+            along(left, -dot(left, axis), axis)
+        });
+        length_of(left) < SAME
+    }
+
     /// Whether all nodes of a side are held along its normal.
-    fn hold(&self, model: &Model, side: &Side, normal: Vector) -> bool {
-        side.nodes.iter().all(|&node| {
-            let slot = Self::slot(model, node, normal);
-            slot.is_some_and(|slot| Self::is_held(model, slot))
+    fn hold(model: &Model, side: &Side, normal: Vector) -> bool {
+        let mut nodes = side.nodes.iter();
+        nodes.all(|&node| Self::hold_node(model, node, normal))
+    }
+
+    /// Whether two sides that are held across keep a node from moving along an axis.
+    fn hold_between(model: &Model, normal: Vector, other: &Side, axis: Vector) -> bool {
+        let plane = |mirror: &Mirror| cross(normal, mirror.normal);
+        other.mirror.as_ref().is_some_and(|mirror| {
+            length_of(plane(mirror)) > SAME
+                && dot(plane(mirror), axis).abs() < SAME
+                && Self::hold(model, other, mirror.normal)
         })
     }
 
@@ -324,7 +294,7 @@ pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Ve
                 && dot(mirror.normal, other.normal) > 0.0
                 && (mirror.offset - other.offset).abs() <= SAME * side.length
         };
-        let is_mirror = conditions.hold(model, side, mirror.normal)
+        let is_mirror = Conditions::hold(model, side, mirror.normal)
             && sides.are_symmetric(side, mirror.normal, model, conditions);
         match out.iter_mut().find(|(other, _)| same(other)) {
             Some((_, all)) => *all &= is_mirror,
@@ -431,45 +401,11 @@ impl Sides {
                 let is_along = length_of(cross(axis, normal)) > SAME;
                 !is_along
                     || !conditions.is_bound(slot)
-                    || at_rim(&|other| conditions.go_on(model, other, slot, axis))
+                    || at_rim(&|other| {
+                        conditions.go_on(model, other, slot, axis)
+                            || Conditions::hold_between(model, normal, other, axis)
+                    })
             })
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_mirror_turns_points_and_shear_round() {
-        let mirror = Mirror {
-            normal: [-1.0, 0.0, 0.0],
-            offset: 0.0,
-        };
-        assert_eq!(mirror.image([2.0, 3.0, 0.0]), [-2.0, 3.0, 0.0]);
-        let stress = [1.0, 2.0, 3.0, 4.0];
-        assert_eq!(mirror.reflection().of(stress), [1.0, 2.0, 3.0, -4.0]);
-        // Across the diagonal x and y change places, and shear keeps its sign.
-        let half = 0.5f64.sqrt();
-        let diagonal = Mirror {
-            normal: [half, -half, 0.0],
-            offset: 0.0,
-        };
-        let [x, y, _] = diagonal.image([2.0, 3.0, 0.0]);
-        assert!((x - 3.0).abs() + (y - 2.0).abs() < 1e-15);
-        let turned = diagonal.reflection().of(stress);
-        for (found, expected) in turned.iter().zip([2.0, 1.0, 3.0, 4.0]) {
-            assert!((found - expected).abs() < 1e-14, "{turned:?}");
-        }
-        // In space, twice: across x and z together zx keeps its sign, the other shears do not.
-        let across_z = Mirror {
-            normal: [0.0, 0.0, 1.0],
-            offset: 0.5,
-        };
-        assert_eq!(across_z.image([1.0, 2.0, 3.0]), [1.0, 2.0, -2.0]);
-        let both = across_z.reflection().after(&mirror.reflection());
-        let stress = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
-        assert_eq!(both.of(stress), [1.0, 2.0, 3.0, -4.0, -5.0, 6.0]);
     }
 }

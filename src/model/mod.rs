@@ -19,6 +19,7 @@ mod given;
 mod gram;
 mod heat;
 mod held;
+pub(crate) mod images;
 mod initial_strain;
 mod loads;
 pub(crate) mod mirror;

@@ -352,7 +352,15 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let path = scene("ball_on_flat_3d");
-    let options = ["--solver", "mumps", "--no-estimate", "--no-report"];
+    let changes = ["mesh.curved_bodies.resolution=4"];
+    let options = [
+        "--solver",
+        "mumps",
+        "--no-estimate",
+        "--no-report",
+        "--set",
+        changes[0],
+    ];
     let start = |more: &[&str]| {
         let mut command = on_ranks(3, &["run", &path, "--out", out.to_str().unwrap()]);
         command.args(options).args(more);
@@ -382,7 +390,7 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
     let summary: Value = serde_json::from_str(&summary).unwrap();
     assert_eq!(summary["incomplete"], "stopped on request");
 
-    let expected = run(0, &path, &[], &folder.path().join("other"));
+    let expected = run(0, &path, &changes, &folder.path().join("other"));
     let mut running = start(&[&json[..], &["--checkpoint=1"]].concat());
     until_increment(&mut running);
     running.kill().unwrap();

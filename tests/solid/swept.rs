@@ -55,6 +55,9 @@ targets = [{{ load_factor = 1.0 }}, {{ load_factor = 2.0 }}, {{ load_factor = 0.
     Scene::parse(&text, "swept").unwrap()
 }
 
+/// Figures of parts against those of the whole: both are iterated to 1e-10 of the forces.
+const SAME: f64 = 1e-7;
+
 fn run(scene: &Scene) -> Results {
     let results = Analysis::new(Model::new(scene).unwrap(), Backend::default())
         .unwrap()
@@ -202,5 +205,26 @@ fn sectors_between_planes_at_an_angle_are_parts_of_the_quarter() {
             }
         }
         assert!(quarter.states[1].plastic_points > 20);
+        let first_yield = |results: &Results| results.first_yield.as_ref().unwrap().load;
+        let ratio = times * first_yield(&part) / first_yield(&quarter);
+        assert!((ratio - 1.0).abs() < SAME, "{angle}: {ratio}");
+        for (a, b) in quarter.states.iter().zip(&part.states).take(2) {
+            let figures = |state: &brinell::results::State| {
+                let patch = &state.patches[0];
+                let [a, b] = patch.semi_axes;
+                [
+                    patch.area,
+                    a,
+                    b,
+                    patch.mean_pressure,
+                    patch.force,
+                    state.half_width,
+                ]
+            };
+            for (x, y) in figures(a).into_iter().zip(figures(b)) {
+                // The unit of the fit's coordinates is a mean over the faces of the part.
+                assert!((x - y).abs() < 3e-3 * x, "{angle} {}: {x} {y}", a.name);
+            }
+        }
     }
 }

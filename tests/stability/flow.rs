@@ -53,6 +53,24 @@ fn uniform_flow_with_every_pair_closed_is_that_of_a_bar() {
     );
 }
 
+/// Flow that hardly turns, as all round a sphere, converges at once on any mesh: where the stress
+/// of a point jumps by what iterations are to come to, increments are cut to nothing.
+#[test]
+fn flow_that_hardly_turns_converges_on_fine_meshes() {
+    let fine = [
+        "mesh.parts.0.element=quad8",
+        "mesh.parts.0.ring.elements=[32,32]",
+    ];
+    for stepping in ["auto", "steps", "events"] {
+        let stepping = format!("program.stepping={stepping}");
+        let results = run_file("thick_sphere", &[fine[0], fine[1], &stepping]);
+        healthy(&results);
+        let (counts, increments) = (&results.counts, results.history.len());
+        assert!(counts.plastic_iterations < 6 * increments, "{counts:?}");
+        assert!(counts.trailing_solves < 30 * increments, "{counts:?}");
+    }
+}
+
 /// Unloading is elastic if the flow rule sees the trial stress of the committed state, not of the
 /// last iterate, and contact is reversible if gaps are total, not summed up. Events are hit within
 /// gamma = 1e-8.

@@ -215,8 +215,8 @@ f(47, "analysis/contact_patch.rs",
   "let bracket = [distance - 0.5 * spacing, distance + " + x(47, "0.5", "1.0") + " * spacing];",
   "analysis", "the edge of contact is never sought in the outer half of the element that it ends in",
   "verification (hertz_line, hertz_point, hertz_line_history), unit analysis")
-f(48, "analysis/contact_area/readings.rs", "(1usize << self.planes.iter().filter(on).count()) as f64",
-  x(48, "1.0", "(1usize << self.planes.iter().filter(on).count()) as f64"),
+f(48, "analysis/contact_area/readings.rs", "stays.filter(|off| *off <= near).count() as f64",
+  x(48, "1.0", "stays.filter(|off| *off <= near).count() as f64"),
   "analysis", "areas of pairs on planes of symmetry are not doubled when a patch in space is read",
   "solid (patches, hertz), unit analysis::contact_area")
 f(49, "analysis/reactions.rs", "forces[node] = along(forces[node], -force, axis);",

@@ -33,21 +33,24 @@ fn ends_as_it_should(name: &str, results: &Results) {
 
 #[test]
 fn every_state_of_every_scene_is_in_balance_whichever_solver_found_it() {
-    are_in_balance(|name| !name.starts_with("hard/"), 25);
+    are_in_balance(|name| !name.starts_with("hard/"), 35);
 }
 
 #[test]
 fn every_state_of_every_hard_scene_is_in_balance_whichever_solver_found_it() {
-    are_in_balance(|name| name.starts_with("hard/"), 25);
+    are_in_balance(|name| name.starts_with("hard/"), 35);
 }
 
-/// All states of the scenes that are chosen, `at_least` so many.
+/// All states of the scenes that are chosen, `at_least` so many by each solver; by the second and
+/// further solvers every other scene, unless the run is to be thorough.
 fn are_in_balance(chosen: impl Fn(&str) -> bool, at_least: usize) {
     let mut states = 0;
-    for name in scenes::all().into_iter().filter(|name| chosen(name)) {
+    let chosen = scenes::all().into_iter().filter(|name| chosen(name));
+    for (k, name) in chosen.enumerate() {
         let overrides = either(scenes::smaller(&name), &[]);
         let mut first = None;
-        for solver in sparse() {
+        let solvers = if k % either(2, 1) == 0 { usize::MAX } else { 1 };
+        for solver in sparse().into_iter().take(solvers) {
             let results = run_with(&name, overrides, solver);
             ends_as_it_should(&name, &results);
             states += in_balance(&name, &results);
@@ -60,7 +63,7 @@ fn are_in_balance(chosen: impl Fn(&str) -> bool, at_least: usize) {
             );
         }
     }
-    assert!(states >= at_least * sparse().len(), "{states}");
+    assert!(states >= at_least, "{states}");
 }
 
 /// The number of states, all of which are in balance.

@@ -216,7 +216,7 @@ mod tests {
     fn end(edge: &Edge) -> f64 {
         let mut sums = Sums::default();
         edge.add_to(&mut sums);
-        sums.moments(|_, _| ()).area
+        sums.moments(&[]).area
     }
 
     /// Where the square of the pressure is a cubic, its own constant carries the force.

@@ -1,6 +1,6 @@
 //! Moments of the part of faces where a level is positive.
 
-use nalgebra::{Matrix2, SymmetricEigen};
+use nalgebra::{Matrix2, SymmetricEigen, Vector2};
 
 /// Pieces along each side of a face that the edge is cut by.
 const PIECES: usize = 4;
@@ -62,13 +62,23 @@ impl Sums {
         }
     }
 
-    /// The moments of the part and its mirror images; `mirrored` changes mean and moments about the
-    /// origin, which lies on the planes.
-    pub(super) fn moments(&self, mirrored: impl Fn(&mut [f64; 2], &mut [[f64; 2]; 2])) -> Moments {
+    /// The moments of the part and its images: `reflections` are theirs, about the origin, which
+    /// lies on the planes of symmetry.
+    pub(super) fn moments(&self, reflections: &[[[f64; 2]; 2]]) -> Moments {
         let per_area = 1.0 / self.area.max(f64::MIN_POSITIVE);
-        let mut center = self.first.map(|first| first * per_area);
-        let mut second = self.second.map(|row| row.map(|m| m * per_area));
-        mirrored(&mut center, &mut second);
+        let first = Vector2::from(self.first) * per_area;
+        let moment = |i: usize, j: usize| self.second[i][j] * per_area;
+        let own = Matrix2::from_fn(moment);
+        let (mut center, mut second) = (first, own);
+        for rows in reflections {
+            let r = Matrix2::from_fn(|i, j| rows[i][j]);
+            center += r * first;
+            second += r * own * r.transpose();
+        }
+        let share = 1.0 / (1.0 + reflections.len() as f64);
+        let (center, second) = (center * share, second * share);
+        let center = [center[0], center[1]];
+        let mut second = [0, 1].map(|i| [0, 1].map(|j| second[(i, j)]));
         for i in 0..2 {
             for j in 0..2 {
                 second[i][j] -= center[i] * center[j];
@@ -167,24 +177,6 @@ fn cut(corners: Triangle, levels: [f64; 3], show: &mut dyn FnMut(Triangle)) {
     for k in 2..inside.len() {
         show([inside[0], inside[k - 1], inside[k]]);
     }
-}
-
-/// The mean of a figure and its image across a line through the origin with normal `n`.
-pub(super) fn mirror(n: [f64; 2], center: &mut [f64; 2], second: &mut [[f64; 2]; 2]) {
-    let off = n[0] * center[0] + n[1] * center[1];
-    for i in 0..2 {
-        center[i] -= off * n[i];
-    }
-    // R = 1 - 2 n n'; the mean of M and R M R.
-    let m = Matrix2::new(second[0][0], second[0][1], second[1][0], second[1][1]);
-    let r = Matrix2::new(
-        1.0 - 2.0 * n[0] * n[0],
-        -2.0 * n[0] * n[1],
-        -2.0 * n[0] * n[1],
-        1.0 - 2.0 * n[1] * n[1],
-    );
-    let mean = 0.5 * (m + r * m * r);
-    *second = [[mean[(0, 0)], mean[(0, 1)]], [mean[(1, 0)], mean[(1, 1)]]];
 }
 
 impl Moments {

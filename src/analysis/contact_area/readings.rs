@@ -2,10 +2,10 @@
 
 use super::edge::{Edge, EdgeFace};
 use super::fit::{Cloud, Known};
-use super::moments::{Moments, Polygon, Sums, mirror};
+use super::moments::{Moments, Polygon, Sums};
 use super::{Shape, middle};
-use crate::model::mirror::Mirror;
-use crate::space::dot;
+use crate::model::images::Reflection;
+use crate::space::{difference, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Layers of pairs at the edge whose pressures are not believed one by one where the contact is
@@ -136,11 +136,12 @@ impl Shape<'_> {
     /// How many images of a pair's area, its own included, lie round it.
     fn copies_of(&self, k: usize) -> f64 {
         let x = self.model.mesh.point(self.model.pairs[k].slave);
-        let on = |plane: &&Mirror| {
-            let off = plane.beyond(x).abs();
-            off <= 1e-6 * self.model.pairs[k].area.sqrt()
-        };
-        (1usize << self.planes.iter().filter(on).count()) as f64
+        let near = 2e-6 * self.model.pairs[k].area.sqrt();
+        let stays = self
+            .images
+            .iter()
+            .map(|image| length(difference(image.of(x), x)));
+        stays.filter(|off| *off <= near).count() as f64
     }
 
     /// The patch halfway between pairs that touch and pairs that do not.
@@ -161,12 +162,16 @@ impl Shape<'_> {
     }
 
     fn with_images(&self, sums: &Sums) -> Moments {
-        sums.moments(|center, second| {
-            for plane in &self.planes {
-                let n = self.axes.map(|axis| dot(axis, plane.normal()));
-                mirror(n, center, second);
-            }
-        })
+        let reflections = self.images.iter().filter_map(|image| image.reflection());
+        let in_plane = |reflection: Reflection| {
+            [0, 1].map(|i| {
+                [0, 1].map(|j| {
+                    let entry = dot(self.axes[i], reflection.of_direction(self.axes[j]));
+                    entry * self.units[j] / self.units[i]
+                })
+            })
+        };
+        sums.moments(&reflections.map(in_plane).collect::<Vec<_>>())
     }
 
     /// Pieces with too few pairs of their own beside a pair of the patch, with the pairs near.

@@ -189,6 +189,35 @@ fn the_end_of_a_path_moves_smoothly() {
     }
 }
 
+/// So it does where flow hardly turns, from no angle at all to one of a thousandth: nowhere does
+/// the stress change by more than the strain's change asks for. A jump of 1e-9 of the yield stress
+/// is more than iterations to 1e-10 can come past.
+#[test]
+fn the_stress_does_not_jump_where_flow_begins_to_turn() {
+    let mut seed = 5;
+    for m in each_kind(material(Space::Solid, 0.3, Hardening::linear(1.0, 0.0))) {
+        let (point, [begin, _]) = turned::<6>(&m, 0.0, &mut seed);
+        let change: [f64; 6] = std::array::from_fn(|_| random(&mut seed));
+        let stress_at = |angle: f64| {
+            let there = std::array::from_fn(|k| 1.5 * begin[k] + 0.01 * angle * change[k]);
+            let mut point = point.clone();
+            let update = point.follow(&m, [&begin, &there]);
+            m.lame().stress(&there, &update.state.strain)
+        };
+        let ratio: f64 = 1.02;
+        let angles = (0..1500).map(|k| 1e-16 * ratio.powi(k));
+        let mut before = (0.0, stress_at(0.0));
+        for angle in angles.take_while(|angle| *angle < 1e-3) {
+            let here = (angle, stress_at(angle));
+            let strain = 0.01 * (here.0 - before.0) * von_mises(&change);
+            let bound = 4.0 * m.youngs_modulus * strain + 1e-11;
+            let jump = distance(&here.1, &before.1);
+            assert!(jump <= bound, "{angle:e}: {jump:e} {bound:e}");
+            before = here;
+        }
+    }
+}
+
 /// Mean errors of the tangent against differences of the path's own end, and of that of one step,
 /// over the elastic stiffness: paths go on as before but for a random part.
 fn tangent_errors(size: f64, randomness: f64) -> [f64; 2] {
