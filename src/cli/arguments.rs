@@ -91,6 +91,12 @@ pub(super) enum Command {
         after_help = "Example: brinell convert press.inp --out press.toml && brinell run press.toml"
     )]
     Convert(super::convert::ConvertArguments),
+    /// Run a deck in the place of CalculiX' program ccx, for FreeCAD, PrePoMax and others
+    ///
+    /// Reads NAME.inp, leaves NAME.frd, NAME.dat, NAME.sta and NAME.cvg beside it, prints to
+    /// standard output alone. Exit code 201 where there is an error, as of ccx.
+    #[command(after_help = "Example: brinell ccx -i press")]
+    Ccx(super::ccx::CcxArguments),
     /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or
     /// fail
     ///

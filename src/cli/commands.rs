@@ -46,6 +46,8 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
         Command::View(view) => view::run(view),
         Command::Completions(completions) => completions::run(completions),
         Command::Man => completions::man(),
+        // It has exit codes of its own.
+        Command::Ccx(_) => Ok(()),
     }
 }
 

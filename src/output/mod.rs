@@ -41,6 +41,7 @@ pub(crate) mod ending;
 mod fields;
 mod frd;
 mod history;
+mod job;
 pub(crate) mod labels;
 mod named;
 mod read;
@@ -68,6 +69,7 @@ pub use claim::{Claim, mark_stale, stale};
 pub use dat::{write_dat, write_prints};
 pub use ending::ending;
 pub use frd::write_frd;
+pub use job::JobFiles;
 pub use labels::Labels;
 pub use read::{Recorded, read};
 #[cfg(feature = "report")]

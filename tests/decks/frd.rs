@@ -2,6 +2,7 @@
 
 use super::{deck_path, folder};
 use crate::support::frd::{Frd, difference, largest};
+use crate::support::{limit, tools};
 use brinell::analysis::Analysis;
 use brinell::deck::{self, Options};
 use brinell::linalg::Backend;
@@ -10,6 +11,8 @@ use brinell::output;
 use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::Scene;
+use std::path::Path;
+use std::process::Command;
 
 /// CalculiX carries stresses to the nodes by factors of four digits.
 const ROUNDED: f64 = 5e-5;
@@ -153,6 +156,74 @@ fn files_are_those_that_calculix_wrote() {
         let wrong = compare(case, [&ours, &stored]);
         assert!(wrong.is_empty(), "{wrong:#?}");
     }
+}
+
+/// Runs a deck in a folder; the text of a file that this leaves.
+fn job(program: &mut Command, work: &Path, name: &str) -> impl Fn(&str) -> String + use<> {
+    let output = limit::output(program.args(["-i", name]).current_dir(work));
+    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(output.status.success(), "{name}: {printed}");
+    assert!(output.stderr.is_empty(), "{name}: {output:?}");
+    assert!(printed.contains("Job finished"), "{name}: {printed}");
+    let path = work.join(name);
+    move |ending| std::fs::read_to_string(path.with_extension(ending)).unwrap()
+}
+
+/// Lines of a `.dat` or `.sta` file, their lengths, with a cross for each number; and the numbers.
+fn lines(text: &str) -> (Vec<(usize, String)>, Vec<f64>) {
+    let mut numbers = Vec::new();
+    let shown = text.lines().map(|line| {
+        let words = line.split_whitespace().map(|word| match word.parse() {
+            Ok(number) if word.contains('.') => {
+                numbers.push(number);
+                "x"
+            }
+            _ => word,
+        });
+        (line.len(), words.collect::<Vec<_>>().join(" "))
+    });
+    let shown = shown.collect();
+    (shown, numbers)
+}
+
+/// `brinell ccx` beside `ccx` for the same decks.
+#[test]
+fn jobs_leave_what_those_of_calculix_leave() {
+    // Debian: calculix-ccx.
+    if !tools::has("ccx") {
+        return;
+    }
+    let mut wrong = Vec::new();
+    for case in &CASES {
+        let [ours, theirs] = [0, 1].map(|_| tempfile::tempdir().unwrap());
+        for work in [&ours, &theirs] {
+            let path = work.path().join(case.name).with_extension("inp");
+            std::fs::write(path, asking(case.name)).unwrap();
+        }
+        let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let of_brinell = job(brinell.arg("ccx"), ours.path(), case.name);
+        let of_ccx = job(&mut Command::new("ccx"), theirs.path(), case.name);
+        let files = [&of_brinell("frd"), &of_ccx("frd")].map(|text| Frd::parse(text));
+        wrong.extend(compare(case, [&files[0], &files[1]]));
+        if files[1].blocks.is_empty() {
+            wrong.push(format!("{}: no results", case.name));
+        }
+        let [ours, theirs] = [&of_brinell("dat"), &of_ccx("dat")].map(|text| lines(text));
+        if ours.0 != theirs.0 {
+            let both = ours.0.iter().zip(&theirs.0);
+            let first = both.into_iter().find(|(a, b)| a != b);
+            wrong.push(format!("{}.dat: {first:?}", case.name));
+        }
+        let [ours, theirs] = [&of_brinell("sta"), &of_ccx("sta")].map(|text| lines(text));
+        // What is not written has no row.
+        let is_longer = theirs.0.len() > ours.0.len();
+        if !(is_longer && case.name == "plastic")
+            && (ours.0.len() != theirs.0.len() || ours.1 != theirs.1)
+        {
+            wrong.push(format!("{}.sta: {ours:?} {theirs:?}", case.name));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 /// A scene that asks for nothing writes the usual results where it is told to; what is read is what

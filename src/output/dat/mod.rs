@@ -20,6 +20,8 @@ use std::path::Path;
 use std::sync::Arc;
 use tables::Tables;
 
+pub(super) use tables::fortran;
+
 /// Writes tables of all sets, for all states of a run that have fields, into a file: displacements
 /// and forces of node sets and surfaces, stresses of bodies.
 ///

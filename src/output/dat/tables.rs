@@ -249,7 +249,7 @@ fn scientific(value: f64) -> String {
 }
 
 /// Seven digits behind a zero, with an exponent of two, as FORTRAN prints them.
-fn fortran(value: f64) -> String {
+pub(in crate::output) fn fortran(value: f64) -> String {
     let text = format!("{value:.6E}");
     let Some((digits, exponent)) = text.split_once('E') else {
         return text;
