@@ -291,6 +291,8 @@ pub(super) struct OutputRequest {
     pub(super) items: Vec<ResultItem>,
     /// The set of nodes or elements; all where none is named.
     pub(super) set: Option<String>,
+    /// Slave and master surface of a contact.
+    pub(super) contact: Option<[String; 2]>,
     pub(super) totals: Totals,
     /// When, where it says so.
     pub(super) schedule: Option<Schedule>,

@@ -32,13 +32,18 @@ impl<'a> Slaves<'a> {
         of_pair.gap
     }
 
+    /// Whether a node is on the first surface of a contact.
+    pub(super) fn is_on_first(&self, node: usize, contact: usize) -> bool {
+        let first = self.firsts.get(contact);
+        first.is_some_and(|first| first.binary_search(&node).is_ok())
+    }
+
     /// The node of a pair: the one of the first surface where two nodes face each other, the slave
     /// of the pair otherwise. A point on an axis of revolution that is no pair has none.
     pub(super) fn node(&self, of_pair: &PairState) -> Option<usize> {
         let pair = self.model.pairs.get(of_pair.pair)?;
-        let first = self.firsts.get(of_pair.contact);
-        let is_of_first = |node: &usize| first.is_some_and(|f| f.binary_search(node).is_ok());
-        Some(pair.faced().filter(is_of_first).unwrap_or(pair.slave))
+        let is_on_first = |node: &usize| self.is_on_first(*node, of_pair.contact);
+        Some(pair.faced().filter(is_on_first).unwrap_or(pair.slave))
     }
 }
 

@@ -55,7 +55,9 @@ pub use program::{
 };
 pub(crate) use read::closest;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
-pub use requests::{FileRequest, Moment, NamedSet, Print, Requests, ResultItem, Totals};
+pub use requests::{
+    ContactForce, FileRequest, Moment, NamedSet, Print, Requests, ResultItem, Totals,
+};
 pub use schema::schema;
 pub(crate) use tensile_test::beyond_yield;
 pub use units::Units;

@@ -49,7 +49,8 @@ pub struct FileRequest {
 pub struct Print {
     /// Which result.
     pub item: ResultItem,
-    /// The nodes of displacements and forces, the elements of the other results.
+    /// The nodes of displacements and forces, the elements of the other results; of the force of a
+    /// contact the number of the contact, from 0.
     pub set: NamedSet,
     /// Whether the values are added up.
     pub totals: Totals,
@@ -97,6 +98,19 @@ pub enum ResultItem {
     StressJump,
     /// Volumes of elements (`EVOL`), in tables only.
     Volume,
+    /// Force of a contact (`CF`, `CFN`, `CFS`), in tables only.
+    ContactForce(ContactForce),
+}
+
+/// A part of the force of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ContactForce {
+    /// All of it (`CF`).
+    Total,
+    /// Across the surfaces (`CFN`).
+    Normal,
+    /// Along the surfaces (`CFS`).
+    Shear,
 }
 
 impl ResultItem {

@@ -1,12 +1,13 @@
 //! Which results each step asks for.
 
 use super::super::Deck;
-use super::super::data::{Account, Group, OutputRequest, Schedule, Step, Target};
+use super::super::data::{Account, ContactPair, Group, OutputRequest, Schedule, Step, Target};
 use super::super::sets::What;
 use super::Options;
 use crate::error::Result;
 use crate::scene::{FileRequest, Moment, NamedSet, Print, Requests, ResultItem};
 use crate::space::Space;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Times closer to an end of a step than this share of it are that end.
@@ -51,6 +52,11 @@ impl Deck {
             thickness: is_plane.then_some(thickness),
             ..Requests::default()
         };
+        let mut sets = RequestedSets {
+            deck: self,
+            account,
+            known: BTreeMap::new(),
+        };
         let mut in_force = InForce {
             requests: Vec::new(),
             schedule: Schedule::Every(1),
@@ -72,7 +78,7 @@ impl Deck {
                     ..Moment::default()
                 };
                 for request in &in_force.requests {
-                    self.add_request(request, &mut moment, account)?;
+                    add(request, sets.of(request)?, &mut moment);
                 }
                 moment.file.sort_by_key(|request| request.item);
                 out.moments.push(moment);
@@ -132,82 +138,126 @@ impl Deck {
         out.sort();
         out.into_iter().map(|(_, name)| name.to_string()).collect()
     }
+}
 
-    fn add_request(
-        &self,
-        request: &OutputRequest,
-        moment: &mut Moment,
-        account: &mut Account,
-    ) -> Result<()> {
-        let Some(set) = self.named_set(request, account)? else {
-            return Ok(());
-        };
-        for &item in &request.items {
-            match (&set, request.is_print) {
-                (_, false) => {
-                    moment.file.retain(|known| known.item != item);
-                    let nodes = set.clone();
-                    moment.file.push(FileRequest { item, nodes });
-                }
-                // Gap and pressure are one table each, whichever of them is named.
-                (Some(_), true)
-                    if item == ResultItem::Contact
-                        && moment.prints.iter().any(|print| print.item == item) => {}
-                (Some(set), true) => moment.prints.push(Print {
-                    item,
-                    set: set.clone(),
-                    totals: request.totals,
-                }),
-                (None, true) => {}
+/// Adds a request to those of a moment.
+fn add(request: &OutputRequest, on: On, moment: &mut Moment) {
+    for &item in &request.items {
+        match (&on, request.is_print) {
+            (On::Nothing, _) | (On::All, true) => {}
+            (_, false) => {
+                moment.file.retain(|known| known.item != item);
+                let nodes = on.clone().set();
+                moment.file.push(FileRequest { item, nodes });
             }
+            // Gap and pressure are one table each, whichever of them is named.
+            (On::Set(_), true)
+                if item == ResultItem::Contact
+                    && moment.prints.iter().any(|print| print.item == item) => {}
+            (On::Set(set), true) => moment.prints.push(Print {
+                item,
+                set: set.clone(),
+                totals: request.totals,
+            }),
         }
-        Ok(())
     }
+}
 
-    /// The set that a request is for: `Some(None)` where it is for all, `None` where it is for a
-    /// set that there is not, which is a remark.
-    fn named_set(
-        &self,
-        request: &OutputRequest,
-        account: &mut Account,
-    ) -> Result<Option<Option<NamedSet>>> {
-        let (what, keyword, sets) = match (request.group, request.is_print) {
-            (Group::Element, true) => (What::Elements, "EL PRINT", &self.sets.elements),
-            (Group::Element, false) => (What::Nodes, "EL FILE", &self.sets.nodes),
-            (Group::Node, true) => (What::Nodes, "NODE PRINT", &self.sets.nodes),
-            (Group::Node, false) => (What::Nodes, "NODE FILE", &self.sets.nodes),
-            (Group::Contact, true) => (What::Nodes, "CONTACT PRINT", &self.sets.nodes),
-            (Group::Contact, false) => (What::Nodes, "CONTACT FILE", &self.sets.nodes),
+/// What a request is for.
+#[derive(Debug, Clone)]
+enum On {
+    All,
+    /// A set that there is not.
+    Nothing,
+    Set(NamedSet),
+}
+
+impl On {
+    fn set(self) -> Option<NamedSet> {
+        match self {
+            On::Set(set) => Some(set),
+            On::All | On::Nothing => None,
+        }
+    }
+}
+
+/// The sets that requests are for, each found once.
+struct RequestedSets<'d, 'a> {
+    deck: &'d Deck,
+    account: &'a mut Account,
+    /// By whether they are of elements, and name in capitals.
+    known: BTreeMap<(bool, String), NamedSet>,
+}
+
+impl RequestedSets<'_, '_> {
+    /// The set of a request. One that there is not is a remark.
+    fn of(&mut self, request: &OutputRequest) -> Result<On> {
+        let deck = self.deck;
+        let keyword = match (request.group, request.is_print) {
+            (Group::Element, true) => "EL PRINT",
+            (Group::Element, false) => "EL FILE",
+            (Group::Node, true) => "NODE PRINT",
+            (Group::Node, false) => "NODE FILE",
+            (Group::Contact, true) => "CONTACT PRINT",
+            (Group::Contact, false) => "CONTACT FILE",
         };
-        let mut remark = |text: &str| {
-            let list = &mut account.ignored;
-            Account::add(list, &self.files, request.place, keyword, text);
-        };
-        let Some(name) = &request.set else {
-            if (request.group, request.is_print) == (Group::Contact, true) {
-                let (name, labels) = (String::new(), Arc::default());
-                return Ok(Some(Some(NamedSet { name, labels })));
+        let is_of_elements = keyword == "EL PRINT";
+        let Some(name) = request.set.as_ref().map(|name| name.to_uppercase()) else {
+            if keyword == "CONTACT PRINT" {
+                return Ok(On::Set(self.contact(request)));
             }
             if request.is_print {
-                remark("no set is named: nothing is printed for it");
+                self.remark(
+                    request,
+                    keyword,
+                    "no set is named: nothing is printed for it",
+                );
             }
-            return Ok(Some(None));
+            return Ok(On::All);
         };
-        let Some(written) = sets.written(name) else {
-            remark(&format!(
-                "there is no set {name}: nothing is written for it"
-            ));
-            return Ok(None);
+        let (what, sets) = match is_of_elements {
+            true => (What::Elements, &deck.sets.elements),
+            false => (What::Nodes, &deck.sets.nodes),
         };
+        if sets.get(&name).is_none() {
+            let text = format!("there is no set {name}: nothing is written for it");
+            self.remark(request, keyword, &text);
+            return Ok(On::Nothing);
+        }
+        let key = (is_of_elements, name.clone());
+        if let Some(set) = self.known.get(&key) {
+            return Ok(On::Set(set.clone()));
+        }
         let target = Target::Set(name.clone());
-        let found = self.indices(what, &target, (request.place, keyword))?;
+        let found = deck.indices(what, &target, (request.place, keyword))?;
         let label = |index: &u32| match what {
-            What::Nodes => self.node_label(*index as usize),
-            What::Elements => self.element_label(*index as usize),
+            What::Nodes => deck.node_label(*index as usize),
+            What::Elements => deck.element_label(*index as usize),
         };
-        Ok(Some(Some(NamedSet {
-            name: written.to_uppercase(),
-            labels: Arc::new(found.iter().map(label).collect()),
-        })))
+        let labels = Arc::new(found.iter().map(label).collect());
+        let set = NamedSet { name, labels };
+        self.known.insert(key, set.clone());
+        Ok(On::Set(set))
+    }
+
+    /// The contact between the surfaces that a request names, by its number; none where it names
+    /// none that there is.
+    fn contact(&self, request: &OutputRequest) -> NamedSet {
+        let [slave, master] = request.contact.clone().unwrap_or_default();
+        let pairs = &self.deck.properties.contacts;
+        let is_it = |pair: &ContactPair| {
+            pair.slave.eq_ignore_ascii_case(&slave) && pair.master.eq_ignore_ascii_case(&master)
+        };
+        let number = pairs.iter().position(is_it);
+        let [slave, master] = [slave, master].map(|name| name.to_uppercase());
+        NamedSet {
+            name: format!("slave set {slave}, master set {master}"),
+            labels: Arc::new(number.iter().map(|&number| number as u64).collect()),
+        }
+    }
+
+    fn remark(&mut self, request: &OutputRequest, keyword: &str, text: &str) {
+        let list = &mut self.account.ignored;
+        Account::add(list, &self.deck.files, request.place, keyword, text);
     }
 }

@@ -4,7 +4,7 @@ use super::{Reader, fields};
 use crate::deck::data::{Group, OutputRequest, Schedule, TimePoints};
 use crate::deck::keyword::{Keyword, plain};
 use crate::error::Result;
-use crate::scene::{ResultItem, Totals};
+use crate::scene::{ContactForce, ResultItem, Totals};
 
 /// Most times that a line may generate.
 const MOST_TIMES: f64 = 1000.0;
@@ -63,6 +63,8 @@ impl Reader<'_> {
             is_print,
             items: Vec::new(),
             set: keyword.get(key).map(str::to_string),
+            contact: (keyword.get("SLAVE").zip(keyword.get("MASTER")))
+                .map(|(slave, master)| [slave, master].map(str::to_string)),
             totals,
             schedule: schedule(keyword),
             place: keyword.place,
@@ -132,6 +134,9 @@ fn item(word: &str) -> Option<ResultItem> {
         "CDIS" | "CSTR" | "CDISP" | "CSTRESS" => ResultItem::Contact,
         "ZZS" => ResultItem::RecoveredStress,
         "ERR" => ResultItem::StressJump,
+        "CF" => ResultItem::ContactForce(ContactForce::Total),
+        "CFN" => ResultItem::ContactForce(ContactForce::Normal),
+        "CFS" => ResultItem::ContactForce(ContactForce::Shear),
         "EVOL" => ResultItem::Volume,
         _ => return None,
     })

@@ -8,6 +8,7 @@
 //! integration point 0. Shear strains are those of the tensor.
 
 mod points;
+mod statistics;
 mod tables;
 
 use super::atomic;

@@ -12,7 +12,8 @@ use std::io::{self, Write};
 
 /// Writes tables of a model.
 pub(super) struct Tables<'a> {
-    model: &'a Model,
+    pub(super) model: &'a Model,
+    pub(super) slaves: Slaves<'a>,
     nodes: LabelIndex,
     elements: LabelIndex,
 }
@@ -23,6 +24,7 @@ impl<'a> Tables<'a> {
         let index = |labels: Vec<u64>| LabelIndex::new(&labels).unwrap_or_default();
         Tables {
             model,
+            slaves: Slaves::new(model),
             nodes: index((0..mesh.n_nodes()).map(|n| mesh.node_label(n)).collect()),
             elements: index(
                 (0..mesh.n_elements())
@@ -60,6 +62,13 @@ impl<'a> Tables<'a> {
                 }
                 Ok(())
             }
+            ResultItem::ContactForce(of) => match print.set.labels.first() {
+                Some(&contact) => {
+                    let contact = (of, contact as usize, &*print.set.name);
+                    self.statistics(out, contact, (state, fields), time)
+                }
+                None => Ok(()),
+            },
             ResultItem::Contact => self.of_contact(out, state, time),
             ResultItem::PlasticStrain if !self.model.may_yield.contains(&true) => Ok(()),
             ResultItem::Volume => self.volumes(out, print, &of_set),
@@ -79,7 +88,7 @@ impl<'a> Tables<'a> {
         labels.filter_map(|&label| Some((label, self.elements.get(label)? as usize)))
     }
 
-    fn vector(&self, node: usize, values: &[f64]) -> [f64; 3] {
+    pub(super) fn vector(&self, node: usize, values: &[f64]) -> [f64; 3] {
         let d = self.model.mesh.dimension;
         let own = &values[d * node..d * (node + 1)];
         std::array::from_fn(|k| own.get(k).copied().unwrap_or(0.0))
@@ -111,7 +120,7 @@ impl<'a> Tables<'a> {
 
     /// Gap and pressure of the pairs that press.
     fn of_contact(&self, out: &mut impl Write, state: &State, time: f64) -> io::Result<()> {
-        let (time, slaves) = (fortran(time), Slaves::new(self.model));
+        let (time, slaves) = (fortran(time), &self.slaves);
         for (what, normal) in [
             ("relative contact displacement", "normal"),
             ("contact stress", "press"),
@@ -229,7 +238,7 @@ impl<'a> Tables<'a> {
     }
 }
 
-fn row(values: &[f64]) -> String {
+pub(super) fn row(values: &[f64]) -> String {
     let each = values
         .iter()
         .map(|&value| format!(" {:>13}", scientific(value)));
