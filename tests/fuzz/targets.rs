@@ -229,7 +229,7 @@ fn deck(input: &[u8]) -> brinell::Result<()> {
     let mesh = inp::mesh(&deck).map_err(in_place);
     let options = Options {
         small_strain: true,
-        ..Options::default()
+        increments: true,
     };
     let conversion = deck.convert(options).map_err(in_place)?;
     let scene = conversion.finish("fuzz.inp", &[])?;

@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 /// Times closer to an end of a step than this share of it are that end.
 const CLOSE: f64 = 1e-9;
-/// Most time points of a step that are taken over.
-const MOST_INSTANTS: usize = 1000;
+/// Most increments that results may be asked for.
+const MOST_MOMENTS: usize = 10_000;
 
 /// The requests that hold in a step. Those of a group stay until a step asks for the group anew.
 struct InForce<'d> {
@@ -83,6 +83,12 @@ impl Deck {
                 moment.file.sort_by_key(|request| request.item);
                 out.moments.push(moment);
             }
+            if options.increments && out.moments.len() > MOST_MOMENTS {
+                let message = format!(
+                    "results at more than {MOST_MOMENTS} increments are asked for; give a FREQUENCY"
+                );
+                return Err(self.error(step.place, "STEP", message));
+            }
             start = end;
         }
         let needs_points = |moment: &Moment| {
@@ -121,7 +127,6 @@ impl Deck {
                 });
                 let least = CLOSE * step.period;
                 let within = times.filter(|time| (least..step.period - least).contains(time));
-                let within = within.take(MOST_INSTANTS);
                 out.extend((1..).zip(within.chain([step.period])));
             }
         }

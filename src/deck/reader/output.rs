@@ -6,8 +6,8 @@ use crate::deck::keyword::{Keyword, plain};
 use crate::error::Result;
 use crate::scene::{ContactForce, ResultItem, Totals};
 
-/// Most times that a line may generate.
-const MOST_TIMES: f64 = 1000.0;
+/// Most times of a keyword.
+const MOST_TIMES: usize = 10_000;
 
 impl Reader<'_> {
     /// `*OUTPUT` of Abaqus: what follows is for the field file or for histories.
@@ -30,10 +30,15 @@ impl Reader<'_> {
             }
             match values[..] {
                 [from, to, by] if keyword.has("GENERATE") && by > 0.0 => {
-                    let n = ((to - from) / by + 1e-9).floor().clamp(-1.0, MOST_TIMES);
+                    let most = MOST_TIMES as f64;
+                    let n = ((to - from) / by + 1e-9).floor().clamp(-1.0, most);
                     times.extend((0..=n as i64).map(|k| from + by * k as f64));
                 }
                 _ => times.extend(values),
+            }
+            if times.len() > MOST_TIMES {
+                let message = format!("more than {MOST_TIMES} times; give fewer");
+                return Err(row.place.error(message));
             }
         }
         times.sort_by(f64::total_cmp);
