@@ -294,8 +294,6 @@ pub(super) struct OutputRequest {
     /// Slave and master surface of a contact.
     pub(super) contact: Option<[String; 2]>,
     pub(super) totals: Totals,
-    /// When, where it says so.
-    pub(super) schedule: Option<Schedule>,
     pub(super) place: Place,
 }
 
@@ -328,6 +326,8 @@ pub(super) struct Step {
     pub(super) conditions: Vec<Condition>,
     pub(super) contact_changes: Vec<ContactChange>,
     pub(super) outputs: Vec<OutputRequest>,
+    /// When they are asked for, where it says so.
+    pub(super) schedule: Option<Schedule>,
     /// Where it is said that the conditions of each kind replace those of the steps before.
     pub(super) renewed: [Option<Place>; Kind::COUNT],
 }

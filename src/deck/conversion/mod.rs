@@ -31,8 +31,8 @@ pub struct Options {
     /// Steps with `NLGEOM` are computed with small strains and displacements, instead of refused.
     pub small_strain: bool,
     /// Besides at its end, a step leaves a state at each increment that it asks results for: at
-    /// those of `DIRECT` and at `TIME POINTS`. Where nothing yields and nothing touches a step has
-    /// one increment, as in CalculiX.
+    /// those of a fixed size and at `TIME POINTS`. Where nothing yields and nothing touches a step
+    /// has one increment, as in CalculiX.
     pub increments: bool,
 }
 

@@ -18,21 +18,20 @@ const MOST_MOMENTS: usize = 10_000;
 /// The requests that hold in a step. Those of a group stay until a step asks for the group anew.
 struct InForce<'d> {
     requests: Vec<&'d OutputRequest>,
-    /// The last one that was named holds for all requests.
+    /// For all requests.
     schedule: Schedule,
 }
 
 impl<'d> InForce<'d> {
-    fn renew(&mut self, of_step: &'d [OutputRequest]) {
+    fn renew(&mut self, step: &'d Step) {
+        let of_step = &step.outputs;
         let alike =
             |a: &OutputRequest, b: &OutputRequest| (a.group, a.is_print) == (b.group, b.is_print);
         self.requests
             .retain(|old| !of_step.iter().any(|new| alike(old, new)));
         self.requests.extend(of_step);
-        let from_last = of_step.iter().rev();
-        let mut named = from_last.filter_map(|request| request.schedule.as_ref());
-        if let Some(last) = named.next() {
-            self.schedule = last.clone();
+        if let Some(schedule) = &step.schedule {
+            self.schedule = schedule.clone();
         }
     }
 }
@@ -63,7 +62,7 @@ impl Deck {
         };
         let mut start = 0.0;
         for (number, (step, end)) in self.program.steps.iter().zip(self.step_ends()).enumerate() {
-            in_force.renew(&step.outputs);
+            in_force.renew(step);
             let instants = match options.increments && self.is_nonlinear() {
                 true => self.instants(step, &in_force.schedule, start),
                 false => vec![(1, step.period)],
@@ -111,13 +110,15 @@ impl Deck {
         let mut out = Vec::new();
         match schedule {
             Schedule::Every(every) => {
-                if let Some(time) = step.fixed {
-                    let all = (1..step.increments).filter(|k| k.is_multiple_of(*every));
-                    out.extend(all.map(|k| (k, time * k as f64)));
-                    out.push((step.increments, step.period));
-                } else {
-                    out.push((1, step.period));
-                }
+                let Some(time) = step.fixed else {
+                    return vec![(1, step.period)];
+                };
+                // A share of the time may be rounded.
+                let n = (step.period / time - 1e-6).ceil().max(1.0) as usize;
+                let every = if *every == 0 { n } else { *every };
+                let within = (every..n).step_by(every).take(MOST_MOMENTS);
+                out.extend(within.map(|k| (k, time * k as f64)));
+                out.push((n, step.period));
             }
             Schedule::At(name) => {
                 let points = self.program.time_points.get(name).into_iter();

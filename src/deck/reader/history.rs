@@ -146,7 +146,16 @@ impl Reader<'_> {
             if first > 0.0 {
                 // A share of the time may be rounded.
                 increments = (period / first - 1e-6).ceil().clamp(1.0, MOST_INCREMENTS);
-                fixed = keyword.has("DIRECT").then_some(first);
+                // Increments that may not grow are fixed, too.
+                let largest = match row.is_at_end() {
+                    true => 0.0,
+                    false => {
+                        row.number_or("the least increment", 0.0)?;
+                        row.number_or("the largest increment", 0.0)?
+                    }
+                };
+                let is_fixed = keyword.has("DIRECT") || largest == first;
+                fixed = is_fixed.then_some(first);
             }
         }
         self.deck.program.steps[step].period = period;

@@ -10,10 +10,22 @@ use crate::scene::{ContactForce, ResultItem, Totals};
 const MOST_TIMES: usize = 10_000;
 
 impl Reader<'_> {
-    /// `*OUTPUT` of Abaqus: what follows is for the field file or for histories.
+    /// `*OUTPUT`: how often; in Abaqus, whether what follows is for the field file or for
+    /// histories.
     pub(super) fn output(&mut self, keyword: &Keyword) -> Result<()> {
         self.is_history = keyword.has("HISTORY");
+        self.schedule(keyword);
         self.skip()
+    }
+
+    /// How often results are asked for: the last that a step says holds for all of them.
+    fn schedule(&mut self, keyword: &Keyword) {
+        let every = || keyword.get("FREQUENCY")?.parse().ok().map(Schedule::Every);
+        let points = keyword.get("TIMEPOINTS");
+        let named = points.map(|name| Schedule::At(name.to_string()));
+        if let Some((step, schedule)) = self.current_step().zip(named.or_else(every)) {
+            self.deck.program.steps[step].schedule = Some(schedule);
+        }
     }
 
     /// Times at which results are asked for; from, to, by steps of with `GENERATE`.
@@ -71,7 +83,6 @@ impl Reader<'_> {
             contact: (keyword.get("SLAVE").zip(keyword.get("MASTER")))
                 .map(|(slave, master)| [slave, master].map(str::to_string)),
             totals,
-            schedule: schedule(keyword),
             place: keyword.place,
         };
         let is_3d = |value: &str| value.eq_ignore_ascii_case("3D");
@@ -80,6 +91,7 @@ impl Reader<'_> {
             self.ignore(keyword, keyword.place, why);
         }
         self.result_items(keyword, &mut request)?;
+        self.schedule(keyword);
         match self.current_step() {
             _ if self.is_history && !is_print => {
                 let why = "histories: tables of whole sets are written (--dat)";
@@ -118,14 +130,6 @@ impl Reader<'_> {
         }
         Ok(())
     }
-}
-
-fn schedule(keyword: &Keyword) -> Option<Schedule> {
-    if let Some(name) = keyword.get("TIMEPOINTS") {
-        return Some(Schedule::At(name.to_string()));
-    }
-    let every = keyword.get("FREQUENCY")?.parse().ok()?;
-    Some(Schedule::Every(every))
 }
 
 /// The result of a name that CalculiX or Abaqus has for it.

@@ -107,15 +107,18 @@ fn increments_are_those_that_results_are_asked_for() {
         "; 0.1, 3.; *EL FILE, TIME POINTS=AT; S\n",
         "; 0.1, 1.; *EL FILE, TIME POINTS=RUN; S\n",
     ];
-    let instants = |increments: bool| -> Vec<(usize, usize, f64)> {
-        let found = converted(&steps, increments);
+    let instants = |steps: &[&str], increments: bool| -> Vec<(usize, usize, f64)> {
+        let found = converted(steps, increments);
         let moments = &found.scene.requests.moments;
         assert_eq!(moments.len(), found.scene.program.targets.len());
         let each = moments.iter();
         each.map(|m| (m.step, m.increment, m.time.unwrap()))
             .collect()
     };
-    assert_eq!(instants(false), [(1, 1, 1.0), (2, 1, 4.0), (3, 1, 5.0)]);
+    let ends = [(1, 1, 1.0), (2, 1, 4.0), (3, 1, 5.0)];
+    assert_eq!(instants(&steps, false), ends);
+    let output = "; 0.1, 1., 1e-5, 0.1; *OUTPUT, FREQUENCY=5; *NODE FILE; U\n";
+    assert_eq!(instants(&[output], true), [(1, 5, 0.5), (1, 10, 1.0)]);
     let expected = [
         (1, 4, 0.4),
         (1, 8, 0.8),
@@ -127,7 +130,7 @@ fn increments_are_those_that_results_are_asked_for() {
         (3, 2, 4.75),
         (3, 3, 5.0),
     ];
-    assert_eq!(instants(true), expected);
+    assert_eq!(instants(&steps, true), expected);
     let names = converted(&steps, true).scene.program.labels();
     assert_eq!(
         names[..3],
