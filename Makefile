@@ -154,7 +154,7 @@ LIBRARIES ?=
 # Where things go: where they are used, and where they are put now.
 HOME_OF = $(abspath $(PREFIX))
 INTO = $(DESTDIR)$(HOME_OF)
-INSTALLED = bin/brinell include/brinell.h lib/libbrinell.a lib/libbrinell.so \
+INSTALLED = bin/brinell bin/brinell-ccx include/brinell.h lib/libbrinell.a lib/libbrinell.so \
     lib/libbrinell.so.0 lib/libbrinell.so.$(VERSION) lib/pkgconfig/brinell.pc \
     lib/cmake/brinell/brinell-config.cmake lib/cmake/brinell/brinell-config-version.cmake \
     share/man/man1/brinell.1 share/bash-completion/completions/brinell \
@@ -168,6 +168,7 @@ install: setup ## Install program, library, header, manual, completions (PREFIX=
 	fi
 	for file in $(INSTALLED); do install -d "$$(dirname "$(INTO)/$$file")"; done
 	install -m 755 "$$program" "$(INTO)/bin/brinell"
+	ln -sf brinell "$(INTO)/bin/brinell-ccx"
 	install -m 644 ffi/include/brinell.h "$(INTO)/include/"
 	install -m 644 "$$libraries/libbrinell_c.a" "$(INTO)/lib/libbrinell.a"
 	install -m 755 "$$libraries/libbrinell_c.so" "$(INTO)/lib/libbrinell.so.$(VERSION)"

@@ -5,6 +5,7 @@ mod cycles;
 mod end_state;
 mod ending;
 mod history;
+mod points;
 mod quality;
 mod quantities;
 mod ranks;
@@ -14,6 +15,7 @@ pub use cycles::{CycleOutcome, CycleRow, Cycles};
 pub use end_state::{EndState, LeftBy, LeftByBody};
 pub use ending::{Ending, Incomplete};
 pub use history::{HistoryRow, PathPoint};
+pub use points::PointValues;
 pub use quality::{Quality, Tolerances};
 pub use quantities::{Estimated, Field, QUANTITIES, Quantity, Scope, Unit, value};
 pub use ranks::Ranks;
@@ -314,6 +316,10 @@ pub struct Fields {
     /// result directory.
     #[serde(default)]
     pub force: Vec<f64>,
+    /// Values at the integration points, where [`crate::scene::Requests::point_values`] asks for
+    /// them. Not part of a result directory.
+    #[serde(default)]
+    pub points: Option<PointValues>,
 }
 
 /// Machine-independent cost of a run.

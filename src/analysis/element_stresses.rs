@@ -1,7 +1,9 @@
 //! What the stresses of elements come to: forces on their nodes, and what fields show of them.
 
 use super::indicator::Recovered;
+use super::point_values;
 use super::stress_field::StressField;
+use crate::results::PointValues;
 use crate::space::Vector;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -39,6 +41,8 @@ pub(super) struct Shown {
     pub(super) plastic_strain: Vec<f64>,
     /// What the polynomials around them say.
     pub(super) recovered: Recovered,
+    /// Where they are asked for.
+    pub(super) points: Option<PointValues>,
 }
 
 /// An element as it comes out of a block.
@@ -81,6 +85,7 @@ impl ElementStresses {
                     at_nodes: vec![0.0; components * n_nodes],
                     n_elements_of: vec![0; n_nodes],
                 },
+                points: None,
             }),
         }
     }
@@ -110,6 +115,9 @@ impl ElementStresses {
             shown.plastic_strain[e] = part.plastic_strain[i];
             shown.recovered.energies[e] = part.recovered.energies[i];
         }
+        if let Some((points, of_part)) = shown.points.as_mut().zip(part.points) {
+            points.put(elements, &of_part);
+        }
         let stresses = part.recovered.at_nodes.chunks_exact(n_components);
         for ((node, stress), n) in nodes().zip(stresses).zip(part.recovered.n_elements_of) {
             shown.recovered.n_elements_of[node] += n;
@@ -130,6 +138,7 @@ impl Shown {
             von_mises: vec![0.0; n],
             plastic_strain: vec![0.0; n],
             recovered: Recovered::new(field, elements),
+            points: (field.continuum.point_values).then(|| point_values::of(field, elements)),
         };
         let of_elements = (
             elements,

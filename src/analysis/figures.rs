@@ -132,6 +132,7 @@ fn fields(model: &Model, nodal: Vec<Vector>, shown: Shown) -> (f64, Fields) {
         contact_pressure: Vec::new(),
         gap: Vec::new(),
         force: Vec::new(),
+        points: shown.points,
     };
     (errors.total, fields)
 }

@@ -16,7 +16,7 @@
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `path` | the path between increments | |
 //! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
-//! | `stress_field`, `element_stresses`, `stresses` | stresses of all elements, the forces they exert | |
+//! | `stress_field`, `element_stresses`, `stresses`, `point_values` | stresses of all elements, the forces they exert | |
 //! | `driving_force` | the force that moves what a load displaces | |
 //! | `local_yield` | yield stresses from place to place | |
 //! | `piece` | the stresses of a state, computed by all ranks | |
@@ -63,6 +63,7 @@ mod patch_fit;
 mod path;
 mod piece;
 mod plastic;
+mod point_values;
 mod position;
 mod program;
 mod quality;

@@ -13,6 +13,7 @@ use crate::element::{Kernel, with_kernel};
 use crate::error::{Error, Result};
 use crate::material::PlasticState;
 use crate::model::{Continuum, FreeOfLoad, Model};
+use crate::results::PointValues;
 use crate::space::Vector;
 use serde::{Deserialize, Serialize};
 
@@ -67,6 +68,10 @@ pub(super) fn element_stresses(
     })?;
     let shown = whole.with_fields.then_some(2 * mesh.dimension);
     let mut sum = ElementStresses::zeros(mesh.n_nodes(), mesh.n_elements(), shown);
+    if let Some(shown) = sum.shown.as_mut().filter(|_| whole.model.point_values) {
+        let n_points = mesh.shapes.iter().map(|shape| shape.n_gauss_points());
+        shown.points = Some(PointValues::zeros(n_points, 2 * mesh.dimension));
+    }
     parts.sort_by_key(|(rank, ..)| *rank);
     for ((rank, nodes, all), answer) in parts.iter().zip(answers) {
         sum.add(from_bytes(&answer)?, (&of_ranks[*rank], nodes, all));
@@ -221,7 +226,9 @@ mod tests {
         for (name, changes) in SCENES {
             let file = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
             let changes: Vec<String> = changes.iter().map(|text| text.to_string()).collect();
-            let model = Model::new(&Scene::load_with(file, &changes).unwrap()).unwrap();
+            let mut scene = Scene::load_with(file, &changes).unwrap();
+            scene.requests.point_values = true;
+            let model = Model::new(&scene).unwrap();
             let (mesh, displacements) = (&model.mesh, displacements(&model));
             let in_zone: Vec<usize> = (0..mesh.n_elements()).step_by(3).collect();
             let stride = mesh
@@ -277,6 +284,7 @@ mod tests {
                 assert_eq!(found_shown.stress, shown.stress, "{name} in {n}");
                 assert_eq!(found_shown.von_mises, shown.von_mises, "{name} in {n}");
                 assert_eq!(found_shown.plastic_strain, shown.plastic_strain);
+                assert!(shown.points.is_some() && found_shown.points == shown.points);
                 let [recovered, whole] = [&found_shown.recovered, &shown.recovered];
                 assert_eq!(recovered.energies, whole.energies, "{name} in {n}");
                 assert_eq!(recovered.n_elements_of, whole.n_elements_of);

@@ -8,7 +8,7 @@ use super::local_yield::largest_ratio;
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, PlasticState};
 use crate::model::{Continuum, FreeOfLoad};
-use crate::space::Vector;
+use crate::space::{Space, Vector};
 
 /// Elements of the mesh that share an entry in the list of where the zone's begin.
 const GROUP: usize = 64;
@@ -40,6 +40,7 @@ pub(super) struct Strained<'a, const S: usize> {
 /// An element and the stresses at its Gauss points.
 pub(super) struct ElementStress<'a, const D: usize, const S: usize, const P: usize, const N: usize>
 {
+    number: usize,
     pub(super) gradients: Gradients<D, S, P, N>,
     pub(super) stress: Components<S, P>,
     /// Of its points; empty outside the zone.
@@ -91,20 +92,57 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         })
     }
 
+    /// The strains that the displacements of an element's nodes make.
+    #[inline]
+    fn of_displacements(&self, e: usize, gradients: &Gradients<D, S, P, N>) -> Components<S, P> {
+        let mut u = [[0.0; D]; N];
+        for (u, &node) in u.iter_mut().zip(self.continuum.mesh.nodes(e)) {
+            u.copy_from_slice(&self.state.displacements[node as usize][..D]);
+        }
+        gradients.strains(&u)
+    }
+
+    #[inline]
+    fn take_off_free_strain(
+        &self,
+        e: usize,
+        gradients: &Gradients<D, S, P, N>,
+        strain: &mut Components<S, P>,
+    ) {
+        let (mesh, state) = (&self.continuum.mesh, &self.state);
+        let free = (state.free, state.factors);
+        take_off_all(strain, (mesh, e), free, |nodal| gradients.at_points(nodal));
+    }
+
+    /// The total strains of an element; in plane stress with the strain across the plane that the
+    /// stresses, plastic flow and temperature make.
+    pub(super) fn total_strain(&self, element: &ElementStress<'_, D, S, P, N>) -> Components<S, P> {
+        let e = element.number;
+        let mut strain = self.of_displacements(e, &element.gradients);
+        if self.continuum.kind != Space::PlaneStress {
+            return strain;
+        }
+        let mut taken_off = [[0.0; P]; S];
+        self.take_off_free_strain(e, &element.gradients, &mut taken_off);
+        let material = self.continuum.material(e);
+        let contraction = -material.poissons_ratio / material.youngs_modulus;
+        let stress = &element.stress;
+        for g in 0..P {
+            strain[2][g] = contraction * (stress[0][g] + stress[1][g]) - taken_off[2][g];
+        }
+        for (g, past) in element.history.iter().enumerate() {
+            strain[2][g] += past.strain[2];
+        }
+        strain
+    }
+
     /// The stresses of an element.
     #[inline]
     pub(super) fn at(&self, e: usize) -> ElementStress<'a, D, S, P, N> {
-        let (mesh, state) = (&self.continuum.mesh, &self.state);
+        let mesh = &self.continuum.mesh;
         let gradients = self.continuum.gradients(&self.kernel, e);
-        let mut u = [[0.0; D]; N];
-        for (u, &node) in u.iter_mut().zip(mesh.nodes(e)) {
-            u.copy_from_slice(&state.displacements[node as usize][..D]);
-        }
-        let mut strain = gradients.strains(&u);
-        let free = (state.free, state.factors);
-        take_off_all(&mut strain, (mesh, e), free, |nodal| {
-            gradients.at_points(nodal)
-        });
+        let mut strain = self.of_displacements(e, &gradients);
+        self.take_off_free_strain(e, &gradients, &mut strain);
         let history = self.history(e);
         for (g, past) in history.iter().enumerate() {
             for (strain, plastic) in strain.iter_mut().zip(&past.strain) {
@@ -112,6 +150,7 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
             }
         }
         ElementStress {
+            number: e,
             stress: stress(&self.elastic[mesh.element_body[e] as usize], &strain),
             gradients,
             history,

@@ -10,7 +10,7 @@ use std::path::Path;
 use xxhash_rust::xxh3::xxh3_128;
 
 /// Number of the layout: another one is refused.
-const FORMAT: u32 = 8;
+const FORMAT: u32 = 9;
 /// Length and hash.
 const GUARD: usize = 8 + 16;
 

@@ -58,8 +58,6 @@ pub(super) struct Arguments {
     pub command: Command,
 }
 
-// One is made in a run of the program.
-#[expect(clippy::large_enum_variant)]
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Run the load program: yield load, states at the targets, fields
@@ -93,6 +91,12 @@ pub(super) enum Command {
         after_help = "Example: brinell convert press.inp --out press.toml && brinell run press.toml"
     )]
     Convert(super::convert::ConvertArguments),
+    /// Run a deck in the place of CalculiX' program ccx, for FreeCAD, PrePoMax and others
+    ///
+    /// Reads NAME.inp, leaves NAME.frd, NAME.dat, NAME.sta and NAME.cvg beside it, prints to
+    /// standard output alone. Exit code 201 where there is an error, as of ccx.
+    #[command(after_help = "Example: brinell ccx -i press")]
+    Ccx(super::ccx::CcxArguments),
     /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or
     /// fail
     ///
@@ -189,6 +193,10 @@ pub(super) struct RunArguments {
     /// File for tables of displacements, forces and stresses of all sets, as CalculiX prints them
     #[arg(long, value_name = "FILE")]
     pub dat: Option<PathBuf>,
+    /// File for displacements, stresses, strains, forces and contact at the nodes, in the format of
+    /// CalculiX (.frd); a deck that asks for results has them in fields.frd among its own
+    #[arg(long, value_name = "FILE")]
+    pub frd: Option<PathBuf>,
     /// How progress is shown on standard error
     #[arg(long, value_enum, value_name = "HOW", default_value_t)]
     pub progress: Shown,

@@ -46,6 +46,8 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
         Command::View(view) => view::run(view),
         Command::Completions(completions) => completions::run(completions),
         Command::Man => completions::man(),
+        // It has exit codes of its own.
+        Command::Ccx(_) => Ok(()),
     }
 }
 
@@ -71,7 +73,8 @@ fn analyse(
         }
         error
     };
-    let scene = prepare(common, demand.map(|a| format!("accuracy={a}"))).map_err(marked)?;
+    let mut scene = prepare(common, demand.map(|a| format!("accuracy={a}"))).map_err(marked)?;
+    ask_for_results(&mut scene, arguments);
     if arguments.budget.is_some() && scene.accuracy.is_none() {
         return Err(marked(without_demand()));
     }
@@ -82,6 +85,15 @@ fn analyse(
         compute(arguments, scene, places, claim, extent, start).map_err(marked)?;
     print(&text)?;
     output::ending(&results)
+}
+
+/// Results in the formats of CalculiX that the command line asks for.
+fn ask_for_results(scene: &mut Scene, arguments: &RunArguments) {
+    let requests = &mut scene.requests;
+    if arguments.frd.is_some() {
+        requests.ask_for_usual(scene.program.targets.len());
+    }
+    requests.point_values |= arguments.frd.is_some() || arguments.dat.is_some();
 }
 
 /// Says that what is in the directory is not of this run.
@@ -143,6 +155,9 @@ fn compute(
     }
     if let Some(path) = &arguments.dat {
         output::write_dat(path, model, &results)?;
+    }
+    if let Some(path) = &arguments.frd {
+        output::write_frd(path, model, &results)?;
     }
     progress.finish();
     if let Some((_, out)) = places {
@@ -265,6 +280,7 @@ pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<
     let overrides: Vec<String> = common.overrides.iter().cloned().chain(last).collect();
     let options = Options {
         small_strain: common.small_strain,
+        ..Options::default()
     };
     let scene = deck::load_with(&common.scene, &overrides, options)?;
     start_threads(common.threads.map(usize::from))?;

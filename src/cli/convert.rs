@@ -37,6 +37,7 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<()> {
     }
     let options = Options {
         small_strain: arguments.small_strain,
+        ..Options::default()
     };
     let read = Deck::read(path)?;
     let conversion = read.convert(options)?;

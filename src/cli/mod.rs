@@ -7,6 +7,7 @@
 #[cfg(all(unix, feature = "cholmod"))]
 mod again;
 mod arguments;
+mod ccx;
 mod commands;
 mod completions;
 mod convert;
@@ -67,7 +68,11 @@ fn itself() -> io::Result<Command> {
     Ok(Command::new(std::env::current_exe()?))
 }
 
-fn program(words: Vec<OsString>) -> u8 {
+fn program(mut words: Vec<OsString>) -> u8 {
+    // Under the name of CalculiX' program it does what that does.
+    if words.first().is_some_and(|name| ccx::is_its_name(name)) {
+        words.insert(1, "ccx".into());
+    }
     std::panic::set_hook(Box::new(|panic| {
         let _ = writeln!(
             io::stderr(),
@@ -83,6 +88,9 @@ fn program(words: Vec<OsString>) -> u8 {
         Err(problem) => return usage(&problem, &words),
     };
     let started = Instant::now();
+    if let arguments::Command::Ccx(arguments) = &arguments.command {
+        return ccx::run(arguments, started);
+    }
     let ended = ranks::join(arguments.command.common()).and_then(|part| match part {
         ranks::Part::First(_ranks) => commands::execute(&arguments, started),
         ranks::Part::Helped => Ok(()),

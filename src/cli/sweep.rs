@@ -180,6 +180,7 @@ fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Re
     let common = &arguments.common;
     let options = Options {
         small_strain: common.small_strain,
+        ..Options::default()
     };
     let scene = deck::load_with(&common.scene, &overrides(common, keys, &values), options)?;
     let mut text = serde_json::to_string(&scene)

@@ -3,6 +3,7 @@
 
 use super::element_type::ElementType;
 use super::source::{Files, Place};
+use crate::scene::{ResultItem, Totals};
 use std::collections::BTreeMap;
 
 /// Nodes, in the order of the deck.
@@ -147,6 +148,7 @@ pub(super) struct Section {
 /// How surfaces press on each other.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Interaction {
+    pub(super) place: Place,
     /// Pressure over overlap, where contact is soft.
     pub(super) stiffness: Option<f64>,
 }
@@ -272,6 +274,46 @@ pub(super) struct ContactChange {
     pub(super) place: Place,
 }
 
+/// What results that are asked for belong to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Group {
+    Node,
+    Element,
+    Contact,
+}
+
+/// Results that a step asks for.
+#[derive(Debug, Clone)]
+pub(super) struct OutputRequest {
+    pub(super) group: Group,
+    /// For tables, instead of the result file.
+    pub(super) is_print: bool,
+    pub(super) items: Vec<ResultItem>,
+    /// The set of nodes or elements; all where none is named.
+    pub(super) set: Option<String>,
+    /// Slave and master surface of a contact.
+    pub(super) contact: Option<[String; 2]>,
+    pub(super) totals: Totals,
+    pub(super) place: Place,
+}
+
+/// When results are asked for, besides at the end of a step.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Schedule {
+    /// Every so many increments.
+    Every(usize),
+    /// At the time points of this name.
+    At(String),
+}
+
+/// Times at which results are asked for, ascending.
+#[derive(Debug, Clone, Default)]
+pub(super) struct TimePoints {
+    pub(super) times: Vec<f64>,
+    /// Since the beginning of the first step, not of the step at hand.
+    pub(super) is_total: bool,
+}
+
 /// A step.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Step {
@@ -279,8 +321,13 @@ pub(super) struct Step {
     pub(super) period: f64,
     /// Increments that it is to take, where it says so.
     pub(super) increments: usize,
+    /// The time that all of them take but the last, where it is fixed.
+    pub(super) fixed: Option<f64>,
     pub(super) conditions: Vec<Condition>,
     pub(super) contact_changes: Vec<ContactChange>,
+    pub(super) outputs: Vec<OutputRequest>,
+    /// When they are asked for, where it says so.
+    pub(super) schedule: Option<Schedule>,
     /// Where it is said that the conditions of each kind replace those of the steps before.
     pub(super) renewed: [Option<Place>; Kind::COUNT],
 }
@@ -294,6 +341,7 @@ pub(super) struct Program {
     /// All that act on volumes.
     pub(super) volume_loads: Vec<VolumeLoad>,
     pub(super) amplitudes: Named<Amplitude>,
+    pub(super) time_points: Named<TimePoints>,
 }
 
 /// A remark on a line of the deck.

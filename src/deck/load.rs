@@ -44,6 +44,7 @@ impl super::Conversion {
     pub fn finish(&self, name: &str, overrides: &[String]) -> Result<Scene> {
         let text = self.scene.to_toml()?;
         let mut scene = Scene::parse_placed(&text, name, overrides, &self.places)?;
+        scene.requests = self.scene.requests.clone();
         let taken = self.account.taken.iter().map(ToString::to_string);
         scene.warnings.splice(0..0, taken);
         Ok(scene)

@@ -61,8 +61,8 @@ use std::path::Path;
 /// A deck that was read.
 #[derive(Default)]
 pub struct Deck {
-    /// The heading.
-    title: String,
+    /// Lines of the heading.
+    heading: Vec<String>,
     files: Files,
     nodes: Nodes,
     elements: Elements,
@@ -198,6 +198,13 @@ impl Deck {
     /// An error at the line of a node.
     pub(crate) fn node_error(&self, node: usize, message: impl std::fmt::Display) -> Error {
         self.error(self.nodes.places[node], "NODE", message)
+    }
+
+    /// Whether no element is of a kind that CalculiX integrates otherwise than fully or, with
+    /// quadratic functions, reduced: one point with hourglass control, incompatible modes.
+    pub fn is_fully_integrated(&self) -> bool {
+        let mut types = self.elements.types.iter();
+        types.all(|of| of.shape.is_quadratic() || of.note.is_none())
     }
 
     /// Number of nodes.

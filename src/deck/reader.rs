@@ -2,6 +2,7 @@
 
 mod history;
 mod mesh;
+mod output;
 mod properties;
 mod volume;
 
@@ -22,6 +23,8 @@ pub(super) struct Reader<'t> {
     /// The surface interaction that what is read belongs to.
     interaction: Option<String>,
     is_in_step: bool,
+    /// Whether results that are asked for are those of histories.
+    is_history: bool,
     /// Displacements that stand before the first step, and are reached over it.
     of_first_step: Vec<Condition>,
 }
@@ -34,6 +37,7 @@ impl<'t> Reader<'t> {
             material: None,
             interaction: None,
             is_in_step: false,
+            is_history: false,
             of_first_step: Vec::new(),
         }
     }
@@ -145,6 +149,12 @@ impl<'t> Reader<'t> {
             "DLOAD" => self.dload(keyword),
             "DSLOAD" => self.dsload(keyword),
             "END STEP" => self.end_step(keyword),
+            "OUTPUT" => self.output(keyword),
+            "TIME POINTS" => self.time_points(keyword),
+            "NODE FILE" | "NODE OUTPUT" | "NODE PRINT" | "EL FILE" | "ELEMENT OUTPUT"
+            | "EL PRINT" | "CONTACT FILE" | "CONTACT OUTPUT" | "CONTACT PRINT" => {
+                self.request(keyword)
+            }
             other => Err(crate::Error::internal(format!("nothing reads *{other}"))),
         }
     }
@@ -192,10 +202,11 @@ impl<'t> Reader<'t> {
     /// The first line is the title.
     fn heading(&mut self, keyword: &Keyword) -> Result<()> {
         keyword.allow(&self.source.files, &[])?;
-        if let Some(line) = self.source.next_data()? {
-            self.deck.title = String::from_utf8_lossy(self.source.bytes(line)).into_owned();
+        while let Some(line) = self.source.next_data()? {
+            let text = String::from_utf8_lossy(self.source.bytes(line)).into_owned();
+            self.deck.heading.push(text);
         }
-        self.skip()
+        Ok(())
     }
 }
 

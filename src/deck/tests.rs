@@ -1,3 +1,5 @@
+mod requests;
+
 use super::*;
 use crate::scene::{Direction, History, Scene};
 use std::path::PathBuf;
@@ -8,7 +10,11 @@ fn read(name: &str) -> Deck {
 }
 
 fn small_strain(deck: &Deck) -> Conversion {
-    deck.convert(Options { small_strain: true }).unwrap()
+    deck.convert(Options {
+        small_strain: true,
+        ..Options::default()
+    })
+    .unwrap()
 }
 
 fn directions(scene: &Scene, on: &str) -> Vec<Direction> {

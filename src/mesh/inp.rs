@@ -21,7 +21,10 @@ pub fn read(path: &Path) -> Result<Mesh> {
 /// Names and numbers that there are not; elements in no section or of several kinds; nodes out of
 /// the plane.
 pub fn mesh(deck: &Deck) -> Result<Mesh> {
-    let options = Options { small_strain: true };
+    let options = Options {
+        small_strain: true,
+        ..Options::default()
+    };
     let geometry = match deck.convert(options) {
         Ok(conversion) => conversion.geometry,
         Err(_) => deck.geometry()?,

@@ -23,6 +23,8 @@ pub struct Continuum {
     pub may_yield: Vec<bool>,
     /// Yield stress by depth, of each body that has one.
     pub yield_by_depth: Vec<Option<YieldByDepth>>,
+    /// Whether fields have values at the integration points.
+    pub point_values: bool,
 }
 
 impl Continuum {

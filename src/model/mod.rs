@@ -219,6 +219,7 @@ impl Model {
                 materials,
                 may_yield,
                 yield_by_depth,
+                point_values: scene.requests.point_values,
             },
             freedoms,
             pairs,

@@ -28,6 +28,17 @@ const BUFFER_BYTES: usize = 1 << 16;
 /// # Errors
 /// `Io` naming the file.
 pub(super) fn replace(path: &Path, content: &[u8]) -> Result<()> {
+    replace_with(path, |out| out.write_all(content))
+}
+
+/// As [`replace`], with what a function writes.
+///
+/// # Errors
+/// `Io` naming the file.
+pub(super) fn replace_with(
+    path: &Path,
+    write: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+) -> Result<()> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -41,8 +52,11 @@ pub(super) fn replace(path: &Path, content: &[u8]) -> Result<()> {
             use std::os::unix::fs::PermissionsExt;
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        let mut file = builder.tempfile_in(folder)?;
-        file.write_all(content)?;
+        let file = builder.tempfile_in(folder)?;
+        let mut out = BufWriter::with_capacity(BUFFER_BYTES, file.as_file());
+        write(&mut out)?;
+        out.flush()?;
+        drop(out);
         file.persist(path).map(drop).map_err(|e| e.error)
     };
     written().map_err(|cause| Error::io("write", path, cause))

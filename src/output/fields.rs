@@ -151,6 +151,7 @@ impl Part {
             contact_pressure: some(&whole.contact_pressure, &self.nodes, 1),
             gap: some(&whole.gap, &self.nodes, 1),
             force: Vec::new(),
+            points: None,
         }
     }
 }

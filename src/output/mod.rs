@@ -8,6 +8,7 @@
 //!     fields.pvd            the states with fields, as a time series               (fields)
 //!     state_01_NAME.vtu     mesh and fields of one state                           (fields, vtu)
 //!     state_01_NAME.pvtu    of a run on several ranks, with a .vtu for each part
+//!     fields.frd            of a deck that asks for it: values at nodes           (frd)
 //!     end_state.bin         what is left in the material, for `start_from`          (checkpoint)
 //!     report.html           the run to look at                                     (report)
 //!     report_NAME.svg       its figures
@@ -38,7 +39,9 @@ mod contact;
 mod dat;
 pub(crate) mod ending;
 mod fields;
+mod frd;
 mod history;
+mod job;
 pub(crate) mod labels;
 mod named;
 mod read;
@@ -48,6 +51,7 @@ mod report;
 #[cfg(feature = "report")]
 mod reported;
 pub(crate) mod rows;
+mod slaves;
 #[cfg(feature = "report")]
 pub(crate) mod stated_errors;
 #[cfg(feature = "report")]
@@ -62,8 +66,10 @@ mod vtu_read;
 mod work_precision;
 
 pub use claim::{Claim, mark_stale, stale};
-pub use dat::write_dat;
+pub use dat::{write_dat, write_prints};
 pub use ending::ending;
+pub use frd::write_frd;
+pub use job::JobFiles;
 pub use labels::Labels;
 pub use read::{Recorded, read};
 #[cfg(feature = "report")]
@@ -206,7 +212,8 @@ fn finish_without_report(
     results: &Results,
 ) -> Result<()> {
     finish(staging, header, &model.mesh, results, |staging| {
-        record::write(staging, model)
+        record::write(staging, model)?;
+        frd::write_fields(staging, model, results)
     })
 }
 
@@ -265,6 +272,7 @@ fn is_result_file(name: &OsStr) -> bool {
             record::MODEL_FILE,
             claim::STALE_FILE,
             END_STATE_FILE,
+            frd::FIELDS_FILE,
         ]
         .contains(&name)
             || fields::is_file(name)

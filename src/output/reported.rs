@@ -1,7 +1,7 @@
 //! Result directories with their report.
 
 use super::atomic::{self, Staging};
-use super::{REPORT_FILE, RunHeader, finish, is_figure, read, record, report};
+use super::{REPORT_FILE, RunHeader, finish, frd, is_figure, read, record, report};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::results::Results;
@@ -30,6 +30,7 @@ pub(super) fn finish_with_report(
 ) -> Result<()> {
     finish(staging, header, &model.mesh, results, |staging| {
         record::write(staging, model)?;
+        frd::write_fields(staging, model, results)?;
         for (name, text) in report::files(header, model, results)? {
             staging.file(&name, |out| out.write_all(text.as_bytes()))?;
         }

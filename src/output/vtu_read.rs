@@ -68,6 +68,7 @@ pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
         contact_pressure: numbers("contact_pressure", nodes, 1)?,
         gap: numbers("gap", nodes, 1)?,
         force: Vec::new(),
+        points: None,
     };
     fields::check(mesh, &fields).map_err(|error| does_not_fit(path, error.message()))?;
     Ok(fields)

@@ -26,6 +26,7 @@ mod overrides;
 mod program;
 mod read;
 mod reference;
+mod requests;
 mod schema;
 mod tensile_test;
 mod units;
@@ -54,6 +55,9 @@ pub use program::{
 };
 pub(crate) use read::closest;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
+pub use requests::{
+    ContactForce, FileRequest, Moment, NamedSet, Print, Requests, ResultItem, Totals,
+};
 pub use schema::schema;
 pub(crate) use tensile_test::beyond_yield;
 pub use units::Units;
@@ -133,6 +137,9 @@ pub struct Scene {
     /// What the user should know of how it was read.
     #[serde(skip)]
     pub warnings: Vec<String>,
+    /// Which results are asked for in the formats of CalculiX, as a deck does.
+    #[serde(skip)]
+    pub requests: Requests,
 }
 
 impl Scene {
@@ -180,6 +187,7 @@ impl Scene {
             file: None,
             places: KeyPlaces::default(),
             warnings: Vec::new(),
+            requests: Requests::default(),
         }
     }
 }

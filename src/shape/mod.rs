@@ -4,11 +4,13 @@
 //! its row ([`Shape::reference`]); a further element is a further row.
 
 mod cut;
+mod extrapolation;
 mod facets;
 mod functions;
 mod rows;
 
 pub use cut::{Cut, WHOLE, cut_of, cuts};
+pub use extrapolation::Extrapolation;
 pub use facets::FacetReference;
 pub use functions::Functions;
 

@@ -4,6 +4,7 @@
 mod assemblies;
 mod calculix;
 mod converted;
+mod frd;
 mod local_axes;
 mod refusals;
 mod sets;

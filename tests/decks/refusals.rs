@@ -403,7 +403,10 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
     );
     let conversion = deck
         .unwrap()
-        .convert(Options { small_strain: true })
+        .convert(Options {
+            small_strain: true,
+            ..Options::default()
+        })
         .unwrap();
     assert!(conversion.account.taken[0].text.contains("NLGEOM"));
 }

@@ -227,7 +227,10 @@ fn deck(input: &[u8]) -> brinell::Result<()> {
     let deck = Deck::parse(input, "fuzz.inp").map_err(in_place)?;
     // A mesh alone needs no steps.
     let mesh = inp::mesh(&deck).map_err(in_place);
-    let options = Options { small_strain: true };
+    let options = Options {
+        small_strain: true,
+        increments: true,
+    };
     let conversion = deck.convert(options).map_err(in_place)?;
     let scene = conversion.finish("fuzz.inp", &[])?;
     let mesh = mesh?;

@@ -57,6 +57,7 @@ pub fn fields(mesh: &Mesh, seed: f64) -> Fields {
         contact_pressure: values(mesh.n_nodes(), 0.1),
         gap: values(mesh.n_nodes(), 0.2),
         force: Vec::new(),
+        points: None,
     }
 }
 

@@ -6,6 +6,7 @@ mod contact_changes;
 mod draft;
 mod equations;
 mod geometry;
+mod outputs;
 mod volume_loads;
 
 pub(crate) use geometry::Geometry;
@@ -29,6 +30,10 @@ use std::path::{Path, PathBuf};
 pub struct Options {
     /// Steps with `NLGEOM` are computed with small strains and displacements, instead of refused.
     pub small_strain: bool,
+    /// Besides at its end, a step leaves a state at each increment that it asks results for: at
+    /// those of a fixed size and at `TIME POINTS`. Where nothing yields and nothing touches a step
+    /// has one increment, as in CalculiX.
+    pub increments: bool,
 }
 
 /// A deck as a scene, whose mesh is the deck itself.
@@ -79,6 +84,7 @@ impl Deck {
         let mut scene = self.empty_scene(space);
         self.add_bodies(&bodies, &temperatures, &mut scene, &mut draft.places)?;
         draft.temperatures(&bodies, temperatures);
+        scene.requests = self.requests((space, draft.thickness), options, &mut account)?;
         self.add_loads(&mut draft, &mut scene);
         self.choose_stepping(&draft, &mut scene);
         scene.support = std::mem::take(&mut draft.supports);
@@ -148,10 +154,8 @@ impl Deck {
     /// A scene with nothing in it but its mesh and its targets.
     fn empty_scene(&self, space: Space) -> Scene {
         let name = self.file_name();
-        let title = match self.title.is_empty() {
-            true => name.to_string_lossy().into_owned(),
-            false => self.title.clone(),
-        };
+        let file = || name.to_string_lossy().into_owned();
+        let title = self.heading.first().cloned().unwrap_or_else(file);
         let mut scene = Scene::of(space);
         scene.title = title;
         scene.mesh.file = Some(name);
@@ -215,10 +219,20 @@ impl Deck {
     /// many as the deck's first ones would be.
     fn choose_stepping(&self, draft: &Draft, scene: &mut Scene) {
         if draft.contacts.is_empty() && scene.any_can_yield() {
-            let increments = self.program.steps.iter().map(|step| step.increments);
+            let steps = self.program.steps.iter().enumerate();
+            let each = steps.map(|(number, step)| {
+                let moments = scene.requests.moments.iter();
+                let targets = moments.filter(|moment| moment.step == number + 1).count();
+                step.increments.div_ceil(targets.max(1))
+            });
+            let least = each.max().unwrap_or(1);
             let program = &mut scene.program;
             program.stepping = Stepping::Steps;
-            program.steps = increments.max().unwrap_or(1).max(program.steps);
+            let targets = program
+                .targets
+                .len()
+                .div_ceil(self.program.steps.len().max(1));
+            program.steps = least.max(program.steps.div_ceil(targets.max(1)));
         }
     }
 
@@ -247,14 +261,20 @@ impl Deck {
             Some(shape) => interpolate(shape, time),
             None => time,
         };
-        for (number, &end) in ends.iter().enumerate() {
-            let place = self.files.show(self.program.steps[number].place);
+        let moments = &scene.requests.moments;
+        for (number, moment) in moments.iter().enumerate() {
+            let place = self.files.show(self.program.steps[moment.step - 1].place);
             draft
                 .places
                 .insert(format!("program.targets.{number}"), place);
+            let is_last = (moments.get(number + 1)).is_none_or(|next| next.step > moment.step);
+            let (step, increment) = (moment.step, moment.increment);
             scene.program.targets.push(Target {
-                name: Some(format!("step-{}", number + 1)),
-                load_factor: Some(factor(end)),
+                name: Some(match is_last {
+                    true => format!("step-{step}"),
+                    false => format!("step-{step} increment {increment}"),
+                }),
+                load_factor: moment.time.map(factor),
                 fields: true,
                 ..Target::default()
             });

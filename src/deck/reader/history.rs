@@ -92,7 +92,7 @@ impl Reader<'_> {
                 "AMPLITUDE=STEP: what changes is ramped over the step; only its end is the same";
             self.take(keyword, keyword.place, how);
         }
-        self.is_in_step = true;
+        (self.is_in_step, self.is_history) = (true, false);
         self.deck.program.steps.push(Step {
             place: keyword.place,
             period: 1.0,
@@ -129,6 +129,7 @@ impl Reader<'_> {
         };
         let mut period = 1.0;
         let mut increments = 1.0;
+        let mut fixed = None;
         if let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
             let first = row.number_or("the first increment", 1.0)?;
@@ -145,10 +146,21 @@ impl Reader<'_> {
             if first > 0.0 {
                 // A share of the time may be rounded.
                 increments = (period / first - 1e-6).ceil().clamp(1.0, MOST_INCREMENTS);
+                // Increments that may not grow are fixed, too.
+                let largest = match row.is_at_end() {
+                    true => 0.0,
+                    false => {
+                        row.number_or("the least increment", 0.0)?;
+                        row.number_or("the largest increment", 0.0)?
+                    }
+                };
+                let is_fixed = keyword.has("DIRECT") || largest == first;
+                fixed = is_fixed.then_some(first);
             }
         }
         self.deck.program.steps[step].period = period;
         self.deck.program.steps[step].increments = increments as usize;
+        self.deck.program.steps[step].fixed = fixed;
         self.skip()
     }
 
@@ -165,7 +177,7 @@ impl Reader<'_> {
     }
 
     /// The index of the step at hand.
-    fn current_step(&self) -> Option<usize> {
+    pub(super) fn current_step(&self) -> Option<usize> {
         self.deck
             .program
             .steps

@@ -162,7 +162,10 @@ impl Reader<'_> {
         let files = &self.source.files;
         keyword.allow(files, &["NAME"])?;
         let name = keyword.require(files, "NAME")?;
-        *self.deck.properties.interactions.entry(name) = Interaction::default();
+        *self.deck.properties.interactions.entry(name) = Interaction {
+            place: keyword.place,
+            stiffness: None,
+        };
         self.interaction = Some(name.to_string());
         // A thickness out of the plane may follow: forces are per unit of it.
         self.skip()

@@ -1,0 +1,269 @@
+//! Which results each step asks for.
+
+use super::super::Deck;
+use super::super::data::{Account, ContactPair, Group, OutputRequest, Schedule, Step, Target};
+use super::super::sets::What;
+use super::Options;
+use crate::error::Result;
+use crate::scene::{FileRequest, Moment, NamedSet, Print, Requests, ResultItem};
+use crate::space::Space;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Times closer to an end of a step than this share of it are that end.
+const CLOSE: f64 = 1e-9;
+/// Most increments that results may be asked for.
+const MOST_MOMENTS: usize = 10_000;
+
+/// The requests that hold in a step. Those of a group stay until a step asks for the group anew.
+struct InForce<'d> {
+    requests: Vec<&'d OutputRequest>,
+    /// For all requests.
+    schedule: Schedule,
+}
+
+impl<'d> InForce<'d> {
+    fn renew(&mut self, step: &'d Step) {
+        let of_step = &step.outputs;
+        let alike =
+            |a: &OutputRequest, b: &OutputRequest| (a.group, a.is_print) == (b.group, b.is_print);
+        self.requests
+            .retain(|old| !of_step.iter().any(|new| alike(old, new)));
+        self.requests.extend(of_step);
+        if let Some(schedule) = &step.schedule {
+            self.schedule = schedule.clone();
+        }
+    }
+}
+
+impl Deck {
+    /// What is asked for, increment by increment.
+    pub(super) fn requests(
+        &self,
+        (space, thickness): (Space, f64),
+        options: Options,
+        account: &mut Account,
+    ) -> Result<Requests> {
+        let is_plane = matches!(space, Space::PlaneStrain | Space::PlaneStress);
+        let mut out = Requests {
+            heading: self.heading.clone(),
+            materials: self.material_names(),
+            thickness: is_plane.then_some(thickness),
+            ..Requests::default()
+        };
+        let mut sets = RequestedSets {
+            deck: self,
+            account,
+            known: BTreeMap::new(),
+        };
+        let mut in_force = InForce {
+            requests: Vec::new(),
+            schedule: Schedule::Every(1),
+        };
+        let mut start = 0.0;
+        for (number, (step, end)) in self.program.steps.iter().zip(self.step_ends()).enumerate() {
+            in_force.renew(step);
+            let instants = match options.increments && self.is_nonlinear() {
+                true => self.instants(step, &in_force.schedule, start),
+                false => vec![(1, step.period)],
+            };
+            for (index, &(increment, step_time)) in instants.iter().enumerate() {
+                let is_last = index + 1 == instants.len();
+                let mut moment = Moment {
+                    step: number + 1,
+                    increment,
+                    time: Some(if is_last { end } else { start + step_time }),
+                    step_time,
+                    ..Moment::default()
+                };
+                for request in &in_force.requests {
+                    add(request, sets.of(request)?, &mut moment);
+                }
+                moment.file.sort_by_key(|request| request.item);
+                out.moments.push(moment);
+            }
+            if options.increments && out.moments.len() > MOST_MOMENTS {
+                let message = format!(
+                    "results at more than {MOST_MOMENTS} increments are asked for; give a FREQUENCY"
+                );
+                return Err(self.error(step.place, "STEP", message));
+            }
+            start = end;
+        }
+        let needs_points = |moment: &Moment| {
+            let of_file = moment.file.iter().map(|request| request.item);
+            let mut items = of_file.chain(moment.prints.iter().map(|print| print.item));
+            items.any(ResultItem::needs_points)
+        };
+        out.point_values = out.moments.iter().any(needs_points);
+        Ok(out)
+    }
+
+    /// Whether a step is more than one solution of linear equations.
+    fn is_nonlinear(&self) -> bool {
+        let mut materials = self.properties.materials.iter();
+        !self.properties.contacts.is_empty() || materials.any(|(_, of)| !of.plastic.is_empty())
+    }
+
+    /// Increments of a step that results are asked for: number and time of the step, its end last.
+    fn instants(&self, step: &Step, schedule: &Schedule, start: f64) -> Vec<(usize, f64)> {
+        let mut out = Vec::new();
+        match schedule {
+            Schedule::Every(every) => {
+                let Some(time) = step.fixed else {
+                    return vec![(1, step.period)];
+                };
+                // A share of the time may be rounded.
+                let n = (step.period / time - 1e-6).ceil().max(1.0) as usize;
+                let every = if *every == 0 { n } else { *every };
+                let within = (every..n).step_by(every).take(MOST_MOMENTS);
+                out.extend(within.map(|k| (k, time * k as f64)));
+                out.push((n, step.period));
+            }
+            Schedule::At(name) => {
+                let points = self.program.time_points.get(name).into_iter();
+                let times = points.flat_map(|points| {
+                    let shift = if points.is_total { start } else { 0.0 };
+                    points.times.iter().map(move |time| time - shift)
+                });
+                let least = CLOSE * step.period;
+                let within = times.filter(|time| (least..step.period - least).contains(time));
+                out.extend((1..).zip(within.chain([step.period])));
+            }
+        }
+        out
+    }
+
+    /// Materials, then surface interactions, in the order of the deck.
+    fn material_names(&self) -> Vec<String> {
+        let properties = &self.properties;
+        let materials = properties.materials.iter();
+        let mut out: Vec<_> = materials.map(|(name, of)| (of.place, name)).collect();
+        let interactions = properties.interactions.iter();
+        out.extend(interactions.map(|(name, of)| (of.place, name)));
+        out.sort();
+        out.into_iter().map(|(_, name)| name.to_string()).collect()
+    }
+}
+
+/// Adds a request to those of a moment.
+fn add(request: &OutputRequest, on: On, moment: &mut Moment) {
+    for &item in &request.items {
+        match (&on, request.is_print) {
+            (On::Nothing, _) | (On::All, true) => {}
+            (_, false) => {
+                moment.file.retain(|known| known.item != item);
+                let nodes = on.clone().set();
+                moment.file.push(FileRequest { item, nodes });
+            }
+            // Gap and pressure are one table each, whichever of them is named.
+            (On::Set(_), true)
+                if item == ResultItem::Contact
+                    && moment.prints.iter().any(|print| print.item == item) => {}
+            (On::Set(set), true) => moment.prints.push(Print {
+                item,
+                set: set.clone(),
+                totals: request.totals,
+            }),
+        }
+    }
+}
+
+/// What a request is for.
+#[derive(Debug, Clone)]
+enum On {
+    All,
+    /// A set that there is not.
+    Nothing,
+    Set(NamedSet),
+}
+
+impl On {
+    fn set(self) -> Option<NamedSet> {
+        match self {
+            On::Set(set) => Some(set),
+            On::All | On::Nothing => None,
+        }
+    }
+}
+
+/// The sets that requests are for, each found once.
+struct RequestedSets<'d, 'a> {
+    deck: &'d Deck,
+    account: &'a mut Account,
+    /// By whether they are of elements, and name in capitals.
+    known: BTreeMap<(bool, String), NamedSet>,
+}
+
+impl RequestedSets<'_, '_> {
+    /// The set of a request. One that there is not is a remark.
+    fn of(&mut self, request: &OutputRequest) -> Result<On> {
+        let deck = self.deck;
+        let keyword = match (request.group, request.is_print) {
+            (Group::Element, true) => "EL PRINT",
+            (Group::Element, false) => "EL FILE",
+            (Group::Node, true) => "NODE PRINT",
+            (Group::Node, false) => "NODE FILE",
+            (Group::Contact, true) => "CONTACT PRINT",
+            (Group::Contact, false) => "CONTACT FILE",
+        };
+        let is_of_elements = keyword == "EL PRINT";
+        let Some(name) = request.set.as_ref().map(|name| name.to_uppercase()) else {
+            if keyword == "CONTACT PRINT" {
+                return Ok(On::Set(self.contact(request)));
+            }
+            if request.is_print {
+                self.remark(
+                    request,
+                    keyword,
+                    "no set is named: nothing is printed for it",
+                );
+            }
+            return Ok(On::All);
+        };
+        let (what, sets) = match is_of_elements {
+            true => (What::Elements, &deck.sets.elements),
+            false => (What::Nodes, &deck.sets.nodes),
+        };
+        if sets.get(&name).is_none() {
+            let text = format!("there is no set {name}: nothing is written for it");
+            self.remark(request, keyword, &text);
+            return Ok(On::Nothing);
+        }
+        let key = (is_of_elements, name.clone());
+        if let Some(set) = self.known.get(&key) {
+            return Ok(On::Set(set.clone()));
+        }
+        let target = Target::Set(name.clone());
+        let found = deck.indices(what, &target, (request.place, keyword))?;
+        let label = |index: &u32| match what {
+            What::Nodes => deck.node_label(*index as usize),
+            What::Elements => deck.element_label(*index as usize),
+        };
+        let labels = Arc::new(found.iter().map(label).collect());
+        let set = NamedSet { name, labels };
+        self.known.insert(key, set.clone());
+        Ok(On::Set(set))
+    }
+
+    /// The contact between the surfaces that a request names, by its number; none where it names
+    /// none that there is.
+    fn contact(&self, request: &OutputRequest) -> NamedSet {
+        let [slave, master] = request.contact.clone().unwrap_or_default();
+        let pairs = &self.deck.properties.contacts;
+        let is_it = |pair: &ContactPair| {
+            pair.slave.eq_ignore_ascii_case(&slave) && pair.master.eq_ignore_ascii_case(&master)
+        };
+        let number = pairs.iter().position(is_it);
+        let [slave, master] = [slave, master].map(|name| name.to_uppercase());
+        NamedSet {
+            name: format!("slave set {slave}, master set {master}"),
+            labels: Arc::new(number.iter().map(|&number| number as u64).collect()),
+        }
+    }
+
+    fn remark(&mut self, request: &OutputRequest, keyword: &str, text: &str) {
+        let list = &mut self.account.ignored;
+        Account::add(list, &self.deck.files, request.place, keyword, text);
+    }
+}

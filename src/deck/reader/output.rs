@@ -1,0 +1,152 @@
+//! Which results are asked for: `*NODE FILE`, `*EL PRINT` and their like.
+
+use super::{Reader, fields};
+use crate::deck::data::{Group, OutputRequest, Schedule, TimePoints};
+use crate::deck::keyword::{Keyword, plain};
+use crate::error::Result;
+use crate::scene::{ContactForce, ResultItem, Totals};
+
+/// Most times of a keyword.
+const MOST_TIMES: usize = 10_000;
+
+impl Reader<'_> {
+    /// `*OUTPUT`: how often; in Abaqus, whether what follows is for the field file or for
+    /// histories.
+    pub(super) fn output(&mut self, keyword: &Keyword) -> Result<()> {
+        self.is_history = keyword.has("HISTORY");
+        self.schedule(keyword);
+        self.skip()
+    }
+
+    /// How often results are asked for: the last that a step says holds for all of them.
+    fn schedule(&mut self, keyword: &Keyword) {
+        let every = || keyword.get("FREQUENCY")?.parse().ok().map(Schedule::Every);
+        let points = keyword.get("TIMEPOINTS");
+        let named = points.map(|name| Schedule::At(name.to_string()));
+        if let Some((step, schedule)) = self.current_step().zip(named.or_else(every)) {
+            self.deck.program.steps[step].schedule = Some(schedule);
+        }
+    }
+
+    /// Times at which results are asked for; from, to, by steps of with `GENERATE`.
+    pub(super) fn time_points(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        let name = keyword.require(files, "NAME")?.to_string();
+        let is_total = keyword.get("TIME").is_some_and(|t| plain(t) == "TOTALTIME");
+        let mut times = Vec::new();
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let mut values = Vec::new();
+            while !row.is_at_end() {
+                values.push(row.number("the time")?);
+            }
+            match values[..] {
+                [from, to, by] if keyword.has("GENERATE") && by > 0.0 => {
+                    let most = MOST_TIMES as f64;
+                    let n = ((to - from) / by + 1e-9).floor().clamp(-1.0, most);
+                    times.extend((0..=n as i64).map(|k| from + by * k as f64));
+                }
+                _ => times.extend(values),
+            }
+            if times.len() > MOST_TIMES {
+                let message = format!("more than {MOST_TIMES} times; give fewer");
+                return Err(row.place.error(message));
+            }
+        }
+        times.sort_by(f64::total_cmp);
+        *self.deck.program.time_points.entry(&name) = TimePoints { times, is_total };
+        Ok(())
+    }
+
+    /// A request for results. What brinell does not write is a remark.
+    pub(super) fn request(&mut self, keyword: &Keyword) -> Result<()> {
+        let group = match keyword.name.as_bytes() {
+            [b'N', ..] => Group::Node,
+            [b'E', ..] => Group::Element,
+            _ => Group::Contact,
+        };
+        let is_print = keyword.name.ends_with("PRINT");
+        let totals = match keyword.get("TOTALS").map(str::to_uppercase).as_deref() {
+            Some("YES") => Totals::Yes,
+            Some("ONLY") => Totals::Only,
+            _ => Totals::No,
+        };
+        let key = match (group, is_print) {
+            (Group::Element, true) => "ELSET",
+            _ => "NSET",
+        };
+        let mut request = OutputRequest {
+            group,
+            is_print,
+            items: Vec::new(),
+            set: keyword.get(key).map(str::to_string),
+            contact: (keyword.get("SLAVE").zip(keyword.get("MASTER")))
+                .map(|(slave, master)| [slave, master].map(str::to_string)),
+            totals,
+            place: keyword.place,
+        };
+        let is_3d = |value: &str| value.eq_ignore_ascii_case("3D");
+        if keyword.get("OUTPUT").is_some_and(is_3d) {
+            let why = "OUTPUT=3D: elements of the plane are written as they are";
+            self.ignore(keyword, keyword.place, why);
+        }
+        self.result_items(keyword, &mut request)?;
+        self.schedule(keyword);
+        match self.current_step() {
+            _ if self.is_history && !is_print => {
+                let why = "histories: tables of whole sets are written (--dat)";
+                self.ignore(keyword, keyword.place, why);
+            }
+            None => self.ignore(keyword, keyword.place, "it stands in no *STEP"),
+            Some(step) => self.deck.program.steps[step].outputs.push(request),
+        }
+        Ok(())
+    }
+
+    fn result_items(&mut self, keyword: &Keyword, request: &mut OutputRequest) -> Result<()> {
+        let (mut others, mut has_jump) = (Vec::new(), true);
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            while !row.is_at_end() {
+                let word = String::from_utf8_lossy(row.word()).to_uppercase();
+                match (word.as_str(), item(&word)) {
+                    ("", _) => {}
+                    ("NOE", _) => has_jump = false,
+                    (_, Some(item)) => request.items.push(item),
+                    _ => others.push(word),
+                }
+            }
+        }
+        // The error of a stress goes with it.
+        if has_jump && !request.is_print && request.items.contains(&ResultItem::Stress) {
+            request.items.push(ResultItem::StressJump);
+        }
+        if !others.is_empty() {
+            let why = format!(
+                "{}: not among the results that are written",
+                others.join(", ")
+            );
+            self.ignore(keyword, keyword.place, &why);
+        }
+        Ok(())
+    }
+}
+
+/// The result of a name that CalculiX or Abaqus has for it.
+fn item(word: &str) -> Option<ResultItem> {
+    Some(match word {
+        "U" => ResultItem::Displacement,
+        "RF" => ResultItem::Force,
+        "S" => ResultItem::Stress,
+        "E" => ResultItem::TotalStrain,
+        "PEEQ" => ResultItem::PlasticStrain,
+        "CDIS" | "CSTR" | "CDISP" | "CSTRESS" => ResultItem::Contact,
+        "ZZS" => ResultItem::RecoveredStress,
+        "ERR" => ResultItem::StressJump,
+        "CF" => ResultItem::ContactForce(ContactForce::Total),
+        "CFN" => ResultItem::ContactForce(ContactForce::Normal),
+        "CFS" => ResultItem::ContactForce(ContactForce::Shear),
+        "EVOL" => ResultItem::Volume,
+        _ => return None,
+    })
+}

@@ -1,0 +1,151 @@
+//! Results that a deck asks for.
+
+use super::{Conversion, Deck, Options};
+use crate::scene::{Moment, ResultItem, Totals};
+
+const BLOCK: &str = "\
+*HEADING
+One
+Two
+*NODE, NSET=ALL
+1, 0., 0.
+2, 1., 0.
+3, 1., 1.
+4, 0., 1.
+*NSET, NSET=Top
+3, 4
+*ELEMENT, TYPE=CPS4, ELSET=E
+1, 1, 2, 3, 4
+*MATERIAL, NAME=ZINC
+*ELASTIC
+1., 0.
+*PLASTIC
+1., 0.
+*MATERIAL, NAME=BRASS
+*SOLID SECTION, ELSET=E, MATERIAL=ZINC
+0.5
+*TIME POINTS, NAME=AT
+0.25, 0.75, 9.
+*TIME POINTS, NAME=RUN, GENERATE, TIME=TOTAL TIME
+4.5, 5.5, 0.25
+*BOUNDARY
+1, 1, 2
+2, 2
+";
+
+fn converted(steps: &[&str], increments: bool) -> Conversion {
+    let step = |text: &&str| {
+        format!("*STEP\n*STATIC{text}*CLOAD\n3, 2, 0.1\n*END STEP\n").replace("; ", "\n")
+    };
+    let text: String = steps.iter().map(step).collect();
+    let deck = Deck::parse(format!("{BLOCK}{text}").as_bytes(), "a.inp").unwrap();
+    let options = Options {
+        increments,
+        ..Options::default()
+    };
+    deck.convert(options).unwrap()
+}
+
+fn items(moment: &Moment) -> Vec<ResultItem> {
+    moment.file.iter().map(|request| request.item).collect()
+}
+
+/// A step that asks for a group anew replaces what was asked for in that group, and no other.
+#[test]
+fn requests_stay_until_their_group_is_asked_for_anew() {
+    use ResultItem::{Displacement, Force, PlasticStrain, Stress, StressJump};
+    let found = converted(
+        &[
+            "; *EL FILE; S, PEEQ, SDV; *NODE FILE, NSET=TOP; U; \
+             *NODE PRINT, NSET=TOP, TOTALS=YES; RF\n",
+            "; *NODE FILE; RF\n",
+            "; *EL FILE; S, NOE; *NODE FILE, NSET=NONE; U\n",
+        ],
+        false,
+    );
+    let requests = &found.scene.requests;
+    assert_eq!(requests.heading, ["One", "Two"]);
+    assert_eq!(requests.materials, ["ZINC", "BRASS"]);
+    assert_eq!(requests.thickness, Some(0.5));
+    assert!(requests.point_values);
+    let [first, second, third] = &requests.moments[..] else {
+        panic!("{requests:?}");
+    };
+    assert_eq!(
+        items(first),
+        [Displacement, Stress, PlasticStrain, StressJump]
+    );
+    let set = first.file[0].nodes.as_ref().unwrap();
+    assert_eq!((set.name.as_str(), &set.labels[..]), ("TOP", &[3, 4][..]));
+    assert_eq!(items(second), [Stress, Force, PlasticStrain, StressJump]);
+    assert!(second.file.iter().all(|request| request.nodes.is_none()));
+    assert_eq!(items(third), [Stress]);
+    for moment in &requests.moments {
+        let [print] = &moment.prints[..] else {
+            panic!("{moment:?}");
+        };
+        assert_eq!((print.item, print.totals), (Force, Totals::Yes));
+    }
+    let ignored: Vec<String> = found
+        .account
+        .ignored
+        .iter()
+        .map(|n| n.text.clone())
+        .collect();
+    let expected = [
+        "SDV: not among the results that are written",
+        "there is no set NONE: nothing is written for it",
+    ];
+    assert_eq!(ignored, expected);
+}
+
+/// Increments of `DIRECT` and time points are targets where increments are asked for.
+#[test]
+fn increments_are_those_that_results_are_asked_for() {
+    let steps = [
+        ", DIRECT; 0.1, 1.; *NODE FILE, FREQUENCY=4; U\n",
+        "; 0.1, 3.; *EL FILE, TIME POINTS=AT; S\n",
+        "; 0.1, 1.; *EL FILE, TIME POINTS=RUN; S\n",
+    ];
+    let instants = |steps: &[&str], increments: bool| -> Vec<(usize, usize, f64)> {
+        let found = converted(steps, increments);
+        let moments = &found.scene.requests.moments;
+        assert_eq!(moments.len(), found.scene.program.targets.len());
+        let each = moments.iter();
+        each.map(|m| (m.step, m.increment, m.time.unwrap()))
+            .collect()
+    };
+    let ends = [(1, 1, 1.0), (2, 1, 4.0), (3, 1, 5.0)];
+    assert_eq!(instants(&steps, false), ends);
+    let output = "; 0.1, 1., 1e-5, 0.1; *OUTPUT, FREQUENCY=5; *NODE FILE; U\n";
+    assert_eq!(instants(&[output], true), [(1, 5, 0.5), (1, 10, 1.0)]);
+    let expected = [
+        (1, 4, 0.4),
+        (1, 8, 0.8),
+        (1, 10, 1.0),
+        (2, 1, 1.25),
+        (2, 2, 1.75),
+        (2, 3, 4.0),
+        (3, 1, 4.5),
+        (3, 2, 4.75),
+        (3, 3, 5.0),
+    ];
+    assert_eq!(instants(&steps, true), expected);
+    let names = converted(&steps, true).scene.program.labels();
+    assert_eq!(
+        names[..3],
+        ["step-1 increment 4", "step-1 increment 8", "step-1"]
+    );
+}
+
+/// Field output of Abaqus is written, histories are not.
+#[test]
+fn histories_are_read_over() {
+    let found = converted(
+        &["; *OUTPUT, FIELD; *NODE OUTPUT; U, RF; *OUTPUT, HISTORY; *NODE OUTPUT, NSET=TOP; U\n"],
+        false,
+    );
+    let moment = &found.scene.requests.moments[0];
+    assert_eq!(items(moment), [ResultItem::Displacement, ResultItem::Force]);
+    assert!(moment.file.iter().all(|request| request.nodes.is_none()));
+}

@@ -1,0 +1,60 @@
+//! The nodes that gaps and pressures of a contact are shown at in the files of CalculiX.
+
+use crate::mesh::Mesh;
+use crate::model::Model;
+use crate::results::PairState;
+
+/// The nodes of the first surface of each contact, which is the slave surface of a deck.
+pub(super) struct Slaves<'a> {
+    model: &'a Model,
+    firsts: Vec<Vec<usize>>,
+    /// Half the diagonal of the model.
+    far: f64,
+}
+
+impl<'a> Slaves<'a> {
+    pub(super) fn new(model: &'a Model) -> Self {
+        let contacts = model.scene.contact.iter();
+        let nodes = contacts.map(|contact| model.mesh.set_nodes(&contact.first));
+        Slaves {
+            model,
+            firsts: nodes.map(Option::unwrap_or_default).collect(),
+            far: 0.5 * diagonal(&model.mesh),
+        }
+    }
+
+    /// The gap of a pair, negative where the surfaces overlap; 0 of a pair that a step switches off
+    /// (`*MODEL CHANGE`), which is then apart by the length of the model.
+    pub(super) fn gap(&self, of_pair: &PairState) -> f64 {
+        if of_pair.gap > self.far {
+            return 0.0;
+        }
+        of_pair.gap
+    }
+
+    /// Whether a node is on the first surface of a contact.
+    pub(super) fn is_on_first(&self, node: usize, contact: usize) -> bool {
+        let first = self.firsts.get(contact);
+        first.is_some_and(|first| first.binary_search(&node).is_ok())
+    }
+
+    /// The node of a pair: the one of the first surface where two nodes face each other, the slave
+    /// of the pair otherwise. A point on an axis of revolution that is no pair has none.
+    pub(super) fn node(&self, of_pair: &PairState) -> Option<usize> {
+        let pair = self.model.pairs.get(of_pair.pair)?;
+        let is_on_first = |node: &usize| self.is_on_first(*node, of_pair.contact);
+        Some(pair.faced().filter(is_on_first).unwrap_or(pair.slave))
+    }
+}
+
+/// The diagonal of the box around a mesh.
+fn diagonal(mesh: &Mesh) -> f64 {
+    let along = |axis: usize| {
+        let places = (0..mesh.n_nodes()).map(|node| mesh.point(node)[axis]);
+        let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
+            [a.min(x), b.max(x)]
+        });
+        ends[1] - ends[0]
+    };
+    (0..3).map(|axis| along(axis).powi(2)).sum::<f64>().sqrt()
+}

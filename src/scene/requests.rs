@@ -1,0 +1,164 @@
+//! Which results are asked for in the formats of CalculiX: `.frd` files and tables in `.dat` files.
+
+use std::sync::Arc;
+
+/// Which results are asked for in the formats of CalculiX, state by state.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Requests {
+    /// Whether stresses and strains at the integration points are kept for the states with fields.
+    pub point_values: bool,
+    /// Lines that describe the model.
+    pub heading: Vec<String>,
+    /// Names of materials and surface interactions, in the order of the deck.
+    pub materials: Vec<String>,
+    /// Thickness of a plane model: forces are those on all of it.
+    pub thickness: Option<f64>,
+    /// The moment that each target stands for, in the order of the targets.
+    pub moments: Vec<Moment>,
+}
+
+/// A moment of a deck's program, with the results that are asked for there.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Moment {
+    /// Number of the step, from 1.
+    pub step: usize,
+    /// Number of the increment within the step, from 1.
+    pub increment: usize,
+    /// Time since the beginning of the first step. `None` of a scene, which knows no time: the load
+    /// factor of the state stands for it.
+    pub time: Option<f64>,
+    /// Time since the beginning of the step.
+    pub step_time: f64,
+    /// Results for the `.frd` file, in the order of the file.
+    pub file: Vec<FileRequest>,
+    /// Tables for the `.dat` file, in the order of the file.
+    pub prints: Vec<Print>,
+}
+
+/// A result that is asked for at nodes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileRequest {
+    /// Which result.
+    pub item: ResultItem,
+    /// The nodes; all where there is none.
+    pub nodes: Option<NamedSet>,
+}
+
+/// A table of a result on a set of nodes or elements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Print {
+    /// Which result.
+    pub item: ResultItem,
+    /// The nodes of displacements and forces, the elements of the other results; of the force of a
+    /// contact the number of the contact, from 0.
+    pub set: NamedSet,
+    /// Whether the values are added up.
+    pub totals: Totals,
+}
+
+/// A set of nodes or elements by their numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NamedSet {
+    /// The name.
+    pub name: String,
+    /// Numbers of the nodes or elements, in the order of the table.
+    pub labels: Arc<Vec<u64>>,
+}
+
+/// Whether the values of a table are added up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Totals {
+    /// The values only.
+    #[default]
+    No,
+    /// The values and their sum.
+    Yes,
+    /// The sum only.
+    Only,
+}
+
+/// A result that a `.frd` or `.dat` file can have, in the order of a `.frd` file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ResultItem {
+    /// Displacements (`U`).
+    Displacement,
+    /// Stresses (`S`).
+    Stress,
+    /// Total strains (`E`).
+    TotalStrain,
+    /// Forces that act from outside: loads and reactions (`RF`).
+    Force,
+    /// Equivalent plastic strain (`PEEQ`).
+    PlasticStrain,
+    /// Gap and pressure of contact (`CDIS`, `CSTR`).
+    Contact,
+    /// Stresses of a polynomial fitted around each node (`ZZS`).
+    RecoveredStress,
+    /// Jump of the stress from element to element (`ERR`).
+    StressJump,
+    /// Volumes of elements (`EVOL`), in tables only.
+    Volume,
+    /// Force of a contact (`CF`, `CFN`, `CFS`), in tables only.
+    ContactForce(ContactForce),
+}
+
+/// A part of the force of a contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ContactForce {
+    /// All of it (`CF`).
+    Total,
+    /// Across the surfaces (`CFN`).
+    Normal,
+    /// Along the surfaces (`CFS`).
+    Shear,
+}
+
+impl ResultItem {
+    /// The results that a `.frd` file has where none are named.
+    pub const USUAL: [ResultItem; 6] = [
+        ResultItem::Displacement,
+        ResultItem::Stress,
+        ResultItem::TotalStrain,
+        ResultItem::Force,
+        ResultItem::PlasticStrain,
+        ResultItem::Contact,
+    ];
+
+    /// Whether it follows from values at integration points.
+    pub fn needs_points(self) -> bool {
+        use ResultItem::{PlasticStrain, Stress, StressJump, TotalStrain};
+        matches!(self, Stress | TotalStrain | PlasticStrain | StressJump)
+    }
+}
+
+impl Requests {
+    /// Whether a deck asks for results in a `.frd` file.
+    pub fn has_file(&self) -> bool {
+        self.is_of_deck() && self.moments.iter().any(|moment| !moment.file.is_empty())
+    }
+
+    /// Whether a deck asks, which always has a material, and not the command line alone.
+    pub fn is_of_deck(&self) -> bool {
+        !self.materials.is_empty()
+    }
+
+    /// Asks for the usual results in each of `n_targets` states: each is a step of its own.
+    pub fn ask_for_usual(&mut self, n_targets: usize) {
+        let request = |item| FileRequest { item, nodes: None };
+        let usual = || ResultItem::USUAL.map(request).to_vec();
+        if self.moments.is_empty() {
+            let moment = |number| Moment {
+                step: number,
+                increment: 1,
+                step_time: 1.0,
+                ..Moment::default()
+            };
+            self.moments = (1..=n_targets).map(moment).collect();
+        }
+        for moment in &mut self.moments {
+            if moment.file.is_empty() {
+                moment.file = usual();
+            }
+        }
+    }
+}
