@@ -19,10 +19,10 @@ pub struct MeshSource {
     pub curved_bodies: Option<CurvedBodies>,
     /// Blocks, rings and bricks, put together.
     pub parts: Option<Vec<Part>>,
-    /// A Gmsh file (.msh 2.2 or 4.1, ASCII) or the mesh of a deck of Abaqus or CalculiX (.inp),
-    /// relative to the scene file. Physical surfaces are bodies, physical curves surfaces, physical
-    /// points node sets; of a solid mesh physical volumes are bodies, physical surfaces surfaces,
-    /// physical curves and points node sets.
+    /// A Gmsh file (.msh 2.2 or 4.1, text or binary) or the mesh of a deck of Abaqus or CalculiX
+    /// (.inp), relative to the scene file. Physical surfaces are bodies, physical curves surfaces,
+    /// physical points node sets; of a solid mesh physical volumes are bodies, physical surfaces
+    /// surfaces, physical curves and points node sets.
     pub file: Option<PathBuf>,
     /// Surfaces of the file that lie on circles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

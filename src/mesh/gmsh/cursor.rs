@@ -1,5 +1,6 @@
 //! Reading numbers and words straight from the bytes of a file.
 
+use super::encoding::Encoding;
 use crate::{Error, Result};
 
 /// A position in the text of a file.
@@ -10,6 +11,8 @@ pub(super) struct Cursor<'a> {
     name: &'a str,
     /// The section being read, for messages.
     pub section: &'static str,
+    /// How numbers are written.
+    encoding: Encoding,
 }
 
 impl<'a> Cursor<'a> {
@@ -19,7 +22,49 @@ impl<'a> Cursor<'a> {
             at: 0,
             name,
             section: "the file",
+            encoding: Encoding::Text,
         }
+    }
+
+    /// Numbers from here on are written so.
+    pub(super) fn set_encoding(&mut self, encoding: Encoding) {
+        self.encoding = encoding;
+    }
+
+    /// Whether numbers are bytes of the machine that wrote them.
+    pub(super) fn is_binary(&self) -> bool {
+        self.encoding != Encoding::Text
+    }
+
+    /// What is text in a binary file, too.
+    pub(super) fn in_text<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
+        let encoding = std::mem::replace(&mut self.encoding, Encoding::Text);
+        let found = read(self);
+        self.encoding = encoding;
+        found
+    }
+
+    /// The next bytes.
+    pub(super) fn bytes<const N: usize>(&mut self, what: &str) -> Result<[u8; N]> {
+        let Some(bytes) = self.text[self.at..].first_chunk::<N>() else {
+            return Err(self.error(format!(
+                "the file ends inside {} where {what} should be: is it truncated?",
+                self.section
+            )));
+        };
+        self.at += N;
+        Ok(*bytes)
+    }
+
+    /// The next number as so many bytes, without a sign.
+    fn binary(&mut self, what: &str, encoding: Encoding, wide: bool) -> Result<u64> {
+        let start = self.at;
+        let value = match wide {
+            true => i64::from_ne_bytes(encoding.ordered(self.bytes(what)?)),
+            false => i64::from(i32::from_ne_bytes(encoding.ordered(self.bytes(what)?))),
+        };
+        u64::try_from(value)
+            .map_err(|_| self.error_at(start, format!("expected {what}, found {value}")))
     }
 
     /// The byte offset, for [`Cursor::error_at`].
@@ -37,9 +82,12 @@ impl<'a> Cursor<'a> {
         self.error_at(self.at, message)
     }
 
-    /// An error at a byte offset: file and line number, in front of the message. The line is
-    /// counted only here, so that reading does not pay for it.
+    /// An error at a byte offset: file and line number, of a binary file the byte, in front of the
+    /// message. The line is counted only here, so that reading does not pay for it.
     pub(super) fn error_at(&self, at: usize, message: impl std::fmt::Display) -> Error {
+        if self.is_binary() {
+            return Error::input(format!("{}, byte {at}: {message}", self.name));
+        }
         let before = &self.text[..at.min(self.text.len())];
         let line = 1 + before.iter().filter(|&&b| b == b'\n').count();
         Error::input(format!("{}, line {line}: {message}", self.name))
@@ -82,8 +130,11 @@ impl<'a> Cursor<'a> {
         rest[..length].trim_ascii_end()
     }
 
-    /// Requires the line to end here and moves to the next.
+    /// Requires the line to end here and moves to the next; a binary file has no lines.
     pub(super) fn end_line(&mut self) -> Result<()> {
+        if self.is_binary() {
+            return Ok(());
+        }
         if !self.is_at_line_end() {
             let word = self.word_ahead();
             return Err(self.error(format!("expected the end of the line, found `{word}`")));
@@ -130,8 +181,24 @@ impl<'a> Cursor<'a> {
         Ok(&rest[..length])
     }
 
-    /// The next number of the line, without a sign.
+    /// The next number, without a sign; in a binary file as wide as the version has numbers of
+    /// nodes and elements.
     pub(super) fn unsigned(&mut self, what: &str) -> Result<u64> {
+        match self.encoding {
+            Encoding::Text => self.digits(what),
+            binary => self.binary(what, binary, binary.is_wide()),
+        }
+    }
+
+    /// The next number, without a sign; in a binary file of four bytes.
+    pub(super) fn small(&mut self, what: &str) -> Result<u64> {
+        match self.encoding {
+            Encoding::Text => self.digits(what),
+            binary => self.binary(what, binary, false),
+        }
+    }
+
+    fn digits(&mut self, what: &str) -> Result<u64> {
         self.skip_blanks();
         let start = self.at;
         let mut value: u64 = 0;
@@ -157,8 +224,12 @@ impl<'a> Cursor<'a> {
         Ok(value)
     }
 
-    /// The next number of the line, with or without a sign.
+    /// The next number, with or without a sign; in a binary file of four bytes.
     pub(super) fn signed(&mut self, what: &str) -> Result<i64> {
+        if self.is_binary() {
+            let bytes = self.bytes(what)?;
+            return Ok(i64::from(i32::from_ne_bytes(self.encoding.ordered(bytes))));
+        }
         self.skip_blanks();
         let start = self.at;
         let negative = self.peek() == Some(b'-');
@@ -166,7 +237,7 @@ impl<'a> Cursor<'a> {
             self.at += 1;
         }
         let value = if matches!(self.peek(), Some(b'0'..=b'9')) {
-            i64::try_from(self.unsigned(what)?).ok()
+            i64::try_from(self.digits(what)?).ok()
         } else {
             None
         };
@@ -196,8 +267,12 @@ impl<'a> Cursor<'a> {
         Ok(value as usize)
     }
 
-    /// The next floating point number of the line.
+    /// The next floating point number.
     pub(super) fn float(&mut self, what: &str) -> Result<f64> {
+        if self.is_binary() {
+            let bytes = self.bytes(what)?;
+            return Ok(f64::from_ne_bytes(self.encoding.ordered(bytes)));
+        }
         self.skip_blanks();
         let start = self.at;
         let word = self.word(what)?;
@@ -257,6 +332,17 @@ impl<'a> Cursor<'a> {
     /// Skips a section that is of no use here.
     pub(super) fn skip_section(&mut self, start: &[u8]) -> Result<()> {
         let name = start.strip_prefix(b"$").unwrap_or(start);
+        if self.is_binary() {
+            // Line ends are bytes like others.
+            let end = [b"$End", name].concat();
+            let mut ahead = self.text[self.at..].windows(end.len());
+            if let Some(length) = ahead.position(|bytes| bytes == end) {
+                self.at += length;
+                self.rest_of_line();
+                return Ok(());
+            }
+            self.at = self.text.len();
+        }
         while !self.is_at_end() {
             self.skip_blanks();
             let line = self.rest_of_line();

@@ -1,4 +1,4 @@
-//! Gmsh meshes: `.msh` 2.2 and 4.1, ASCII.
+//! Gmsh meshes: `.msh` 2.2 and 4.1, as text and binary in both orders of bytes.
 //!
 //! In a plane mesh physical surfaces are bodies, physical curves surfaces, physical points node
 //! sets. Where there are volumes, the mesh is a solid one: physical volumes are bodies, physical
@@ -15,6 +15,7 @@
 mod assemble;
 mod content;
 mod cursor;
+mod encoding;
 mod kind;
 pub(crate) mod node_data;
 #[cfg(test)]
@@ -30,6 +31,7 @@ use crate::files;
 use crate::{Error, ErrorKind, Result};
 use content::Content;
 use cursor::Cursor;
+use encoding::Encoding;
 use std::path::Path;
 use version4::Entities;
 
@@ -45,8 +47,9 @@ pub fn read(path: &Path) -> Result<Mesh> {
 /// Reads a mesh from the bytes of a file; `name` is the file's name for messages.
 ///
 /// # Errors
-/// Input errors with file name and line number for anything that is not a complete, consistent file
-/// of version 2.2 or 4.1 in ASCII; unsupported errors for element types that brinell does not have.
+/// Input errors with file name and line number (of a binary file the byte) for anything that is not
+/// a complete, consistent file of version 2.2 or 4.1; unsupported errors for element types that
+/// brinell does not have.
 pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
     let mut cursor = Cursor::new(text, name);
     let mut content = Content::default();
@@ -69,12 +72,12 @@ pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
         match (section, version) {
             (b"$MeshFormat", None) => {
                 cursor.section = "$MeshFormat";
-                version = Some(read_version(&mut cursor)?);
+                version = Some(read_format(&mut cursor)?);
                 cursor.section_end("$EndMeshFormat")?;
             }
             (b"$PhysicalNames", Some(_)) => {
                 cursor.section = "$PhysicalNames";
-                content.read_names(&mut cursor)?;
+                cursor.in_text(|cursor| content.read_names(cursor))?;
                 cursor.section_end("$EndPhysicalNames")?;
             }
             (b"$Entities", Some(Version::V4)) => {
@@ -140,8 +143,8 @@ fn is_beginning(text: &[u8]) -> bool {
     text.starts_with(b"$MeshFormat") || text.starts_with(b"$Comments")
 }
 
-/// Reads `$MeshFormat`: version, 0 for ASCII, size of a float.
-fn read_version(cursor: &mut Cursor) -> Result<Version> {
+/// Reads `$MeshFormat`: the version, and how the cursor reads numbers from there on.
+fn read_format(cursor: &mut Cursor) -> Result<Version> {
     let at = cursor.at();
     let number = cursor.float("the version")?;
     let version = if (2.0..3.0).contains(&number) {
@@ -155,15 +158,7 @@ fn read_version(cursor: &mut Cursor) -> Result<Version> {
         );
         return Err(Error::new(ErrorKind::Unsupported, place.message()));
     };
-    let at = cursor.at();
-    if cursor.unsigned("the file type")? != 0 {
-        let place = cursor.error_at(
-            at,
-            "the file is binary; export the mesh as ASCII (Mesh.Binary = 0)",
-        );
-        return Err(Error::new(ErrorKind::Unsupported, place.message()));
-    }
-    cursor.unsigned("the size of a float")?;
-    cursor.end_line()?;
+    let encoding = Encoding::read(cursor, version == Version::V4)?;
+    cursor.set_encoding(encoding);
     Ok(version)
 }

@@ -1,6 +1,7 @@
 //! Values at nodes: `$NodeData`, alike in both versions of the format.
 
 use super::cursor::Cursor;
+use super::read_format;
 use crate::error::Result;
 use crate::files;
 #[cfg(feature = "cli")]
@@ -30,6 +31,11 @@ fn parse(text: &[u8], name: &str) -> Result<Vec<(u64, f64)>> {
         let at = cursor.at();
         match cursor.section_start()? {
             None => break,
+            Some(b"$MeshFormat") => {
+                cursor.section = "$MeshFormat";
+                read_format(&mut cursor)?;
+                cursor.section_end("$EndMeshFormat")?;
+            }
             Some(b"$NodeData") if found.is_some() => {
                 let message = "a second section $NodeData: which one is meant is not known; give a \
                                file for each";
@@ -62,8 +68,22 @@ pub(crate) fn write(name: &str, values: &[(u64, f64)], out: &mut dyn Write) -> s
     out.flush()
 }
 
-/// Tags of three kinds, then a node and its value by line.
+/// Tags of three kinds, which are text in a binary file, too, then a node and its value by line.
 fn section(cursor: &mut Cursor) -> Result<Vec<(u64, f64)>> {
+    let n = cursor.in_text(read_tags)?;
+    let mut out = Vec::new();
+    for _ in 0..n {
+        if !cursor.is_binary() {
+            cursor.skip_lines();
+        }
+        out.push((cursor.small("a node")?, cursor.float("a value")?));
+        cursor.end_line()?;
+    }
+    Ok(out)
+}
+
+/// Reads the tags; the number of values.
+fn read_tags(cursor: &mut Cursor) -> Result<u64> {
     for _ in 0..count(cursor, "the number of string tags")? {
         cursor.skip_lines();
         cursor.quoted("a string tag")?;
@@ -86,13 +106,8 @@ fn section(cursor: &mut Cursor) -> Result<Vec<(u64, f64)>> {
         let message = format!("the values have {components} components; they should have 1");
         return Err(cursor.error(message));
     }
-    let mut out = Vec::new();
-    for _ in 0..n {
-        cursor.skip_lines();
-        out.push((cursor.unsigned("a node")?, cursor.float("a value")?));
-        cursor.end_line()?;
-    }
-    Ok(out)
+    cursor.end_line()?;
+    Ok(n)
 }
 
 fn count(cursor: &mut Cursor, what: &str) -> Result<usize> {

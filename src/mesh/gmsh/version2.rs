@@ -2,12 +2,12 @@
 
 use super::content::Content;
 use super::cursor::Cursor;
+use super::kind::Kind;
 use crate::Result;
 
 /// Reads `$Nodes`: `number x y z` per line.
 pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<()> {
-    let n = cursor.count("the number of nodes")?;
-    cursor.end_line()?;
+    let n = count_line(cursor, "the number of nodes")?;
     content.node_labels.reserve(n);
     content.coordinates.reserve(3 * n);
     for _ in 0..n {
@@ -20,29 +20,67 @@ pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<(
     content.index_nodes(cursor)
 }
 
-/// Reads `$Elements`: `number type n_tags physical elementary ... nodes` per line.
+/// Reads `$Elements`: `number type n_tags physical elementary ... nodes` per line. In a binary file
+/// elements of one type follow `type n_elements n_tags`, each `number physical ... nodes`.
 pub(super) fn read_elements(content: &mut Content, cursor: &mut Cursor) -> Result<()> {
-    let n = cursor.count("the number of elements")?;
-    cursor.end_line()?;
+    let n = count_line(cursor, "the number of elements")?;
     content.elements.reserve(n);
     content.connectivity.reserve(4 * n);
-    for _ in 0..n {
+    let mut read = 0;
+    while read < n {
         let at = cursor.at();
-        let label = cursor.unsigned("an element number")?;
-        let element_type = cursor.unsigned("an element type")?;
-        let kind = Content::kind(cursor, at, element_type)?;
-        let n_tags = cursor.count("the number of tags")?;
-        let mut physical = 0;
-        for k in 0..n_tags {
-            // Negative for a surface that is turned round; the group is the same.
-            let tag = cursor.signed("a tag")?.unsigned_abs();
-            if k == 0 {
-                physical = tag;
+        if cursor.is_binary() {
+            let element_type = cursor.unsigned("an element type")?;
+            let kind = Content::kind(cursor, at, element_type)?;
+            let n_alike = cursor.count("the number of elements of a type")?;
+            let n_tags = cursor.count("the number of tags")?;
+            if n_alike == 0 || n_alike > n - read {
+                let message = format!("{n_alike} elements of a type, where {} are left", n - read);
+                return Err(cursor.error_at(at, message));
             }
+            for _ in 0..n_alike {
+                let at = cursor.at();
+                let label = cursor.unsigned("an element number")?;
+                read_tags_and_nodes(content, cursor, (kind, label, at), n_tags)?;
+            }
+            read += n_alike;
+        } else {
+            let label = cursor.unsigned("an element number")?;
+            let element_type = cursor.unsigned("an element type")?;
+            let kind = Content::kind(cursor, at, element_type)?;
+            let n_tags = cursor.count("the number of tags")?;
+            read_tags_and_nodes(content, cursor, (kind, label, at), n_tags)?;
+            read += 1;
         }
-        let group = [physical];
-        let groups = if physical == 0 { &[][..] } else { &group };
-        content.read_element(cursor, kind, label, groups, at)?;
     }
     Ok(())
+}
+
+/// The first tag is the physical group.
+fn read_tags_and_nodes(
+    content: &mut Content,
+    cursor: &mut Cursor,
+    (kind, label, at): (Kind, u64, usize),
+    n_tags: usize,
+) -> Result<()> {
+    let mut physical = 0;
+    for k in 0..n_tags {
+        // Negative for a surface that is turned round; the group is the same.
+        let tag = cursor.signed("a tag")?.unsigned_abs();
+        if k == 0 {
+            physical = tag;
+        }
+    }
+    let group = [physical];
+    let groups = if physical == 0 { &[][..] } else { &group };
+    content.read_element(cursor, kind, label, groups, at)
+}
+
+/// A count on a line of its own: text in a binary file, too.
+fn count_line(cursor: &mut Cursor, what: &str) -> Result<usize> {
+    cursor.in_text(|cursor| {
+        let n = cursor.count(what)?;
+        cursor.end_line()?;
+        Ok(n)
+    })
 }

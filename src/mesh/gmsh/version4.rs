@@ -37,7 +37,13 @@ pub(super) fn read_entities(cursor: &mut Cursor) -> Result<Entities> {
                 }
             }
             // The bounding entities that follow are of no use here.
-            cursor.rest_of_line();
+            if !cursor.is_binary() {
+                cursor.rest_of_line();
+            } else if dimension > 0 {
+                for _ in 0..cursor.count("the number of bounding entities")? {
+                    cursor.signed("a bounding entity")?;
+                }
+            }
             entities.insert((dimension as u64, tag), tags);
         }
     }
@@ -55,9 +61,9 @@ pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<(
     content.node_labels.reserve(n_nodes);
     content.coordinates.reserve(3 * n_nodes);
     for _ in 0..n_blocks {
-        cursor.unsigned("the dimension of an entity")?;
+        let dimension = cursor.small("the dimension of an entity")?;
         cursor.signed("the tag of an entity")?;
-        let parametric = cursor.unsigned("the parametric flag")? != 0;
+        let parametric = cursor.small("the parametric flag")? != 0;
         let n = cursor.count("the number of nodes in a block")?;
         cursor.end_line()?;
         for _ in 0..n {
@@ -68,10 +74,14 @@ pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<(
             for _ in 0..3 {
                 content.coordinates.push(cursor.float("a coordinate")?);
             }
-            if parametric {
-                cursor.rest_of_line();
-            } else {
+            if !parametric {
                 cursor.end_line()?;
+            } else if cursor.is_binary() {
+                for _ in 0..dimension {
+                    cursor.float("a parameter of a node")?;
+                }
+            } else {
+                cursor.rest_of_line();
             }
         }
     }
@@ -96,9 +106,9 @@ pub(super) fn read_elements(
     let mut read = 0;
     for _ in 0..n_blocks {
         let at = cursor.at();
-        let dimension = cursor.unsigned("the dimension of an entity")?;
+        let dimension = cursor.small("the dimension of an entity")?;
         let entity = cursor.signed("the tag of an entity")?;
-        let element_type = cursor.unsigned("an element type")?;
+        let element_type = cursor.small("an element type")?;
         let kind = Content::kind(cursor, at, element_type)?;
         let n = cursor.count("the number of elements in a block")?;
         cursor.end_line()?;

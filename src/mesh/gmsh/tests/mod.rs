@@ -1,5 +1,6 @@
 //! Files of both versions, round trips, and every refusal.
 
+mod binary;
 mod damage;
 mod refusals;
 mod round_trip;
