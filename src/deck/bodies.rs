@@ -87,7 +87,7 @@ impl Deck {
         for (number, section) in self.properties.sections.iter().enumerate() {
             let at = (section.place, "SOLID SECTION");
             let set = Target::Set(section.elements.clone());
-            self.refuse_line_section(&set, at)?;
+            self.refuse_boundary_section(&set, at)?;
             for element in self.indices(What::Elements, &set, at)? {
                 if out[element as usize] != NONE {
                     let label = self.element_name(element as usize);

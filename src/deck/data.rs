@@ -27,6 +27,22 @@ pub(super) struct Elements {
     pub(super) places: Vec<Place>,
 }
 
+impl Elements {
+    /// Keeps those that are wanted, by their place.
+    pub(super) fn retain(&mut self, wanted: impl Fn(usize) -> bool) {
+        let old = std::mem::take(self);
+        self.offsets.push(0);
+        for element in (0..old.labels.len()).filter(|&element| wanted(element)) {
+            self.labels.push(old.labels[element]);
+            self.types.push(old.types[element]);
+            self.places.push(old.places[element]);
+            let nodes = &old.nodes[old.offsets[element]..old.offsets[element + 1]];
+            self.nodes.extend_from_slice(nodes);
+            self.offsets.push(self.nodes.len());
+        }
+    }
+}
+
 /// Something named, or one node or element by its number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Target {
@@ -72,6 +88,11 @@ impl<T> Named<T> {
     {
         let new = || (name.to_string(), T::default());
         &mut self.0.entry(name.to_uppercase()).or_insert_with(new).1
+    }
+
+    /// Shows all that is named.
+    pub(super) fn for_each(&mut self, show: impl FnMut(&mut T)) {
+        self.0.values_mut().map(|(_, value)| value).for_each(show);
     }
 
     /// The name as it was first written, and what it names.

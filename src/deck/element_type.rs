@@ -29,6 +29,13 @@ const PLANE: [(&str, Space); 3] = [
 ];
 
 impl ElementType {
+    /// The plain name of a plane type, or of the solids.
+    pub(super) fn name(&self) -> String {
+        let family = PLANE.iter().find(|(_, space)| *space == self.space);
+        let start = family.map_or("C3D", |(start, _)| start);
+        format!("{start}{}", self.shape.n_nodes())
+    }
+
     /// The type of a name; what is wrong with it otherwise.
     ///
     /// # Errors

@@ -22,6 +22,7 @@
 
 mod assembly;
 mod bodies;
+mod boundary;
 mod constraints;
 mod conversion;
 mod data;
@@ -31,7 +32,6 @@ mod fields;
 mod history;
 mod instances;
 mod keyword;
-mod lines;
 mod load;
 mod reader;
 mod series;
@@ -50,9 +50,9 @@ use crate::files;
 use crate::labels::LabelIndex;
 use crate::shape::Shape;
 use crate::space::Vector;
+use boundary::BoundaryElements;
 use data::{Elements, Nodes, Program, Properties, Sets};
 use instances::Instances;
-use lines::LineElements;
 use reader::Reader;
 use source::{Files, Place, Source};
 use std::borrow::Cow;
@@ -67,7 +67,7 @@ pub struct Deck {
     nodes: Nodes,
     elements: Elements,
     /// Line elements, whose sets are those of faces.
-    lines: LineElements,
+    boundary: BoundaryElements,
     sets: Sets,
     properties: Properties,
     program: Program,

@@ -65,6 +65,12 @@ impl<'t> Reader<'t> {
         let here = self.source.here();
         self.deck.files = self.source.files;
         self.deck.end = here;
+        for (name, place) in self.deck.take_faces_of_solids() {
+            let how =
+                format!("TYPE={name}: beside solids, without stiffness; sets of them are surfaces");
+            let list = &mut self.deck.account.taken;
+            Account::add(list, &self.deck.files, place, "ELEMENT", &how);
+        }
         self.deck.index()?;
         Ok(self.deck)
     }

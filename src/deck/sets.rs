@@ -64,7 +64,7 @@ impl Deck {
         let [thing, key] = what.words();
         let (sets, index, _) = self.table(what);
         let name = match target {
-            Target::Label(label) if what == What::Elements && self.lines.has(*label) => {
+            Target::Label(label) if what == What::Elements && self.boundary.has(*label) => {
                 return Ok(());
             }
             Target::Label(label) => {
@@ -97,7 +97,7 @@ impl Deck {
                     for element in self.indices(What::Elements, &of, at)? {
                         out.extend_from_slice(self.element_nodes(element as usize));
                     }
-                    out.extend(self.nodes_of_lines(&self.lines_of(&of)));
+                    out.extend(self.nodes_of_boundary(&self.boundary_of(&of)));
                 }
             }
         }
@@ -125,7 +125,7 @@ impl Deck {
             let named = labels.iter().filter(|label| is_named(label));
             out.extend(named.filter_map(|&label| index.get(label)));
         }
-        let of_lines = || what == What::Elements && self.lines.any_of([first, last, step]);
+        let of_lines = || what == What::Elements && self.boundary.any_of([first, last, step]);
         if out.len() == before && !of_lines() {
             let thing = what.words()[0];
             let message = format!(
@@ -186,7 +186,7 @@ impl Deck {
                 SurfacePart::Free(on) => {
                     let elements = self.indices(What::Elements, on, at)?;
                     out.extend(self.free_faces_of(&elements));
-                    out.extend(self.faces_of_lines(&self.lines_of(on)));
+                    out.extend(self.faces_of_boundary(&self.boundary_of(on)));
                 }
                 SurfacePart::OfNodes(_) => {}
             }

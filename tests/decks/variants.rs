@@ -234,5 +234,84 @@ program.targets = [{{ load_factor = 1.0 }}]
     let truss = ON_LINES.replace("ELSET=block", "ELSET=top");
     let truss = write("truss.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{truss}"));
     let why = run_with(&truss, &[]).unwrap_err().to_string();
-    assert!(why.contains("element 3 is a truss or beam (T3D2)"), "{why}");
+    assert!(why.contains("element 3 (T3D2) is a truss, a beam"), "{why}");
+}
+
+/// The same of a solid mesh: plane elements beside the solids, which come after them.
+const FACES: &str = "*Heading
+ blocks.inp
+*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 2, 0, 0
+4, 0, 1, 0
+5, 1, 1, 0
+6, 2, 1, 0
+7, 0, 0, 1
+8, 1, 0, 1
+9, 2, 0, 1
+10, 0, 1, 1
+11, 1, 1, 1
+12, 2, 1, 1
+******* E L E M E N T S *************
+*ELEMENT, type=T3D2, ELSET=Line1
+1, 1, 2
+*ELEMENT, type=CPS4, ELSET=Surface1
+2, 1, 4, 5, 2
+3, 2, 5, 6, 3
+*ELEMENT, type=CPS4, ELSET=Surface2
+4, 7, 8, 11, 10
+5, 8, 9, 12, 11
+*ELEMENT, type=C3D8, ELSET=Volume1
+6, 1, 2, 5, 4, 7, 8, 11, 10
+7, 2, 3, 6, 5, 8, 9, 12, 11
+*ELSET,ELSET=bottom
+2, 3,
+*ELSET,ELSET=top
+4, 5,
+*ELSET,ELSET=block
+6, 7,
+";
+
+/// Sets of plane elements beside solids are surfaces, by the sets that `*ELEMENT` names and by
+/// those of numbers; a section on them is refused.
+#[test]
+fn plane_elements_beside_solids_carry_the_sets_of_faces() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let mesh = write("mesh.inp", FACES);
+    let sunk = |results: &Results| {
+        let fields = results.states[0].fields.as_ref().unwrap();
+        fields.displacement[10 * 3 + 2]
+    };
+    let held = ON_LINES
+        .replace("NB, 1, 2", "NB, 1, 3")
+        .replace("1.\n*SURF", "*SURF");
+    for [top, bottom] in [["top", "bottom"], ["Surface2", "Surface1"]] {
+        let text = held.replace("\ntop\n", &format!("\n{top}\n"));
+        let text = text.replace("ELSET=bottom", &format!("ELSET={bottom}"));
+        let deck = write("deck.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{text}"));
+        let of_deck = sunk(&run(&deck, &[]).1);
+        assert!((of_deck + 10.0 / 210e3).abs() < 1e-15, "{of_deck}");
+        let scene = format!(
+            "kind = \"solid\"
+mesh.file = {mesh:?}
+materials.s = {{ youngs_modulus = 210e3, poissons_ratio = 0.0 }}
+bodies.block.material = \"s\"
+support = [{{ on = \"{bottom}\", fix = [\"x\", \"y\", \"z\"] }}]
+load = [{{ on = \"{top}\", pressure = 10.0 }}]
+program.targets = [{{ load_factor = 1.0 }}]
+"
+        );
+        let results = crate::support::run(&crate::support::parse(&scene));
+        assert_eq!(sunk(&results), of_deck);
+    }
+    let plate = held.replace("ELSET=block", "ELSET=top");
+    let plate = write("plate.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{plate}"));
+    let why = run_with(&plate, &[]).unwrap_err().to_string();
+    assert!(why.contains("element 4 (CPS4, T3D2)"), "{why}");
 }

@@ -88,7 +88,7 @@ impl Deck {
             }
         }
         for (name, _) in self.sets.elements.iter() {
-            let faces = self.faces_of_lines(&self.lines_of(&Target::Set(name.to_string())));
+            let faces = self.faces_of_boundary(&self.boundary_of(&Target::Set(name.to_string())));
             let is_free = self.sets.surfaces.get(name).is_none();
             if is_free && !faces.is_empty() {
                 let own = match out.node_sets.contains_key(name) {

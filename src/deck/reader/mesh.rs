@@ -1,12 +1,12 @@
 //! Nodes, elements, sets and surfaces.
 
 use super::{Reader, fields};
+use crate::deck::boundary::nodes_of_line;
 use crate::deck::data::{Elements, Member, Nodes, SurfacePart, Target};
 use crate::deck::element_type::ElementType;
 use crate::deck::fields::Fields;
 use crate::deck::instances::Instances;
 use crate::deck::keyword::Keyword;
-use crate::deck::lines::nodes_of_line;
 use crate::deck::source::{Line, Source};
 use crate::error::{Error, ErrorKind, Result};
 use crate::shape::MAX_NODES;
@@ -55,7 +55,7 @@ impl Reader<'_> {
     /// Line elements with so many nodes.
     fn line_elements(&mut self, keyword: &Keyword, n: usize) -> Result<()> {
         let name = keyword.require(&self.source.files, "TYPE")?;
-        self.deck.lines.note_type(name, keyword.place);
+        self.deck.boundary.note_type(name, keyword.place);
         while let Some(line) = self.source.next_data()? {
             let mut fields = fields(&self.source, keyword, line);
             let label = fields.label("the element number")?;
@@ -68,7 +68,7 @@ impl Reader<'_> {
                 fields.label("a node number")?;
             }
             fields.end()?;
-            self.deck.lines.add(label, nodes);
+            self.deck.boundary.add(label, nodes);
             if let Some(set) = keyword.get("ELSET") {
                 let set = self.deck.sets.elements.entry(set);
                 set.push((Member::Of(Target::Label(label)), line.place));

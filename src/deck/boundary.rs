@@ -1,0 +1,197 @@
+//! Elements that a mesher writes to name boundaries: Gmsh writes the curves of a plane mesh as
+//! trusses (`T3D2`), the surfaces of a solid one as plane elements (`CPS3`). A set of them stands
+//! for the faces that they lie on.
+//!
+//! They have no stiffness here. A deck that gives them a section is refused.
+
+use super::Deck;
+use super::bodies::unsupported;
+use super::data::{Member, Target};
+use super::facets::Face;
+use super::keyword::plain;
+use super::sets::At;
+use super::source::Place;
+use crate::error::Result;
+use crate::space::Space;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Line elements, and plane ones beside solids, by their numbers.
+#[derive(Debug, Clone, Default)]
+pub(super) struct BoundaryElements {
+    /// Nodes of each, as numbered in the deck.
+    nodes: BTreeMap<u64, Vec<u64>>,
+    /// Where each type is named first.
+    types: BTreeMap<String, Place>,
+}
+
+/// The number of nodes of a line element's type.
+pub(super) fn nodes_of_line(name: &str) -> Option<usize> {
+    match plain(name).trim_end_matches('H') {
+        "T2D2" | "T3D2" | "B21" | "B23" | "B31" | "B33" => Some(2),
+        "T2D3" | "T3D3" | "B22" | "B32" => Some(3),
+        _ => None,
+    }
+}
+
+impl BoundaryElements {
+    pub(super) fn add(&mut self, label: u64, nodes: Vec<u64>) {
+        self.nodes.insert(label, nodes);
+    }
+
+    pub(super) fn note_type(&mut self, name: &str, place: Place) {
+        self.types.entry(name.to_string()).or_insert(place);
+    }
+
+    pub(super) fn has(&self, label: u64) -> bool {
+        self.nodes.contains_key(&label)
+    }
+
+    /// Whether one has a number that is named: from, to, by steps of.
+    pub(super) fn any_of(&self, [first, last, step]: [u64; 3]) -> bool {
+        let mut between = self.nodes.range(first..=last);
+        between.any(|(label, _)| (label - first).is_multiple_of(step))
+    }
+}
+
+impl Deck {
+    /// Takes plane elements beside solids for what they lie on. Returns the first of each type.
+    pub(super) fn take_faces_of_solids(&mut self) -> Vec<(String, Place)> {
+        let elements = &self.elements;
+        let is_face: Vec<bool> = (elements.types.iter())
+            .map(|of| of.space != Space::Solid)
+            .collect();
+        if !is_face.contains(&true) || !is_face.contains(&false) {
+            return Vec::new();
+        }
+        let mut found: Vec<(String, Place)> = Vec::new();
+        for element in (0..is_face.len()).filter(|&element| is_face[element]) {
+            let nodes = &elements.nodes[elements.offsets[element]..elements.offsets[element + 1]];
+            self.boundary.add(elements.labels[element], nodes.to_vec());
+            let name = elements.types[element].name();
+            if found.iter().all(|(known, _)| *known != name) {
+                self.boundary.note_type(&name, elements.places[element]);
+                found.push((name, elements.places[element]));
+            }
+        }
+        // Elements of one keyword are all of one type.
+        let mut kept = vec![0; is_face.len() + 1];
+        for element in 0..is_face.len() {
+            kept[element + 1] = kept[element] + usize::from(!is_face[element]);
+        }
+        let labels = &elements.labels;
+        self.sets.elements.for_each(|members| {
+            let old = std::mem::take(members);
+            for (member, place) in old {
+                match member {
+                    Member::Rows(first, last) if is_face.get(first) == Some(&true) => {
+                        let of = labels[first..last].iter();
+                        members.extend(of.map(|&l| (Member::Of(Target::Label(l)), place)));
+                    }
+                    Member::Rows(first, last) => {
+                        members.push((Member::Rows(kept[first], kept[last]), place));
+                    }
+                    other => members.push((other, place)),
+                }
+            }
+        });
+        self.elements.retain(|element| !is_face[element]);
+        found
+    }
+
+    /// The boundary elements of a set of elements.
+    pub(super) fn boundary_of(&self, target: &Target) -> BTreeSet<u64> {
+        let mut out = BTreeSet::new();
+        if !self.boundary.nodes.is_empty() {
+            self.collect_boundary(target, &mut BTreeSet::new(), &mut out);
+        }
+        out
+    }
+
+    fn collect_boundary(
+        &self,
+        target: &Target,
+        seen: &mut BTreeSet<String>,
+        out: &mut BTreeSet<u64>,
+    ) {
+        let name = match target {
+            Target::Label(label) => {
+                out.extend(Some(*label).filter(|label| self.boundary.has(*label)));
+                return;
+            }
+            Target::Set(name) => name,
+        };
+        if !seen.insert(name.to_uppercase()) {
+            return;
+        }
+        for (member, _) in self.sets.elements.get(name).into_iter().flatten() {
+            match member {
+                Member::Of(target) => self.collect_boundary(target, seen, out),
+                Member::Range(first, last, step) => {
+                    let between = self
+                        .boundary
+                        .nodes
+                        .range(first..=last)
+                        .map(|(label, _)| *label);
+                    out.extend(between.filter(|label| (label - first).is_multiple_of(*step)));
+                }
+                Member::Rows(..) | Member::NodesOf(_) => {}
+            }
+        }
+    }
+
+    /// The nodes of boundary elements.
+    pub(super) fn nodes_of_boundary(&self, lines: &BTreeSet<u64>) -> Vec<u32> {
+        let nodes = lines.iter().flat_map(|label| &self.boundary.nodes[label]);
+        nodes
+            .filter_map(|node| self.node_index.get(*node))
+            .collect()
+    }
+
+    /// The faces of elements on which boundary elements lie.
+    pub(super) fn faces_of_boundary(&self, lines: &BTreeSet<u64>) -> Vec<Face> {
+        if lines.is_empty() {
+            return Vec::new();
+        }
+        let mut lines_at: HashMap<u32, Vec<u64>> = HashMap::new();
+        for label in lines {
+            let nodes = self.boundary.nodes[label].iter();
+            for node in nodes.filter_map(|node| self.node_index.get(*node)) {
+                lines_at.entry(node).or_default().push(*label);
+            }
+        }
+        let on_one = |&(element, local): &Face| {
+            let shape = self.elements.types[element as usize].shape;
+            let n = shape.facet_reference(local as usize).n_corners;
+            let corners = shape.facet(local as usize)[..n].iter();
+            let nodes = self.element_nodes(element as usize);
+            let mut at = corners.map(|&corner| lines_at.get(&nodes[corner]));
+            let first = at.next().flatten();
+            first.is_some_and(|first| {
+                let rest: Vec<_> = at.collect();
+                let all = |line: &u64| rest.iter().all(|at| at.is_some_and(|at| at.contains(line)));
+                first.iter().any(all)
+            })
+        };
+        let mut faces = self.free_faces_among(self.nodes_of_boundary(lines));
+        faces.retain(on_one);
+        faces
+    }
+
+    /// Boundary elements that a section gives a stiffness.
+    ///
+    /// # Errors
+    /// At the section.
+    pub(super) fn refuse_boundary_section(&self, set: &Target, at: At) -> Result<()> {
+        let Some(&line) = self.boundary_of(set).first() else {
+            return Ok(());
+        };
+        let types: Vec<&str> = self.boundary.types.keys().map(String::as_str).collect();
+        let message = format!(
+            "element {} ({}) is a truss, a beam, or plane beside solids: a section would give it \
+             a stiffness, which brinell does not have",
+            self.instances.shown(line),
+            types.join(", ")
+        );
+        Err(unsupported(self.error(at.0, at.1, message)))
+    }
+}
