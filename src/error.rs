@@ -138,3 +138,28 @@ impl StdError for Error {
         self.cause.as_deref().map(|c| c as _)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::ErrorKind::{self, *};
+
+    /// Scripts and callers of the C library read them: they never change.
+    #[test]
+    fn every_kind_has_the_code_of_the_contract() {
+        let codes: [(ErrorKind, u8); 10] = [
+            (Input, 2),
+            (Unsupported, 2),
+            (Io, 3),
+            (Unheld, 4),
+            (Analysis, 5),
+            (Collapse, 6),
+            (Inaccurate, 7),
+            (Outgrown, 8),
+            (Stopped, 130),
+            (Internal, 70),
+        ];
+        for (kind, code) in codes {
+            assert_eq!(kind.exit_code(), code, "{kind:?}");
+        }
+    }
+}

@@ -172,6 +172,10 @@ mod tests {
         let (mm, m, inches) = (mm.unwrap(), m.unwrap(), inches.unwrap());
         assert_eq!((mm.youngs_modulus, mm.yield_stress), (210e3, Some(355.0)));
         assert_eq!((m.youngs_modulus, m.density), (210e9, Some(7850.0)));
+        assert_eq!(
+            (mm.tangent_modulus, m.tangent_modulus),
+            (Some(2100.0), Some(2100e6))
+        );
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
         assert!(near(mm.density.unwrap(), 7.85e-9));
         assert!(near(

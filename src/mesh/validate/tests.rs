@@ -244,6 +244,28 @@ fn elements_that_overlap_or_do_not_fit_are_refused() {
             "(tri6)",
         ],
     );
+    // Two quadratic triangles, each with a node of its own in the middle of their edge.
+    refused(
+        |m| {
+            *m = Mesh {
+                dimension: 2,
+                bodies: vec!["plate".to_string()],
+                ..Mesh::default()
+            };
+            m.coordinates = [
+                [0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.5, 0.0, 0.5, 0.5],
+                [0.0, 0.5, 1.0, 1.0, 1.0, 0.5, 0.5, 1.0, 0.5, 0.5],
+            ]
+            .concat();
+            m.push_element(Shape::Tri6, 0, &[0, 1, 2, 3, 4, 5]);
+            m.push_element(Shape::Tri6, 0, &[1, 6, 2, 7, 8, 9]);
+        },
+        &[
+            "nodes 2 and 3",
+            "different mid-side nodes 5 and 10",
+            "merge them",
+        ],
+    );
 }
 
 #[test]
