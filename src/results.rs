@@ -328,6 +328,9 @@ pub struct Fields {
 pub struct Counts {
     /// Numerical factorisations of the sparse stiffness.
     pub factorizations: usize,
+    /// Numerical factorisations of the zone's block alone, with a plastic tangent.
+    #[serde(default)]
+    pub zone_factorizations: usize,
     /// Solves with the trailing block, forward and backward substitution a half each.
     pub trailing_solves: usize,
     /// Solves with the whole factor.

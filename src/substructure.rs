@@ -19,16 +19,18 @@ mod groups;
 mod rigid_slips;
 mod rows;
 mod singular;
+mod softened;
 mod tied;
 mod tied_stiffness;
 
 pub(crate) use rows::{Entries, Rows};
+pub(crate) use softened::Softened;
 pub(crate) use tied::{Tied, Trace};
 
 use crate::assembly::System;
 use crate::contact::{PairBlock, PairMatrix, Tableau};
 use crate::error::Result;
-use crate::linalg::{self, Backend, Condensed, Partition, Recovered, ZonePart};
+use crate::linalg::{self, Backend, Condensed, ContactStiffness, Partition, Recovered, ZonePart};
 use crate::memory;
 use crate::model::{Model, Work};
 use groups::Groups;
@@ -74,6 +76,13 @@ impl Trailing {
             };
             add(&mut self.zone, &other.zone);
             add(&mut self.contact, &other.contact);
+        }
+    }
+
+    /// `self = other + factor * self`.
+    pub(crate) fn scale_and_add(&mut self, factor: f64, other: &Trailing) {
+        for (own, other) in self.iter_mut().zip(other.iter()) {
+            *own = other + factor * *own;
         }
     }
 
@@ -139,13 +148,7 @@ impl Substructure {
         let (tied, contact_matrix) = if n > 0 {
             // What the factor left of the memory.
             cost.require()?;
-            let stiffness = condensed.contact_stiffness();
-            let contact = groups::Contact {
-                rows: &model.rows.entries,
-                freedoms: &partition.contact,
-                part: &model.floating.part_of_contact,
-            };
-            let (tied, matrix) = Groups::new(stiffness, &model.floating.motions, contact)?;
+            let (tied, matrix) = tie(model, &partition, condensed.contact_stiffness())?;
             (Some(tied), matrix)
         } else {
             (None, PairMatrix::new(Vec::new()))
@@ -318,6 +321,12 @@ impl Substructure {
         self.condensed.part_of_zone(marked)
     }
 
+    /// The structure with another stiffness in the zone; `None` where the backend has no factor of
+    /// it.
+    pub(crate) fn softened(&self) -> Option<Softened> {
+        Some(Softened::new(self.condensed.changed()?, self.n_pairs))
+    }
+
     /// Estimated condition of the factored matrix ([`linalg::condition`]). Costs about six full
     /// solves and a factor of the condensed stiffness.
     ///
@@ -386,6 +395,20 @@ impl Substructure {
         let tied = self.tied.as_ref().map_or(0, Groups::n_entries);
         (size_of::<f64>() * (2 * self.contact_matrix.n_entries() + tied)) as u64
     }
+}
+
+/// The tied structure of a condensed stiffness, and its contact matrix.
+fn tie(
+    model: &Model,
+    partition: &Partition,
+    stiffness: ContactStiffness,
+) -> Result<(Groups, PairMatrix)> {
+    let contact = groups::Contact {
+        rows: &model.rows.entries,
+        freedoms: &partition.contact,
+        part: &model.floating.part_of_contact,
+    };
+    Groups::new(stiffness, &model.floating.motions, contact)
 }
 
 /// What the dense part of contact costs, known from the model alone: a group of `p` rows and `m`

@@ -15,6 +15,10 @@
 //! at the state that the smallest increment led to, `d` the direction in which the structure moved.
 //! It is an upper bound of the smallest eigenvalue: a stiffness that it shows to be lost is lost.
 //!
+//! Increments beyond a limit load are given up as soon as the structure flows away along a Newton
+//! direction: without stiffness, and driven as before when it has gone as far along it as no
+//! increment that is held would move it.
+//!
 //! # Source
 //! P. G. Bergan, G. Horrigmoe, B. Krakeland, T. H. Soreide, *Solution techniques for non-linear
 //! finite element problems* (1978), doi:10.1002/nme.1620121106 (the current stiffness parameter);
@@ -32,11 +36,14 @@ use crate::substructure::Trailing;
 /// Share of the elastic stiffness below which a structure has collapsed: to take up the smallest
 /// increment of the load it would have to move as far as elastically under the whole piece of the
 /// load path.
-const LOST: f64 = SMALLEST_CUT;
+pub(super) const LOST: f64 = SMALLEST_CUT;
 
 /// Answers of the structure to a direction whose stiffness decides: each is one trailing solve, and
 /// a mechanism stands out among motions of a tenth of the elastic stiffness by a tenth each time.
 const MOST_ANSWERS: usize = 8;
+
+/// Share of the force that drives a mechanism that is not yet taken up.
+const DRIVEN: f64 = 0.5;
 
 /// An increment that was tried and did not converge.
 #[derive(Debug)]
@@ -49,6 +56,9 @@ pub struct Attempt {
     pub residual: f64,
     /// What round-off leaves out of balance at the start of the increment, over the force scale.
     pub round_off: f64,
+    /// Share of the elastic stiffness along a mechanism in which it flows away
+    /// ([`Stepper::flows_away`]), where it was seen to.
+    pub mechanism: Option<f64>,
 }
 
 impl Stepper<'_, '_> {
@@ -74,11 +84,53 @@ impl Stepper<'_, '_> {
         floor <= LOOSEST && floor <= LOOSEST * self.stiffness_left(state, 1)
     }
 
+    /// Whether the structure flows away along a Newton direction of an increment to `goal` that it
+    /// went to its end (`length` 1, to the `trial` state with its force out of balance): the share
+    /// of the elastic stiffness that the direction has there.
+    ///
+    /// It does where that is lost and the force that drove it, `driven`, still does when it has
+    /// gone so far that the secant stiffness of the increment is lost, too. The energy of the
+    /// increment is convex and has fallen all the way: an equilibrium, if there is any, lies
+    /// beyond.
+    pub(super) fn flows_away(
+        &mut self,
+        goal: &LoadPoint,
+        direction: &Equilibrium,
+        (driven, length): (&Trailing, f64),
+        trial: &(Equilibrium, Trailing),
+    ) -> Option<f64> {
+        let enough = DRIVEN * driven.dot(&direction.u);
+        if length < 1.0 || trial.1.dot(&direction.u) < enough {
+            return None;
+        }
+        let mut force = self.solver.structure.sub.zeros();
+        self.solver.zone.softening_times(&direction.u, &mut force);
+        let left = 1.0 - force.dot(&direction.u) / direction.initial.load.dot(&direction.u);
+        if left.is_nan() || left > LOST {
+            return None;
+        }
+        let initial = self.solver.now.initial.clone();
+        let mut elastic = self.solver.respond(goal, initial);
+        elastic.add(-1.0, &self.solver.now);
+        let far = elastic.u.largest() / (LOST * direction.u.largest());
+        let mut beyond = trial.0.clone();
+        beyond.add(far.max(1.0), direction);
+        self.out_of_balance_at(&beyond, &mut force);
+        if force.dot(&direction.u) >= enough {
+            return Some(left);
+        }
+        self.out_of_balance_at(&trial.0, &mut force);
+        None
+    }
+
     /// The error of an increment to `goal`, the smallest that is tried, that was not found:
     /// [`ErrorKind::Collapse`] where the stiffness is lost, else [`ErrorKind::Analysis`] with what
     /// was tried.
     pub(super) fn not_found(&mut self, goal: &LoadPoint, attempt: &Attempt) -> Error {
-        let left = self.stiffness_left(&attempt.state, MOST_ANSWERS);
+        let left = match attempt.mechanism {
+            Some(left) => left,
+            None => self.stiffness_left(&attempt.state, MOST_ANSWERS),
+        };
         let residual = attempt.residual;
         let (held, tried) = (self.solver.at.alpha, goal.alpha);
         // Round-off disturbs the quotient by about its own share.

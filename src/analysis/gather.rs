@@ -193,12 +193,17 @@ pub struct GatheredElements {
     pub list: Vec<Packed>,
     places: Vec<u32>,
     parts: Vec<Part>,
+    /// Number of zone and contact freedoms: places beyond are none of these.
+    n_free: u32,
 }
 
 impl GatheredElements {
     /// Packs elements of a model.
     pub fn new(model: &Model, elements: &[usize], places: &Places) -> Self {
-        let mut out = GatheredElements::default();
+        let mut out = GatheredElements {
+            n_free: (places.n_zone + places.n_contact) as u32,
+            ..GatheredElements::default()
+        };
         for &element in elements {
             out.push(model, element, places);
         }
@@ -271,6 +276,40 @@ impl GatheredElements {
             let force = force.as_flattened()[usize::from(part.own)];
             sums[part.place as usize] += part.coefficient * force;
         }
+    }
+
+    /// A matrix of element `i`, its columns the forces on the nodes for a unit of each of their
+    /// displacements, on the zone and contact freedoms that these are made of: their places and the
+    /// matrix, by columns.
+    pub fn spread<const D: usize, const N: usize>(
+        &self,
+        i: usize,
+        columns: &[[[f64; D]; N]],
+    ) -> (Vec<u32>, Vec<f64>) {
+        let packed = &self.list[i];
+        let plain = self.places_of(packed).iter().enumerate();
+        let plain = plain.map(|(own, &place)| (own, place, 1.0));
+        let parts = self.parts_of(packed).iter();
+        let parts = parts.map(|part| (usize::from(part.own), part.place, part.coefficient));
+        let terms: Vec<(usize, u32, f64)> = plain
+            .chain(parts)
+            .filter(|term| term.1 < self.n_free)
+            .collect();
+        let mut places: Vec<u32> = terms.iter().map(|term| term.1).collect();
+        places.sort_unstable();
+        places.dedup();
+        let n = places.len();
+        let of = |place: u32| places.partition_point(|&other| other < place);
+        let rows: Vec<usize> = terms.iter().map(|term| of(term.1)).collect();
+        let mut matrix = vec![0.0; n * n];
+        for (&(j, _, b), &column) in terms.iter().zip(&rows) {
+            let forces = columns[j].as_flattened();
+            let own = &mut matrix[column * n..(column + 1) * n];
+            for (&(i, _, a), &row) in terms.iter().zip(&rows) {
+                own[row] += a * b * forces[i];
+            }
+        }
+        (places, matrix)
     }
 
     /// Marks the zone freedoms of element `i`.

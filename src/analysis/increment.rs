@@ -281,6 +281,7 @@ impl Stepper<'_, '_> {
                     iterations,
                     residual,
                     round_off: self.round_off_of_balance(&before.u)? / scale,
+                    mechanism: None,
                 })));
             }
             if !balanced {
@@ -290,6 +291,18 @@ impl Stepper<'_, '_> {
                         match self.line_search(&state, &newton, &balance, &mut trial) {
                             Some((length, evaluation)) => {
                                 damping = next_damping(damping, length);
+                                let goal = start.towards(end, t);
+                                let driven = (&balance, length);
+                                let mechanism = self.flows_away(&goal, &newton, driven, &trial);
+                                if mechanism.is_some() {
+                                    return Err(NoIncrement::NotConverged(Box::new(Attempt {
+                                        state: trial.0,
+                                        iterations,
+                                        residual,
+                                        round_off: self.round_off_of_balance(&before.u)? / scale,
+                                        mechanism,
+                                    })));
+                                }
                                 std::mem::swap(&mut balance, &mut trial.1);
                                 known = Some(evaluation);
                                 (newton, length)

@@ -8,6 +8,7 @@ use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::load_point::LoadPoint;
 use super::quality::LOOSEST;
 use super::structure::{Cost, Structure};
+use super::tangent::FactoredTangent;
 use super::zone::Zone;
 use crate::assembly::System;
 use crate::contact::Tableau;
@@ -37,6 +38,8 @@ pub struct Solver<'m> {
     pub fresh: bool,
     /// Pairs that arrived at the border of their condition with the last event.
     pub border: Vec<usize>,
+    /// The tangent, where it was factored in the increment at hand.
+    pub tangent: Option<Box<FactoredTangent>>,
     /// What the next increment is predicted from.
     pub predictor: Predictor,
     /// What is large and what is small.
@@ -108,6 +111,7 @@ impl<'m> Solver<'m> {
             now: Equilibrium::none(&structure.sub.zeros(), structure.n_pairs()),
             fresh: true,
             border: Vec::new(),
+            tangent: None,
             predictor: Predictor {
                 last_step: vec![0.0; model.loads.len() + 1],
                 onset: LoadPoint::unloaded(model.loads.len()),
@@ -195,6 +199,7 @@ impl<'m> Solver<'m> {
         self.now = self.respond(&self.at.clone(), initial);
         self.fresh = true;
         self.predictor.pace = None;
+        self.tangent = None;
         Ok(())
     }
 

@@ -46,6 +46,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
         mut ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> Result<(Increment, bool)> {
         self.solver.move_loose_bodies(end)?;
+        self.solver.forget_tangent();
         let mut most = left;
         let mut corrections = 0;
         let mut crossings = 0;
@@ -122,20 +123,28 @@ impl<'s, 'm> Stepper<'s, 'm> {
                     // too.
                     let worth_cutting = CUT * most >= smallest;
                     let cut_enough = !worth_cutting || most < CUT_TOGETHER * left;
+                    // Where the structure flows away no other search at this length helps.
+                    let flows = attempt.mechanism.is_some();
                     if stepping == Stepping::Auto {
                         self.solver.restore_statuses(&open, &border);
-                        if most == left && worth_cutting {
-                            most *= CUT;
-                        } else {
-                            (stepping, most) = (Stepping::Events, left);
+                        if most < left || !worth_cutting {
+                            stepping = Stepping::Events;
                         }
+                        most = match stepping == Stepping::Auto || flows && worth_cutting {
+                            true => CUT * most,
+                            false => left,
+                        };
                         continue;
                     }
-                    if stepping == Stepping::Events && search.together && cut_enough {
+                    if flows && worth_cutting {
+                        most *= CUT;
+                        continue;
+                    }
+                    if stepping == Stepping::Events && search.together && cut_enough && !flows {
                         (search, most) = (Search::APART, left);
                         continue;
                     }
-                    if !worth_cutting && search != search.to_the_end() {
+                    if !worth_cutting && !flows && search != search.to_the_end() {
                         search = search.to_the_end();
                         continue;
                     }

@@ -20,6 +20,10 @@
 //! and the same work for each: S. C. Eisenstat, H. C. Elman, M. H. Schultz (1983),
 //! doi:10.1137/0720023.
 
+mod factored;
+
+pub(super) use factored::FactoredTangent;
+
 use super::equilibrium::Equilibrium;
 use super::solver::Solver;
 use crate::linalg::ZonePart;
@@ -29,6 +33,11 @@ use std::collections::VecDeque;
 /// Most iterations of a solve: enough for perfect plasticity near collapse; a solve that needs more
 /// has no useful direction.
 const MOST: usize = 400;
+/// Share of the elastic stiffness of a direction that is its round-off.
+const SINGULAR: f64 = 1e-14;
+/// Steps of conjugate gradients that cost as much as a direction with a factor of the tangent: that
+/// takes two or three steps, each with two products, and the elastic answer to what they found.
+const DIRECT: usize = 6;
 /// Directions that conjugate residuals keep: an elastoplastic solve takes some ten.
 const KEPT: usize = 20;
 
@@ -73,35 +82,51 @@ impl Solver<'_> {
     /// the second halves go through the part of the zone that counts.
     pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
         let part = self.part_that_counts(residual);
-        let residual = self.answer(residual.clone(), &part);
-        let size = tolerance * residual.dot(&residual).max(0.0).sqrt();
-        if self.zone.is_symmetric() {
-            self.conjugate_gradients(residual, size, keep, &part)
-        } else {
-            self.conjugate_residuals(residual, size, keep, &part)
+        let at_rest = (residual.clone(), self.structure.sub.zeros());
+        if let Some(u) = self.solve_by_factor(at_rest, (tolerance, keep), &part) {
+            return self.direction_along(&u, residual, keep);
         }
+        let mut left = self.answer(residual.clone(), &part);
+        let size = tolerance * left.dot(&left).max(0.0).sqrt();
+        if !self.zone.is_symmetric() {
+            return self.conjugate_residuals(left, size, keep, &part);
+        }
+        let mut total = Equilibrium::none(residual, left.carried.len());
+        while !self.conjugate_gradients((&mut total, &mut left), size, keep, &part) {
+            if self.factor_tangent(keep) {
+                let so_far = (left.change.initial.load.clone(), total.u.clone());
+                if let Some(u) = self.solve_by_factor(so_far, (tolerance, keep), &part) {
+                    return self.direction_along(&u, residual, keep);
+                }
+            }
+        }
+        self.complete_direction(total, &left)
     }
 
-    /// Conjugate gradients until the residual is below `size`.
+    /// Conjugate gradients on the elastic factor, from the direction so far and what is left of the
+    /// residual, until that is below `size`; false where a factor of the tangent would have cost
+    /// less.
     fn conjugate_gradients(
         &mut self,
-        mut z: Answered,
+        (total, z): (&mut Equilibrium, &mut Answered),
         size: f64,
         keep: f64,
         part: &ZonePart,
-    ) -> Equilibrium {
+    ) -> bool {
         let mut softened = self.structure.sub.zeros();
-        let mut total = Equilibrium::none(&softened, z.carried.len());
         let mut p = z.change.clone();
-        let mut rz = z.dot(&z);
-        for _ in 0..MOST {
+        let mut rz = z.dot(z);
+        for step in 0..MOST {
             if rz <= size * size || rz <= 0.0 {
                 break;
+            }
+            if step >= DIRECT && !self.may_go_on_without_factor() {
+                return false;
             }
             self.zone.softening_times(&p.u, &mut softened);
             let stiffness = p.initial.load.dot(&p.u);
             let curvature = stiffness - keep * softened.dot(&p.u);
-            if curvature <= 1e-14 * stiffness {
+            if curvature <= SINGULAR * stiffness {
                 break;
             }
             let step = rz / curvature;
@@ -111,11 +136,11 @@ impl Solver<'_> {
             load.add(step * keep, &softened);
             self.take_what_closed_pairs_carry(load, &mut z.carried);
             self.respond_homogeneous(&mut z.change, part);
-            let next = z.dot(&z);
+            let next = z.dot(z);
             p.scale_and_add(next / rz, &z.change);
             rz = next;
         }
-        self.complete_direction(total, &z)
+        true
     }
 
     /// The same of a tangent that is not symmetric.
@@ -197,6 +222,7 @@ impl Solver<'_> {
     fn part_that_counts(&self, residual: &Trailing) -> ZonePart {
         let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
         self.zone.mark_active(&mut marks);
+        self.zone.mark_kept(&mut marks);
         self.structure.sub.part_of_zone(&marks)
     }
 }

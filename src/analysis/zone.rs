@@ -10,6 +10,7 @@
 
 mod history;
 mod points;
+mod softening;
 mod yielding;
 
 pub use history::History;
@@ -95,6 +96,31 @@ impl Zone {
     /// [`ZoneOf::softening_times`]
     pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
         of_zone!(self, zone => zone.softening_times(v, out));
+    }
+
+    /// [`ZoneOf::keep_softening`]
+    pub fn keep_softening(&mut self) {
+        of_zone!(self, zone => zone.keep_softening());
+    }
+
+    /// [`ZoneOf::forget_softening`]
+    pub fn forget_softening(&mut self) {
+        of_zone!(self, zone => zone.forget_softening());
+    }
+
+    /// [`ZoneOf::kept_softening_times`]
+    pub fn kept_softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
+        of_zone!(self, zone => zone.kept_softening_times(v, out));
+    }
+
+    /// [`ZoneOf::mark_kept`]
+    pub fn mark_kept(&self, marks: &mut [bool]) {
+        of_zone!(self, zone => zone.mark_kept(marks));
+    }
+
+    /// [`ZoneOf::each_softening`]
+    pub fn each_softening(&self, share: f64, take: impl FnMut(&[u32], &[f64])) {
+        of_zone!(self, zone => zone.each_softening(share, take));
     }
 
     /// [`ZoneOf::is_symmetric`]
@@ -263,6 +289,43 @@ targets = [{ load_factor = 1.0 }]
         };
         assert!(points.clone().any(partly));
         assert_eq!(zone.history(), fresh.history());
+    }
+
+    /// The matrices of the elements add up to what products are made with, at the state at hand and
+    /// at one that was kept.
+    #[test]
+    fn element_matrices_add_up_to_the_product() {
+        let case = Case::new();
+        let n = case.model.freedoms.n;
+        let mut zone = case.zone();
+        let mut load = Trailing::zeros(n, 0);
+        zone.evaluate(&case.bent(0.3), &mut load);
+        let direction = case.bent(-0.02);
+        let mut sum = vec![0.0; n];
+        zone.each_softening(0.5, |places, matrix| {
+            for (column, &j) in matrix.chunks(places.len()).zip(places) {
+                for (entry, &i) in column.iter().zip(places) {
+                    sum[i as usize] += entry * direction.zone[j as usize];
+                }
+            }
+        });
+        let [mut product, mut kept] = [(); 2].map(|()| Trailing::zeros(n, 0));
+        zone.softening_times(&direction, &mut product);
+        assert!(product.largest() > 0.0);
+        for (sum, product) in sum.iter().zip(&product.zone) {
+            assert!((sum - 0.5 * product).abs() <= 1e-13 * load.largest());
+        }
+        zone.keep_softening();
+        zone.evaluate(&case.bent(0.02), &mut load);
+        zone.kept_softening_times(&direction, &mut kept);
+        assert_eq!(kept, product);
+        let mut marks = vec![false; n];
+        zone.mark_kept(&mut marks);
+        let felt = kept.zone.iter().zip(&marks);
+        assert!(felt.clone().all(|(force, mark)| *mark || *force == 0.0));
+        zone.forget_softening();
+        zone.kept_softening_times(&direction, &mut kept);
+        assert_eq!(kept.largest(), 0.0);
     }
 
     /// The history of a smaller zone: the elements that were not in it have none, whatever they

@@ -445,6 +445,10 @@ impl Report {
             counted(counts.plastic_iterations, "plastic iteration"),
             counted(counts.contact_changes, "contact change"),
         ];
+        if counts.zone_factorizations > 0 {
+            let zone = counted(counts.zone_factorizations, "factorization");
+            list.insert(2, format!("{zone} of the zone's tangent"));
+        }
         if counts.hard_increments > 0 {
             let hard = counted(counts.hard_increments, "increment");
             list.push(format!("{hard} not found at once"));

@@ -20,6 +20,7 @@
 //! | [`dense`] | the formulas above, term by term | reference, small models |
 
 pub(crate) mod blocked;
+mod changed;
 mod check;
 #[cfg(feature = "cholmod")]
 pub mod cholmod;
@@ -39,6 +40,7 @@ mod symmetric;
 pub(crate) mod tests;
 mod whole;
 
+pub use changed::ChangedFactor;
 pub use condition::condition;
 pub use contact_stiffness::{ContactBlock, ContactStiffness};
 pub use refinement::{Refinement, componentwise_backward_error, refine, twofold_residual};
@@ -115,6 +117,12 @@ pub trait Condensed: Send + Sync {
     /// for; what the others are is left open.
     fn recover_part(&self, _part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
         self.recover_zone(zone, u_contact);
+    }
+
+    /// A factor beside this one of the condensed matrix with other values in the chosen zone and on
+    /// the contact freedoms; `None` where the backend has none, or the memory does not suffice.
+    fn changed(&self) -> Option<Box<dyn ChangedFactor>> {
+        None
     }
 
     /// All freedoms for a reduced load, given the displacements of zone and contact freedoms (loads

@@ -70,6 +70,8 @@ fn assert_threads_change_no_bit(solver: &str, scenes: usize) {
             vec!["mesh.cylinder_on_half_plane.resolution=6"],
         ),
         ("ball_on_flat_3d", SMALL_BALL.to_vec()),
+        // Deep in plastic flow, its tangents factored.
+        ("flat_punch", vec!["mesh.parts.0.block.elements=[20,20]"]),
         (
             "hard/zero_gap_conforming",
             vec!["mesh.disc_in_plate.resolution=32"],

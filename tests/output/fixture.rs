@@ -191,6 +191,7 @@ pub fn results(mesh: &Mesh) -> Results {
         ],
         counts: Counts {
             factorizations: 1,
+            zone_factorizations: 2,
             trailing_solves: 40,
             full_solves: 3,
             plastic_iterations: 12,

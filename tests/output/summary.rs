@@ -103,7 +103,8 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
         "peak_memory_bytes": null,
         "ranks": ranks,
         "counts": {
-            "factorizations": 1, "trailing_solves": 40, "full_solves": 3,
+            "factorizations": 1, "zone_factorizations": 2, "trailing_solves": 40,
+            "full_solves": 3,
             "plastic_iterations": 12, "contact_changes": 2,
             "hard_increments": 1
         },

@@ -168,7 +168,12 @@ fn every_kind_of_way_goes_on() {
         "program.cycles=4",
         "program.targets=[{ load_factor = 2.0 }, { load_factor = 0.3 }]",
     ];
-    let cases: [(&str, &[&str], usize); 21] = [
+    let cases: [(&str, &[&str], usize); 22] = [
+        (
+            "flat_punch",
+            &["mesh.parts.0.block.elements=[10,10]", "program.steps=2"],
+            4,
+        ),
         ("hard/cyclic", &cycles, 9),
         (
             "hard/ratchet",

@@ -1,6 +1,6 @@
 //! Limit loads, and iterations that do not converge: the one is not taken for the other.
 
-use crate::support::{close, load, run, run_file};
+use crate::support::{close, load, run, run_file, sparse};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
@@ -10,14 +10,14 @@ use brinell::results::Results;
 use brinell::scene::Scene;
 
 /// What was computed up to the end of a run that need not complete.
-fn as_far_as_it_goes(scene: &Scene) -> Results {
-    let mut analysis = Analysis::new(Model::new(scene).unwrap(), Backend::default()).unwrap();
+fn as_far_as_it_goes(scene: &Scene, backend: Backend) -> Results {
+    let mut analysis = Analysis::new(Model::new(scene).unwrap(), backend).unwrap();
     analysis.run(&mut Silent).unwrap()
 }
 
 /// The kind of the end, the last load factor that was held, and why the run ended.
 fn end_of(scene: &Scene) -> (Option<ErrorKind>, f64, String) {
-    let results = as_far_as_it_goes(scene);
+    let results = as_far_as_it_goes(scene, Backend::default());
     let held = results.history.last().unwrap().alpha;
     (
         results.ending().kind(),
@@ -148,5 +148,41 @@ fn a_limit_load_is_one_however_it_is_reached() {
         // Increments are cut to a millionth of the load step; four times that is the last that was
         // not.
         close(&format!("{overrides:?}"), held, limit, 1.0, 4e-6);
+    }
+}
+
+/// Near a limit load tangents have little stiffness left, and beyond it none. They are factored
+/// where conjugate gradients on the elastic factor take long, by the sparse backends and not by the
+/// dense one: the path and its end are the same. Increments beyond the limit are given up when the
+/// structure flows away, after a few iterations: searched to their end they took 100,000 solves.
+#[test]
+fn tangents_are_factored_where_little_stiffness_is_left() {
+    let set = [
+        "mesh.parts.0.ring.elements=[6,4]",
+        "mesh.parts.0.element=tri6",
+    ];
+    let scene = load("hard/nearly_incompressible", &set);
+    let dense = as_far_as_it_goes(&scene, Backend::Dense);
+    assert_eq!(dense.counts.zone_factorizations, 0);
+    assert!(dense.counts.trailing_solves < 3000, "{:?}", dense.counts);
+    for backend in sparse() {
+        let factored = as_far_as_it_goes(&scene, backend);
+        let [a, b] = [&factored, &dense].map(|results| {
+            assert_eq!(results.ending().kind(), Some(ErrorKind::Collapse));
+            results.history.last().unwrap().alpha
+        });
+        // Both bracket the limit within the smallest increment, 1e-6 of the last piece of 15, and
+        // what the cuts by four leave of that.
+        close("limit load", a, b, 15.0, 8e-6);
+        let [a, b] = [&factored, &dense].map(|r| r.states[1].max_equivalent_plastic_strain);
+        close("strain", a, b, b, 1e-7);
+        let counts = &factored.counts;
+        assert_eq!(counts.factorizations, 1);
+        assert!((1..60).contains(&counts.zone_factorizations), "{counts:?}");
+        let solves = dense.counts.trailing_solves as f64;
+        assert!(
+            (counts.trailing_solves as f64) < 0.85 * solves,
+            "{counts:?}, {solves}"
+        );
     }
 }

@@ -1,6 +1,7 @@
 //! The elements of the zone and the points at which they may yield.
 
 use super::history::{BackStrains, PathEnds, chunks_or_none};
+use super::softening::KeptSoftening;
 use super::{Evaluation, History};
 use crate::analysis::free_strain::FreeStrains;
 use crate::analysis::gather::{GatheredElements, Nodal, Places};
@@ -12,7 +13,7 @@ use crate::substructure::Trailing;
 use rayon::prelude::*;
 
 /// Elements that a thread takes at a time.
-const GRAIN: usize = 128;
+pub(super) const GRAIN: usize = 128;
 
 /// The plastic zone with its history. Arrays over points give every element the same number of
 /// places (`stride`), so that they are cut by element without a list.
@@ -22,7 +23,7 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     pub(super) gradients: Vec<Gradients<D, S, P, N>>,
     /// Elements in which flow means that the zone is too small.
     guard: Vec<bool>,
-    stride: usize,
+    pub(super) stride: usize,
     materials: Vec<(Material, Lame)>,
     committed: Vec<PlasticState<S>>,
     /// What back stresses that fade remember of it.
@@ -44,7 +45,9 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     yielding: Vec<u8>,
     /// Elements with a yielding point, ascending.
     pub(super) active: Vec<u32>,
-    forces: Vec<[[f64; D]; N]>,
+    /// The tangent of an earlier state.
+    pub(super) kept: Option<KeptSoftening<S>>,
+    pub(super) forces: Vec<[[f64; D]; N]>,
     /// What loads by temperature strain freely.
     free: FreeStrains<P>,
     /// Factor of each load.
@@ -56,8 +59,8 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     /// Displacements and load factors that the history belongs to: where the strain paths of an
     /// increment begin. None before they are known: the whole is one step then.
     begin: Option<Begin>,
-    nodal: Nodal,
-    sums: Nodal,
+    pub(super) nodal: Nodal,
+    pub(super) sums: Nodal,
 }
 
 /// Where the strain paths of an increment begin.
@@ -128,6 +131,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             yields: vec![false; n * stride],
             yielding: vec![0; n],
             active: Vec::new(),
+            kept: None,
             base: Trailing::zeros(n_zone, n_contact),
             base_on_prescribed: vec![0.0; model.freedoms.prescribed.len()],
             back,
@@ -273,40 +277,6 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         }
         self.sums.sum_into(initial_load);
         result
-    }
-
-    /// `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that vanishes
-    /// where displacements are prescribed.
-    pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
-        let nodal = self.nodal.variation(v);
-        let (elements, gradients) = (&self.elements, &self.gradients);
-        let (softening, turn, stride) = (&self.softening, &self.turn, self.stride);
-        self.active
-            .par_iter()
-            .zip(&mut self.forces[..self.active.len()])
-            .with_min_len(GRAIN)
-            .for_each(|(&i, force)| {
-                let i = i as usize;
-                let gradients = &gradients[i];
-                let strains = gradients.strains(&elements.displacements(i, nodal));
-                let mut stress = [[0.0; P]; S];
-                let points = &softening[i * stride..][..gradients.n_points()];
-                for (g, lost) in points.iter().enumerate() {
-                    let strain = at_point(&strains, g);
-                    let mut out = lost.times(&strain);
-                    if let Some(turn) = turn.get(i * stride + g) {
-                        let flow = lost.flow(&strain);
-                        out = std::array::from_fn(|k| out[k] + flow * turn[k]);
-                    }
-                    put(&mut stress, g, out);
-                }
-                *force = gradients.forces(&stress);
-            });
-        let sums = self.sums.start_sum(None);
-        for (&i, force) in self.active.iter().zip(&self.forces) {
-            self.elements.scatter(i as usize, force, sums);
-        }
-        self.sums.sum_into(out);
     }
 
     /// Whether the tangent is: only back stresses that fade make it another.
@@ -480,12 +450,15 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
 
 /// The components at a point.
 #[inline]
-fn at_point<const S: usize, const P: usize>(components: &Components<S, P>, g: usize) -> [f64; S] {
+pub(super) fn at_point<const S: usize, const P: usize>(
+    components: &Components<S, P>,
+    g: usize,
+) -> [f64; S] {
     components.each_ref().map(|lanes| lanes[g])
 }
 
 #[inline]
-fn put<const S: usize, const P: usize>(
+pub(super) fn put<const S: usize, const P: usize>(
     components: &mut Components<S, P>,
     g: usize,
     values: [f64; S],

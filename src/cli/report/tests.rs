@@ -79,6 +79,7 @@ fn full() -> Results {
         timings: vec![("assembly".into(), 1.0), ("factorisation".into(), 3.0)],
         counts: Counts {
             factorizations: 1,
+            zone_factorizations: 0,
             trailing_solves: 1234,
             full_solves: 12,
             plastic_iterations: 345,

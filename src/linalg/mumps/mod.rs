@@ -44,8 +44,9 @@ pub use shared::{Part, Shared};
 pub use world::{Traffic, World};
 
 use super::{
-    Backend, Condensed, ContactStiffness, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc,
-    ZonePart, check, condense as condense_by, predict as predict_by, smallest_pivot_ratio,
+    Backend, ChangedFactor, Condensed, ContactStiffness, NotDefinite, Partition, Pivot, Prediction,
+    SymmetricCsc, ZonePart, check, condense as condense_by, predict as predict_by,
+    smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
 use crate::memory;
@@ -419,6 +420,10 @@ impl Condensed for MumpsCondensed {
 
     fn recover_part(&self, part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
         self.inner.recover_part(part, zone, u_contact);
+    }
+
+    fn changed(&self) -> Option<Box<dyn ChangedFactor>> {
+        self.inner.changed()
     }
 
     fn recover_all(&self, reduced: &[f64], zone: &[f64], contact: &[f64]) -> Result<Vec<f64>> {

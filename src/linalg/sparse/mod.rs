@@ -34,13 +34,13 @@ pub(crate) use supervariables::Supervariables;
 pub(crate) use triangular::Triangular;
 
 use super::{
-    Condensed, ContactStiffness, NotDefinite, Partition, Pivot, Prediction, SymmetricCsc, ZonePart,
-    check, smallest_pivot_ratio,
+    ChangedFactor, Condensed, ContactStiffness, NotDefinite, Partition, Pivot, Prediction,
+    SymmetricCsc, ZonePart, check, smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
 use crate::memory;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use trailing::Trailing;
+use trailing::{Changed, Trailing};
 
 /// A factor `L` of a backend, analysed, and with values once it is computed.
 pub(crate) trait LowerFactor: Send {
@@ -201,6 +201,12 @@ impl<F: LowerFactor> Condensed for SparseCondensed<F> {
 
     fn recover_part(&self, part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
         self.trailing.recover_zone(part, zone, u_contact);
+    }
+
+    fn changed(&self) -> Option<Box<dyn ChangedFactor>> {
+        let needed = 8.0 * 3.0 * self.trailing.n_values() as f64;
+        memory::require("factor of the tangent", needed).ok()?;
+        Some(Box::new(Changed::new(&self.trailing, &self.shift)))
     }
 
     // L_ii^T u_i = y_i - L_ti^T u_t, since y_i = L_ii^-1 load_i and L_ii L_ti^T = K_it.

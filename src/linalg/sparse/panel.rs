@@ -83,6 +83,51 @@ fn store_strip<'a>(
     }
 }
 
+/// Reads the lower triangle of `width` columns: `put(row, column, value)`.
+pub(crate) fn read_triangle(
+    width: usize,
+    triangle: &[f64],
+    mut put: impl FnMut(usize, usize, f64),
+) {
+    let mut values = triangle.iter();
+    for strip in strips(width) {
+        for k in strip.clone() {
+            (k..strip.end)
+                .zip(&mut values)
+                .for_each(|(row, value)| put(row, k, *value));
+        }
+        read_strip(strip.end..width, strip, &mut values, &mut put);
+    }
+}
+
+/// Reads the rectangle of `width` columns of `rows` rows.
+pub(crate) fn read_rectangle(
+    rows: usize,
+    width: usize,
+    rectangle: &[f64],
+    mut put: impl FnMut(usize, usize, f64),
+) {
+    let mut values = rectangle.iter();
+    for strip in strips(width) {
+        read_strip(0..rows, strip, &mut values, &mut put);
+    }
+}
+
+fn read_strip(
+    rows: Range<usize>,
+    strip: Range<usize>,
+    values: &mut std::slice::Iter<f64>,
+    put: &mut impl FnMut(usize, usize, f64),
+) {
+    for top in rows.clone().step_by(TILE) {
+        for k in strip.clone() {
+            (top..rows.end.min(top + TILE))
+                .zip(&mut *values)
+                .for_each(|(row, value)| put(row, k, *value));
+        }
+    }
+}
+
 /// `y += A x` for one strip.
 #[inline(always)]
 fn add_strip(strip: &[f64], x: &[f64], y: &mut [f64]) {

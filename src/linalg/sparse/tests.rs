@@ -1,6 +1,7 @@
 //! What every sparse backend must do, in any order and storage; the dense backend is the reference.
 
 mod bodies;
+mod changed;
 
 use super::*;
 use crate::linalg::dense::DenseCondensed;

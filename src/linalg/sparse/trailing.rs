@@ -15,11 +15,13 @@
 //! others: its block of `L` is the factor of the structure condensed onto it. So a zone shrinks,
 //! and grows back, without another factorisation.
 
+mod changed;
 mod substitution;
 
 use super::{Columns, Groups, LowerFactor, panel};
 use crate::error::{Error, Result};
 use crate::linalg::{ContactBlock, ContactStiffness, Partition, blocked};
+pub(crate) use changed::Changed;
 use nalgebra::DMatrix;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -30,7 +32,7 @@ use substitution::{Subtree, WorkOfSubtree};
 const PANEL_WIDTH: usize = 64;
 
 /// Neighbouring columns of one group with the same structure.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Panel {
     /// First column (trailing numbering: zone, then contact, in the order of the factor).
     first: usize,
@@ -53,7 +55,7 @@ impl Panel {
 }
 
 /// Workspace of one solve.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 struct Work {
     /// All trailing freedoms in the order of the factor.
     vector: Vec<f64>,
@@ -136,11 +138,7 @@ impl Trailing {
             subtrees: Vec::new(),
             rows: Vec::new(),
             values: Vec::new(),
-            work: Mutex::new(Work {
-                vector: vec![0.0; kept.len()],
-                rows: Vec::new(),
-                subtrees: Vec::new(),
-            }),
+            work: Mutex::default(),
             kept,
         };
         let nonzeros = trailing
@@ -162,17 +160,23 @@ impl Trailing {
         trailing.n_zone_panels = trailing.panels.len();
         trailing.copy_panels(&columns, &number, first_zone, first_contact..n);
         trailing.find_subtrees();
-        let tallest = |panels: &[Panel]| panels.iter().map(|p| p.rows.len()).max().unwrap_or(0);
-        let rows = vec![0.0; tallest(&trailing.panels)];
-        let subtrees = trailing.subtrees.iter().map(|t| WorkOfSubtree {
-            vector: vec![0.0; t.columns.len() + t.outer.len()],
-            rows: vec![0.0; tallest(&trailing.panels[t.panels.clone()])],
-        });
-        let subtrees = subtrees.collect();
-        let work = trailing.work.get_mut();
-        let work = work.unwrap_or_else(PoisonError::into_inner);
-        (work.rows, work.subtrees) = (rows, subtrees);
+        trailing.make_room();
         Ok((trailing, zone))
+    }
+
+    /// Makes the workspace of the solves.
+    fn make_room(&mut self) {
+        let tallest = |panels: &[Panel]| panels.iter().map(|p| p.rows.len()).max().unwrap_or(0);
+        let subtrees = self.subtrees.iter().map(|t| WorkOfSubtree {
+            vector: vec![0.0; t.columns.len() + t.outer.len()],
+            rows: vec![0.0; tallest(&self.panels[t.panels.clone()])],
+        });
+        let work = Work {
+            vector: vec![0.0; self.kept.len()],
+            rows: vec![0.0; tallest(&self.panels)],
+            subtrees: subtrees.collect(),
+        };
+        *self.work.get_mut().unwrap_or_else(PoisonError::into_inner) = work;
     }
 
     /// Appends the panels of those columns of the factor in `range` that have a `number` among the
@@ -238,6 +242,11 @@ impl Trailing {
             });
             j += width;
         }
+    }
+
+    /// Numbers that it holds.
+    pub(crate) fn n_values(&self) -> usize {
+        self.values.len()
     }
 
     /// Puts the displacements of zone and contact freedoms on the trailing columns of the factor

@@ -386,6 +386,10 @@ pub(super) fn cost(header: &RunHeader, results: &Results) -> Markup {
         ("freedoms of the plastic zone", sizes.zone_freedoms),
         ("increments", results.history.len()),
         ("factorisations", counts.factorizations),
+        (
+            "factorisations of the zone's tangent",
+            counts.zone_factorizations,
+        ),
         ("solves with the trailing block", counts.trailing_solves),
         ("full solves", counts.full_solves),
         ("plastic iterations", counts.plastic_iterations),
