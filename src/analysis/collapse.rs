@@ -91,7 +91,8 @@ impl Stepper<'_, '_> {
     /// It does where that is lost and the force that drove it, `driven`, still does when it has
     /// gone so far that the secant stiffness of the increment is lost, too. The energy of the
     /// increment is convex and has fallen all the way: an equilibrium, if there is any, lies
-    /// beyond.
+    /// beyond. Where a gap closes on that way, as when a tube is expanded into a sleeve, what it
+    /// closes may hold the load: nothing is said.
     pub(super) fn flows_away(
         &mut self,
         goal: &LoadPoint,
@@ -115,6 +116,10 @@ impl Stepper<'_, '_> {
         let far = elastic.u.largest() / (LOST * direction.u.largest());
         let mut beyond = trial.0.clone();
         beyond.add(far.max(1.0), direction);
+        let mut open = self.solver.tableau.open().iter().zip(&beyond.gap);
+        if open.any(|(is_open, gap)| *is_open && *gap <= 0.0) {
+            return None;
+        }
         self.out_of_balance_at(&beyond, &mut force);
         if force.dot(&direction.u) >= enough {
             return Some(left);

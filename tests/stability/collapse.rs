@@ -186,3 +186,44 @@ fn tangents_are_factored_where_little_stiffness_is_left() {
         );
     }
 }
+
+/// A tube that flows before it meets its sleeve: the load lies three times beyond its own limit,
+/// and what holds it is contact that closes on the way. The wall carries `2 k ln(b/a)`, as always
+/// in plane strain (R. Hill, The Mathematical Theory of Plasticity, chapter V), the sleeve the
+/// rest.
+#[test]
+fn a_tube_is_expanded_into_its_sleeve() {
+    let text = |stepping: &str| {
+        let ring = |body: &str, radii: &str| {
+            format!(
+                "[[mesh.parts]]\nbody = \"{body}\"\nelement = \"quad4\"\n\
+                 ring = {{ radius = {radii}, elements = [8, 8] }}\n\
+                 [[support]]\non = \"{body}.start\"\nfix = [\"y\"]\n\
+                 [[support]]\non = \"{body}.end\"\nfix = [\"x\"]\n"
+            )
+        };
+        format!(
+            "kind = \"plane_strain\"\n\
+             materials.hard = {{ youngs_modulus = 210e3, poissons_ratio = 0.3 }}\n\
+             materials.tube.youngs_modulus = 210e3\n\
+             materials.tube.poissons_ratio = 0.3\n\
+             materials.tube.yield_stress = 240.0\n\
+             bodies = {{ tube.material = \"tube\", sleeve.material = \"hard\" }}\n\
+             contact = [{{ first = \"tube.outer\", second = \"sleeve.inner\", gap = 0.5 }}]\n\
+             load = [{{ on = \"tube.inner\", pressure = 1.0 }}]\n\
+             program.stepping = \"{stepping}\"\nprogram.steps = 8\n\
+             program.targets = [{{ load_factor = 45.0 }}, {{ load_factor = 150.0 }}]\n{}{}",
+            ring("tube", "[100.0, 120.0]"),
+            ring("sleeve", "[120.0, 200.0]")
+        )
+    };
+    for stepping in ["auto", "events", "steps"] {
+        let results = run(&crate::support::parse(&text(stepping)));
+        let wall = 2.0 / 3.0f64.sqrt() * 240.0 * 1.2f64.ln();
+        let state = &results.states[1];
+        // Elements of a sixteenth of a right angle and an eighth of the wall: of second order.
+        let expected = 150.0 - wall;
+        close(stepping, state.max_pressure, expected, expected, 0.02);
+        assert!(state.pairs.iter().all(|pair| pair.pressure > 0.0));
+    }
+}
