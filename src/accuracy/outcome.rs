@@ -169,6 +169,45 @@ mod tests {
         assert!(judged("dent = 1 %", [0.0; 3], 2.0).is_of_nothing);
     }
 
+    /// Of several demands the one that is farthest beyond what it asks for, not the largest error.
+    #[test]
+    fn the_worst_is_the_farthest_beyond_its_demand() {
+        let state = State {
+            name: "pressed".into(),
+            load: 10.0,
+            approach: 2.0,
+            ..State::default()
+        };
+        let results = Results {
+            states: vec![state],
+            ..Results::default()
+        };
+        let row = |path: &str, value: f64, relative: f64| QuantityError {
+            quantity: path.to_string(),
+            value,
+            error: Some(relative * value),
+            relative_error: Some(relative),
+            discretisation: Some(relative * value),
+            path: None,
+            algebraic: 0.0,
+            order: Some(2.0),
+            extrapolated: None,
+        };
+        let all = quantities(&results);
+        let rows = all.iter().map(|quantity| match quantity.key() {
+            "load" => row(&quantity.path, quantity.value, 0.02),
+            _ => row(&quantity.path, quantity.value, 0.05),
+        });
+        let found = Accuracy {
+            quantities: rows.collect(),
+            ..Accuracy::default()
+        };
+        let demand = AccuracyDemand::try_from("load = 1 %, approach = 10 %".to_string()).unwrap();
+        let outcome = Outcome::of(&demand, &results, &found);
+        assert_eq!(outcome.worst.as_deref(), Some("states.pressed.load"));
+        assert_eq!(outcome.stated, 0.02);
+    }
+
     #[test]
     fn the_next_mesh_follows_from_the_order() {
         // Four times beyond the demand, with second order: twice as fine, and a little for the aim.

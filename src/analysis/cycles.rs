@@ -211,6 +211,14 @@ impl Run<'_, '_> {
 mod tests {
     use super::*;
 
+    /// Flow under tension and under shear: shear strains are engineering ones.
+    #[test]
+    fn the_size_of_flow_is_the_equivalent_strain() {
+        assert!((size(&[1.0, -0.5, -0.5, 0.0, 0.0, 0.0]) - 1.0).abs() < 1e-15);
+        let shear = size(&[0.0, 0.0, 0.0, 0.0, 3.0f64.sqrt(), 0.0]);
+        assert!((shear - 1.0).abs() < 1e-15, "{shear}");
+    }
+
     /// Cycles of one element with two points whose plastic strains along x the closure says.
     fn outcome(cycles: usize, strain: impl Fn(usize) -> [f64; 2]) -> (Option<CycleOutcome>, usize) {
         let mut record = CycleRecord::default();

@@ -136,6 +136,15 @@ mod tests {
         assert!((t - 0.3).abs() < 1e-12, "{t}");
     }
 
+    /// Within 1e-7 of a step, what it is known to, and no further.
+    #[test]
+    fn changes_one_after_the_other_are_no_tie() {
+        for (apart, together) in [(1e-8, 2), (1e-6, 1), (1e-5, 1)] {
+            let limit = step_limit(&[1.0, 1.0 + apart], &[-1.0, -1.0 + apart], &[]);
+            assert_eq!(limit.pairs.len(), together, "{apart}");
+        }
+    }
+
     #[test]
     fn first_change_and_its_ties() {
         let limit = step_limit(&[1.0, 2.0, 0.5, 0.0], &[0.5, 0.0, 0.375, -1.0], &[3]);

@@ -132,3 +132,28 @@ fn case(
         opens: Vec::new(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::strain_of;
+    use crate::material::{BackStresses, Material};
+    use crate::space::Space;
+
+    /// The elastic stress of the strain takes the initial stress away, component by component.
+    #[test]
+    fn the_stress_of_the_strain_is_the_negative_of_the_initial_one() {
+        let material = Material {
+            name: "m".into(),
+            youngs_modulus: 200.0,
+            poissons_ratio: 0.3,
+            hardening: None,
+            back_stresses: BackStresses::default(),
+            space: Space::Solid,
+        };
+        let stress = [3.0, -1.0, 2.0, 0.7, -0.4, 1.1];
+        let taken = material.lame().times(&strain_of(&material, &stress));
+        for (a, b) in taken.iter().zip(stress) {
+            assert!((a + b).abs() < 1e-14, "{taken:?}");
+        }
+    }
+}

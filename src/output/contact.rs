@@ -93,3 +93,26 @@ pub(super) fn write(out: &mut impl Write, dimension: usize, states: &[State]) ->
     });
     table::write(out, &Row::new(dimension, 0, "", 0.0, &nothing), rows)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Row;
+    use crate::results::{PairState, Status};
+
+    #[test]
+    fn a_solid_has_a_third_coordinate() {
+        let pair = PairState {
+            pair: 0,
+            contact: 0,
+            position: [1.0, 2.0, 3.0],
+            gap: 0.0,
+            force: 0.0,
+            area: 0.0,
+            pressure: 0.0,
+            status: Status::Closed,
+        };
+        let row = |dimension: usize| Row::new(dimension, 0, "end", 1.0, &pair);
+        assert_eq!((row(3).x, row(3).y, row(3).z), (1.0, 2.0, Some(3.0)));
+        assert_eq!(row(2).z, None);
+    }
+}

@@ -206,3 +206,19 @@ fn worst_quality(results: &Results) -> f64 {
     .into_iter()
     .fold(0.0, |m, v| if v.is_nan() { f64::NAN } else { v.max(m) })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Cases;
+
+    #[test]
+    fn what_is_not_a_number_is_the_worst_of_all() {
+        let mut cases = Cases::default();
+        cases.add(-1e-3);
+        cases.add(1e-4);
+        assert_eq!((cases.count, cases.worst), (2, 1e-3));
+        cases.add(f64::NAN);
+        cases.add(1.0);
+        assert_eq!((cases.count, cases.worst), (4, f64::INFINITY));
+    }
+}

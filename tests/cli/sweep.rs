@@ -27,7 +27,10 @@ fn a_sweep_has_a_row_per_point_and_goes_on_where_it_was() {
     let folder = tempfile::tempdir().unwrap();
     let scene = patch(folder.path());
     let ratio = "materials.steel.poissons_ratio=0.0,0.3";
-    let run = |more: &[&str]| sweep(&scene, &[&["--vary", ratio, "--jobs", "2"], more].concat());
+    // What a point varies counts, whatever is set for all.
+    let set = "materials.steel.youngs_modulus=1000.0";
+    let common = ["--vary", ratio, "--jobs", "2", "--set", set];
+    let run = |more: &[&str]| sweep(&scene, &[&common[..], more].concat());
     let first = run(&["--json"]);
     assert!(first.status.success(), "{}", told(&first));
     assert_eq!(

@@ -175,6 +175,12 @@ fn what_cannot_be_tied_is_named() {
             "by 1.000e-1",
         ],
     );
+    let mut into = apart(-0.1);
+    tie(&mut into, SlaveSide::First);
+    refused(
+        &into,
+        &["are farther from `lower.top` than", "by -1.000e-1"],
+    );
     // It is the user's to say so; the nodes are moved.
     let mut said = apart(0.1);
     said.tie(Tie {

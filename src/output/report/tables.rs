@@ -461,3 +461,16 @@ fn grouped(count: usize) -> String {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::difference;
+
+    #[test]
+    fn a_difference_is_a_share_of_the_reference() {
+        for (ratio, expected) in [(1.25, "+25.00 %"), (0.8, "-20.00 %"), (1.0, "+0.00 %")] {
+            assert_eq!(difference(ratio), expected);
+        }
+        assert_eq!(difference(f64::NAN), "none");
+    }
+}
