@@ -201,6 +201,25 @@ T, P, 10.
 *END STEP
 ";
 
+/// A scene with the mesh: held at one set, pressed at another.
+fn of_scene(kind: &str, mesh: &std::path::Path, [held, pressed]: [&str; 2]) -> Results {
+    let axes = match kind {
+        "solid" => "\"x\", \"y\", \"z\"",
+        _ => "\"x\", \"y\"",
+    };
+    let scene = format!(
+        "kind = \"{kind}\"
+mesh.file = {mesh:?}
+materials.s = {{ youngs_modulus = 210e3, poissons_ratio = 0.0 }}
+bodies.block.material = \"s\"
+support = [{{ on = \"{held}\", fix = [{axes}] }}]
+load = [{{ on = \"{pressed}\", pressure = 10.0 }}]
+program.targets = [{{ load_factor = 1.0 }}]
+"
+    );
+    crate::support::run(&crate::support::parse(&scene))
+}
+
 /// Sets of lines are surfaces, of a deck as of a scene's mesh; a truss that a section makes one is
 /// refused.
 #[test]
@@ -219,17 +238,7 @@ fn lines_carry_the_sets_of_faces() {
     };
     let of_deck = sunk(&run(&deck, &[]).1);
     assert!((of_deck + 10.0 / 210e3).abs() < 1e-15, "{of_deck}");
-    let scene = format!(
-        "kind = \"plane_stress\"
-mesh.file = {mesh:?}
-materials.s = {{ youngs_modulus = 210e3, poissons_ratio = 0.0 }}
-bodies.block.material = \"s\"
-support = [{{ on = \"bottom\", fix = [\"x\", \"y\"] }}]
-load = [{{ on = \"top\", pressure = 10.0 }}]
-program.targets = [{{ load_factor = 1.0 }}]
-"
-    );
-    let results = crate::support::run(&crate::support::parse(&scene));
+    let results = of_scene("plane_stress", &mesh, ["bottom", "top"]);
     assert_eq!(sunk(&results), of_deck);
     let truss = ON_LINES.replace("ELSET=block", "ELSET=top");
     let truss = write("truss.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{truss}"));
@@ -297,17 +306,7 @@ fn plane_elements_beside_solids_carry_the_sets_of_faces() {
         let deck = write("deck.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{text}"));
         let of_deck = sunk(&run(&deck, &[]).1);
         assert!((of_deck + 10.0 / 210e3).abs() < 1e-15, "{of_deck}");
-        let scene = format!(
-            "kind = \"solid\"
-mesh.file = {mesh:?}
-materials.s = {{ youngs_modulus = 210e3, poissons_ratio = 0.0 }}
-bodies.block.material = \"s\"
-support = [{{ on = \"{bottom}\", fix = [\"x\", \"y\", \"z\"] }}]
-load = [{{ on = \"{top}\", pressure = 10.0 }}]
-program.targets = [{{ load_factor = 1.0 }}]
-"
-        );
-        let results = crate::support::run(&crate::support::parse(&scene));
+        let results = of_scene("solid", &mesh, [bottom, top]);
         assert_eq!(sunk(&results), of_deck);
     }
     let plate = held.replace("ELSET=block", "ELSET=top");
