@@ -198,7 +198,7 @@ fn sectors_between_planes_at_an_angle_are_parts_of_the_quarter() {
                 ),
             ] {
                 assert!(
-                    (x - y).abs() < 1e-5 * scale,
+                    (x - y).abs() < 1e-8 * scale,
                     "{angle} {} {what}: {x} {y}",
                     a.name
                 );
