@@ -92,7 +92,8 @@ impl Stepper<'_, '_> {
     /// gone so far that the secant stiffness of the increment is lost, too. The energy of the
     /// increment is convex and has fallen all the way: an equilibrium, if there is any, lies
     /// beyond. Where a gap closes on that way, as when a tube is expanded into a sleeve, what it
-    /// closes may hold the load: nothing is said.
+    /// closes may hold the load, and where back stresses fade the increment has no such energy:
+    /// nothing is said.
     pub(super) fn flows_away(
         &mut self,
         goal: &LoadPoint,
@@ -101,7 +102,7 @@ impl Stepper<'_, '_> {
         trial: &(Equilibrium, Trailing),
     ) -> Option<f64> {
         let enough = DRIVEN * driven.dot(&direction.u);
-        if length < 1.0 || trial.1.dot(&direction.u) < enough {
+        if !self.solver.zone.is_symmetric() || length < 1.0 || trial.1.dot(&direction.u) < enough {
             return None;
         }
         let mut force = self.solver.structure.sub.zeros();
