@@ -109,6 +109,23 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
         Some(PatchFit { factor: l, scaling })
     }
 
+    /// The coefficients of the fit to weighted places with their values; `None` as in [`Self::to`].
+    pub fn through(
+        points: impl Iterator<Item = (f64, [f64; D], f64)> + Clone,
+        least_pivot: f64,
+    ) -> Option<Terms> {
+        let fit = Self::to(
+            points.clone().map(|(weight, x, _)| (weight, x)),
+            least_pivot,
+        )?;
+        let mut right = [0.0; N];
+        for (weight, x, value) in points {
+            let terms = Self::terms(weight * value, &x);
+            right.iter_mut().zip(terms).for_each(|(r, term)| *r += term);
+        }
+        Some(fit.solve(&right))
+    }
+
     /// `G^-1 right`
     #[inline(always)]
     pub fn solve(&self, right: &Terms) -> Terms {
@@ -255,16 +272,9 @@ mod tests {
         let weight = |i: usize| 1.0 + (i % 3) as f64;
         let points = |m: usize| (0..m).map(move |i| (weight(i), place(i)));
         let fit = PatchFit::<D, DEGREE>::to(points(4 * n), 1e-4).unwrap();
-        let mut right = [0.0; N];
-        for (w, x) in points(4 * n) {
-            let value = PatchFit::<D, DEGREE>::value(&given, 1.0, &x);
-            let terms = PatchFit::<D, DEGREE>::terms(w, &x);
-            right
-                .iter_mut()
-                .zip(terms)
-                .for_each(|(r, t)| *r += t * value);
-        }
-        let found = fit.solve(&right);
+        let valued =
+            points(4 * n).map(|(w, x)| (w, x, PatchFit::<D, DEGREE>::value(&given, 1.0, &x)));
+        let found = PatchFit::<D, DEGREE>::through(valued, 1e-4).unwrap();
         for k in 0..n {
             // Round-off over the square of the least pivot, which is above 1e-3 here.
             assert!((found[k] - given[k]).abs() < 1e-10, "{D} {DEGREE} {k}");

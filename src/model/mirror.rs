@@ -284,25 +284,32 @@ impl Conditions {
 /// plane must be one: the stress goes on as its mirror image if every condition there does.
 pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Vec<Mirror> {
     let sides = Sides::of(model, conditions, elements);
-    let mut out: Vec<(Mirror, bool)> = Vec::new();
-    for side in &sides.0 {
-        let Some(mirror) = side.mirror else {
-            continue;
-        };
-        let same = |other: &Mirror| {
-            length_of(cross(mirror.normal, other.normal)) < SAME
-                && dot(mirror.normal, other.normal) > 0.0
-                && (mirror.offset - other.offset).abs() <= SAME * side.length
-        };
-        let is_mirror = Conditions::hold(model, side, mirror.normal)
-            && sides.are_symmetric(side, mirror.normal, model, conditions);
-        match out.iter_mut().find(|(other, _)| same(other)) {
-            Some((_, all)) => *all &= is_mirror,
-            None => out.push((mirror, is_mirror)),
+    let planes = || {
+        let sides = sides.0.iter();
+        sides.filter_map(|side| side.mirror.map(|mirror| (side, mirror)))
+    };
+    let same = |a: &Mirror, b: &Mirror, length: f64| {
+        (a.offset - b.offset).abs() <= SAME * length
+            && dot(a.normal, b.normal) > 0.0
+            && length_of(cross(a.normal, b.normal)) < SAME
+    };
+    // Few facets are held: most of what elements have is inside the body.
+    let mut out: Vec<Mirror> = Vec::new();
+    for (side, mirror) in planes() {
+        if Conditions::hold(model, side, mirror.normal)
+            && !out.iter().any(|other| same(other, &mirror, side.length))
+        {
+            out.push(mirror);
         }
     }
-    let mirrors = out.into_iter().filter(|(_, is_mirror)| *is_mirror);
-    mirrors.map(|(mirror, _)| mirror).collect()
+    out.retain(|mirror| {
+        let mut on_it = planes().filter(|(side, other)| same(mirror, other, side.length));
+        on_it.all(|(side, own)| {
+            Conditions::hold(model, side, own.normal)
+                && sides.are_symmetric(side, own.normal, model, conditions)
+        })
+    });
+    out
 }
 
 /// The bodies in a contact.
@@ -407,5 +414,43 @@ impl Sides {
                     })
             })
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Scene;
+
+    /// A block that is held across its left and bottom sides, pushed along the left one.
+    fn n_mirrors(load: &str) -> usize {
+        let text = format!(
+            r#"
+            kind = "plane_strain"
+            load = [{load}]
+            support = [{{ on = "block.left", fix = ["x"] }}, {{ on = "block.bottom", fix = ["y"] }}]
+            [[mesh.parts]]
+            body = "block"
+            block = {{ x = [0.0, 1.0], y = [0.0, 1.0], elements = [3, 3] }}
+            [materials.m]
+            youngs_modulus = 1000.0
+            poissons_ratio = 0.3
+            [bodies.block]
+            material = "m"
+            [program]
+            targets = [{{ load_factor = 1.0 }}]
+            "#
+        );
+        let model = Model::new(&Scene::parse(&text, "test").unwrap()).unwrap();
+        let all: Vec<usize> = (0..model.mesh.n_elements()).collect();
+        mirrors(&model, &Conditions::of(&model), &all).len()
+    }
+
+    /// A load on the whole top goes on beyond the plane at its rim; one on the corner does not.
+    #[test]
+    fn a_load_at_the_rim_goes_on_where_all_of_a_side_bears_it() {
+        assert_eq!(n_mirrors(r#"{ on = "block.top", pressure = 1.0 }"#), 2);
+        let corner = r#"{ on = "block.top_left", force = [0.0, -1.0] }"#;
+        assert_eq!(n_mirrors(corner), 1);
     }
 }

@@ -1,14 +1,15 @@
 //! Polynomials through values that are known at places.
 
+use crate::analysis::patch_fit::{PatchFit, Terms};
 use crate::balls::Balls;
-use nalgebra::{DMatrix, DVector};
 
 /// Believed pairs that a quadratic is fitted to at least, one and a half times its terms.
 const FITTED: usize = 9;
-/// Share of the largest singular value below which a fit's equations count as dependent.
-const DEPENDENT: f64 = 1e-4;
-/// Most iterations of a singular value decomposition: each value takes two or three.
-const ITERATIONS: usize = 1000;
+/// Pivot of the scaled normal equations below which they do not determine a fit.
+const LEAST_PIVOT: f64 = 1e-4;
+/// A quadratic, of which a plane is one.
+type Quadratic = PatchFit<2, 2>;
+type Plane = PatchFit<2, 1>;
 
 /// A value at a place.
 #[derive(Clone, Copy)]
@@ -49,7 +50,7 @@ fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
 pub(super) struct Fit {
     origin: [f64; 2],
     scale: f64,
-    coefficients: [f64; 6],
+    coefficients: Terms,
 }
 
 impl Fit {
@@ -59,49 +60,36 @@ impl Fit {
         let off = |known: &Known| (known.at[0] - origin[0]).hypot(known.at[1] - origin[1]);
         let mut near: Vec<(f64, Known)> = known.iter().map(|known| (off(known), *known)).collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (terms, least, most) in [(6, FITTED, 2 * FITTED), (3, 4, 6)] {
+        let fit = |degree: usize, least: usize, most: usize| {
             if near.len() < least {
-                continue;
+                return None;
             }
             // Those as far away as the last one are used too: which of them came first means
             // nothing.
             let last = near[most.min(near.len()) - 1].0 * (1.0 + 1e-9);
             let used = &near[..near.partition_point(|(off, _)| *off <= last)];
             let scale = used[used.len() - 1].0;
-            if scale <= 0.0 {
-                continue;
-            }
-            let mut matrix = DMatrix::zeros(used.len(), terms);
-            let mut right = DVector::zeros(used.len());
-            for (i, (off, known)) in used.iter().enumerate() {
+            let place = |known: &Known| [0, 1].map(|d| (known.at[d] - origin[d]) / scale);
+            let points = used.iter().map(|(off, known)| {
                 let weight = 1.0 / (0.1 + (off / scale).powi(2));
-                let place = [0, 1].map(|d| (known.at[d] - origin[d]) / scale);
-                for (j, term) in monomials(place).into_iter().enumerate().take(terms) {
-                    matrix[(i, j)] = weight * term;
-                }
-                right[i] = weight * known.value;
-            }
-            let decomposed = matrix.try_svd(true, true, 5.0 * f64::EPSILON, ITERATIONS)?;
-            let largest = decomposed.singular_values.max();
-            if decomposed.singular_values.min() <= DEPENDENT * largest {
-                continue;
-            }
-            let solution = decomposed.solve(&right, 0.0).ok()?;
-            let mut coefficients = [0.0; 6];
-            coefficients[..terms].copy_from_slice(solution.as_slice());
-            return Some(Fit {
+                (weight * weight, place(known), known.value)
+            });
+            let coefficients = match degree {
+                1 => Plane::through(points, LEAST_PIVOT),
+                _ => Quadratic::through(points, LEAST_PIVOT),
+            }?;
+            Some(Fit {
                 origin,
                 scale,
                 coefficients,
-            });
-        }
-        None
+            })
+        };
+        fit(2, FITTED, 2 * FITTED).or_else(|| fit(1, 4, 6))
     }
 
     pub(super) fn value(&self, at: [f64; 2]) -> f64 {
         let place = [0, 1].map(|d| (at[d] - self.origin[d]) / self.scale);
-        let terms = monomials(place).into_iter().zip(self.coefficients);
-        terms.map(|(term, c)| term * c).sum()
+        Quadratic::value(&self.coefficients, 1.0, &place)
     }
 
     /// The sum of both second derivatives.
@@ -113,8 +101,4 @@ impl Fit {
     pub(super) fn slope(&self) -> f64 {
         self.coefficients[1].hypot(self.coefficients[2]) / self.scale
     }
-}
-
-fn monomials([x, y]: [f64; 2]) -> [f64; 6] {
-    [1.0, x, y, x * x, x * y, y * y]
 }
