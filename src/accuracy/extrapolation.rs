@@ -93,10 +93,7 @@ pub fn extrapolate(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> 
     // The law of a free order has three constants, that of a given one two.
     let constants = if is_believed { 3 } else { 2 };
     let n = values.len();
-    let deviation = match n > constants {
-        true => (n as f64 * fit.square / (n - constants) as f64).sqrt(),
-        false => 0.0,
-    };
+    let deviation = scatter(fit.square, n, constants);
     let error = (fit.slope * h.powf(fit.order)).abs();
     let off = (q - fit.limit - fit.slope * h.powf(fit.order)).abs();
     let per_mesh = range / (n - 1) as f64;
@@ -109,6 +106,15 @@ pub fn extrapolate(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> 
         order: Some(order),
         limit: is_reliable.then_some(fit.limit),
     })
+}
+
+/// Standard deviation of `n` values about a law that was fitted to them, from the mean square of
+/// what it leaves over: each constant of the law takes one value's share of the scatter away.
+fn scatter(square: f64, n: usize, constants: usize) -> f64 {
+    match n > constants {
+        true => (n as f64 * square / (n - constants) as f64).sqrt(),
+        false => 0.0,
+    }
 }
 
 /// Largest less smallest value.
@@ -257,5 +263,30 @@ mod tests {
         ];
         let other = extrapolate(&scaled, 2.0).unwrap();
         assert!((1e3 * other.uncertainty / found.uncertainty - 1.0).abs() < 1e-6);
+    }
+    /// Sums of evenly distributed numbers about a straight line: over many sets of five values the
+    /// mean square of the scatter is the variance of the noise, whose relative error is
+    /// `sqrt(2 / (3 N))`, 1.3 %. Without the line's two constants it would be 0.6 of that.
+    #[test]
+    fn the_scatter_about_a_line_is_that_of_the_noise() {
+        const N: usize = 4000;
+        let mut seed = 1u64;
+        let mut noise = || {
+            let mut even = || {
+                seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                (seed >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+            };
+            (0..12).map(|_| even()).sum::<f64>()
+        };
+        let mut sum = 0.0;
+        for _ in 0..N {
+            let values: Vec<(f64, f64)> = (1..=5)
+                .map(|h| (f64::from(h), 3.0 + 0.7 * f64::from(h) + noise()))
+                .collect();
+            let line = fit(&values, 1.0, |_| 0.2);
+            sum += scatter(line.square, 5, 2).powi(2);
+        }
+        let variance = sum / N as f64;
+        assert!((variance - 1.0).abs() < 4.0 * 0.013, "{variance}");
     }
 }

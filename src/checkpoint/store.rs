@@ -180,3 +180,32 @@ pub(super) fn is_ours(name: &OsStr) -> bool {
         || number_of(name).is_some()
         || (partial(text) && (text.starts_with(PART) || text.starts_with(CHECKPOINT)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    /// Parts of equal length are told apart by what is in them.
+    #[test]
+    fn a_part_that_is_not_the_one_meant_is_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let identity: Identity = serde_json::from_value(json!({
+            "scene": "", "mesh": 1, "values": 2, "backend": "", "start": 0,
+        }))
+        .unwrap();
+        let mut store = Store::open(&Checkpoints::new(dir.path()), identity).unwrap();
+        let [a, b] = [[1.0, 2.0], [2.0, 1.0]].map(|values| store.add(&values).unwrap());
+        assert_eq!(a.length, b.length);
+        assert_eq!(store.part_of::<[f64; 2]>(b).unwrap(), [2.0, 1.0]);
+        let swapped = PartId {
+            number: a.number,
+            ..b
+        };
+        let refused = store.part_of::<[f64; 2]>(swapped).unwrap_err();
+        assert!(
+            refused.to_string().contains("belongs to another"),
+            "{refused}"
+        );
+    }
+}

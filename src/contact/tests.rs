@@ -156,6 +156,18 @@ fn a_body_held_by_contact_alone_does_not_open_its_last_pair() {
     assert!(solve(&mut tableau, &[-1.0, 0.5], &mut g, &mut r).is_err());
 }
 
+/// Two springs in a row on a third to the ground, a billionth as stiff: that is far above round-off
+/// and holds the body, a ten-trillionth is not and does not.
+#[test]
+fn a_body_on_a_weak_spring_is_held() {
+    for (weak, is_held) in [(1e-9, true), (1e-13, false)] {
+        let t = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0 + weak]);
+        let mut tableau = Tableau::new(t);
+        assert!(tableau.flip(0));
+        assert_eq!(tableau.flip(1), is_held, "{weak}");
+    }
+}
+
 #[test]
 fn ties_open_together() {
     let n = 40;

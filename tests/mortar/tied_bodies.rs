@@ -154,6 +154,32 @@ fn apart(gap: f64) -> ModelBuilder {
     builder
 }
 
+/// Nodes that nothing pushes and nothing holds bear no force, also where one surface follows the
+/// other: what it would bear is handed on, not written twice.
+#[test]
+fn the_forces_of_a_tie_are_in_balance() {
+    for slave in [SlaveSide::First, SlaveSide::Second] {
+        let mut builder = apart(0.0);
+        tied(&mut builder, "upper.bottom", "lower.top", slave);
+        let model = builder.build().unwrap();
+        let results = run(&builder);
+        let force = &results.states[0].fields.as_ref().unwrap().force;
+        let size = |node: usize| force[2 * node].hypot(force[2 * node + 1]);
+        let largest = (0..model.mesh.n_nodes()).map(size).fold(0.0, f64::max);
+        assert!(largest > 0.1);
+        for set in ["upper.bottom", "lower.top"] {
+            for node in model.mesh.set_nodes(set).unwrap() {
+                let is_held = model.mesh.in_plane(node)[0] == 0.0;
+                assert!(
+                    is_held || size(node) < 1e-9 * largest,
+                    "{set} {slave:?}: {}",
+                    size(node)
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn what_cannot_be_tied_is_named() {
     let refused = |builder: &ModelBuilder, expected: &[&str]| {

@@ -192,3 +192,26 @@ fn a_loose_tolerance_does_not_miss_the_target() {
         assert!((ratio - 1.5).abs() <= 0.5 * element, "{ratio}");
     }
 }
+
+/// As many as are asked for, of equal length, beyond first yield.
+#[test]
+fn fixed_steps_are_counted_out() {
+    for steps in [1, 4] {
+        let results = run(&load(
+            "thick_cylinder",
+            &[
+                "program.stepping=steps",
+                &format!("program.steps={steps}"),
+                "program.targets=[{ yield = true }, { load_factor = 112.0 }]",
+            ],
+        ));
+        let from = results.states[0].alpha;
+        let rows = results.history.iter().filter(|row| row.alpha > from);
+        let alphas: Vec<f64> = rows.map(|row| row.alpha).collect();
+        assert_eq!(alphas.len(), steps, "{alphas:?}");
+        for (i, alpha) in alphas.iter().enumerate() {
+            let exact = from + (112.0 - from) * (i + 1) as f64 / steps as f64;
+            close("step", *alpha, exact, exact, 1e-12);
+        }
+    }
+}

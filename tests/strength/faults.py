@@ -91,7 +91,7 @@ f(16, "scene/overrides.rs", "(DeValue::Table(table), DeValue::Table(given)) => {
   "unit scene::read (overrides); cli")
 f(17, "error.rs", "ErrorKind::Outgrown => 8,", "ErrorKind::Outgrown => " + x(17, "7", "8") + ",",
   "cli", "exit code and status of a contact that outgrows its candidates is that of an inaccurate run",
-  "stability (outgrown), cli, capi")
+  "unit error; stability (outgrown)")
 f(18, "deck/history.rs", "false => at - time.start,",
   "false => at - " + x(18, "0.0", "time.start") + ",",
   "deck", "an amplitude over step time is read at total time: wrong from the second step on",
@@ -115,7 +115,7 @@ f(22, "model/loads.rs", ".map(|&i| (i, share.map(|f| f / n)))",
 f(23, "model/initial_strain.rs", "false => -stress[k] / material.shear_modulus(),",
   "false => -stress[k] / (" + x(23, "2.0", "1.0") + " * material.shear_modulus()),",
   "model", "the shear strain of an initial stress is half of what it should be",
-  "verification (initial_state), invariance")
+  "unit model::initial_strain; verification (initial_state)")
 f(24, "model/equations.rs", "let share = -term.coefficient / first.coefficient;",
   "let share = " + x(24, "-term.coefficient * first.coefficient", "-term.coefficient / first.coefficient") + ";",
   "model", "terms of an equation are multiplied by the first coefficient instead of divided by it",
@@ -190,7 +190,7 @@ f(41, "model/mirror.rs",
   "let is_loaded = |other: &Side| {\n    let mut loads = other.nodes.iter().map(|&n| conditions.loaded[n]);\n"
   "    if " + on(41) + " { loads.any(|l| l) } else { loads.all(|l| l) }\n};",
   "analysis", "a plane counts as one of symmetry although a single node at its rim is pushed along it",
-  "stability (whether_it_yields); verification (yield_load)")
+  "unit model::mirror; stability (whether_it_yields)")
 f(42, "analysis/landing.rs", "let accuracy = Accuracy::both(MONITOR_ACCURACY);",
   "let accuracy = Accuracy::both(" + x(42, "1e3 * MONITOR_ACCURACY", "MONITOR_ACCURACY") + ");",
   "analysis", "landing on a target (half width, displacement) in plastic steps is a thousand times less accurate",
@@ -233,7 +233,7 @@ f(51, "analysis/restart.rs", "(first + 1..=end).contains(&point.increment)",
 f(52, "analysis/zone_choice.rs", ".map(|&e| !core[e])",
   ".map(|&e| !core[e] && !" + on(52) + ")",
   "analysis", "no element of the plastic zone is a guard: the zone is not made larger when its rim yields",
-  "verification (run), stability (elsewhere, flow), unit analysis")
+  "cost (counts), stability (elsewhere, flow)")
 f(53, "analysis/measure.rs", "sum * model.symmetry",
   "sum * " + x(53, "1.0", "model.symmetry"),
   "analysis", "the load of a run that a gap drives is that of the meshed part, not of all its copies",
@@ -255,8 +255,8 @@ f(57, "checkpoint/store.rs", "if (length, hash) != (id.length, id.hash) {",
   "if (length, " + x(57, "id.hash", "hash") + ") != (id.length, id.hash) {",
   "checkpoint", "a part of a checkpoint that belongs to another run is taken if it has the same length",
   "stability (checkpoint, killed), unit checkpoint")
-f(58, "accuracy/extrapolation.rs", "(n as f64 * fit.square / (n - constants) as f64).sqrt()",
-  x(58, "fit.square.sqrt()", "(n as f64 * fit.square / (n - constants) as f64).sqrt()"),
+f(58, "accuracy/extrapolation.rs", "(n as f64 * square / (n - constants) as f64).sqrt()",
+  x(58, "square.sqrt()", "(n as f64 * square / (n - constants) as f64).sqrt()"),
   "accuracy", "the scatter of an extrapolation is not corrected for the constants fitted",
   "unit accuracy::extrapolation; accuracy (claims, estimate)")
 f(59, "accuracy/outcome.rs", "relative / wanted > excess {",

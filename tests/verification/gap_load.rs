@@ -108,3 +108,44 @@ fn a_gap_on_a_surface_without_contact_is_refused() {
         assert!(error.message().contains(fragment), "{error}");
     }
 }
+
+/// Two blocks of height 1 and no Poisson's ratio, wedged apart by 0.01: the stress is `E 0.01 / 2`,
+/// its force that of the whole, of which a symmetric model has a part.
+#[test]
+fn the_load_of_a_gap_is_that_of_the_whole() {
+    for symmetry in [1, 2] {
+        let text = format!(
+            r#"
+kind = "plane_strain"
+symmetry = {symmetry}
+contact = [{{ first = "upper.bottom", second = "lower.top" }}]
+support = [
+    {{ on = "lower.bottom", fix = ["y"] }}, {{ on = "upper.top", fix = ["y"] }},
+    {{ on = "lower.left", fix = ["x"] }}, {{ on = "upper.left", fix = ["x"] }},
+]
+load = [{{ on = "lower.top", gap = -0.01 }}]
+[[mesh.parts]]
+body = "upper"
+block = {{ x = [0.0, 1.5], y = [1.0, 2.0], elements = [3, 2] }}
+[[mesh.parts]]
+body = "lower"
+block = {{ x = [0.0, 1.5], y = [0.0, 1.0], elements = [3, 2] }}
+[materials.m]
+youngs_modulus = 1000.0
+poissons_ratio = 0.0
+[bodies]
+upper = {{ material = "m" }}
+lower = {{ material = "m" }}
+[program]
+targets = [{{ load_factor = 1.0 }}]
+"#
+        );
+        let state = &run(&Scene::parse(&text, "test").unwrap()).states[0];
+        let exact = f64::from(symmetry) * 1.5 * 1000.0 * 0.01 / 2.0;
+        assert!(
+            (state.load / exact - 1.0).abs() < 1e-9,
+            "{symmetry}: {}",
+            state.load
+        );
+    }
+}
