@@ -1,7 +1,7 @@
 //! First yield of the program: where it lies, and that the zone did not miss it.
 
 use super::drive::{Arrival, stopped};
-use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
+use super::program::{DOUBLINGS, Purpose, Run, ZONE_ATTEMPTS};
 use super::recovery::Peak;
 use super::state::State;
 use super::zone_choice::{self, Choice};
@@ -61,7 +61,7 @@ impl Run<'_, '_> {
             if missed.is_none() {
                 if let Some((alpha, peak)) = found {
                     self.record_yield(peak);
-                    if self.yield_only {
+                    if self.purpose == Purpose::YieldLoad {
                         self.at_yield = Some(self.solver.reading().quality_here()?);
                     }
                     let unit = if unit_is_yield { 1.0 } else { alpha };

@@ -6,7 +6,7 @@
 //! | `yield_load`, `recovery`, `maximum`, `mirror` | load at first yield, the highest stress between the points | 3.11 to 3.14 |
 //! | `patch_fit`, `patch`, `fitted`, `neighbours`, `layers` | the weighted polynomial around an element; recovered stresses and gradients | |
 //! | `increment`, `search`, `step_length` | one elastoplastic increment that ends at the next change of contact | 4.7 to 4.23 |
-//! | `zone`, `gather`, `region`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
+//! | `zone`, `gather`, `region`, `zone_choice`, `zone_fit`, `scout` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `collapse` | limit load, or an iteration that did not converge | |
 //! | `program`, `position`, `first_yield`, `targets`, `cycles` | the program, step by step; where it is | 5.1, 5.2 |
@@ -73,6 +73,7 @@ mod recovery;
 mod region;
 mod response;
 mod restart;
+mod scout;
 mod search;
 mod seconds;
 mod settling;
@@ -108,6 +109,7 @@ use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::Observer;
 use crate::results::Results;
+use program::{Purpose, Run};
 use std::time::Instant;
 
 /// A model with its assembled system, ready to run.
@@ -175,7 +177,8 @@ impl Analysis {
     /// # Errors
     /// Failures before the first state: factorisation, yield load, a body that is not held.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        program::complete(program::Run::new(self, observer)?)
+        let expected = scout::expect(self, observer);
+        program::complete(Run::new(self, Purpose::Program, expected, observer)?)
     }
 
     /// As [`Analysis::run`], and writes checkpoints on the way: should the process be killed,
@@ -192,7 +195,8 @@ impl Analysis {
         observer: &mut dyn Observer,
     ) -> Result<Results> {
         let store = self.store(checkpoints)?;
-        let run = program::Run::new(self, observer)?;
+        let expected = scout::expect(self, observer);
+        let run = Run::new(self, Purpose::Program, expected, observer)?;
         program::complete(run.with_checkpoints(store, checkpoints.interval()))
     }
 
@@ -212,7 +216,7 @@ impl Analysis {
     ) -> Result<Results> {
         let store = self.store(checkpoints)?;
         let every = checkpoints.interval();
-        let run = program::Run::resume(self, observer, store, every)?;
+        let run = Run::resume(self, observer, store, every, scout::expect)?;
         program::complete(run)
     }
 
@@ -245,8 +249,6 @@ impl Analysis {
     /// # Errors
     /// As [`Analysis::run`].
     pub fn yield_load(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        let mut run = program::Run::new(self, observer)?;
-        run.yield_only = true;
-        program::complete(run)
+        program::complete(Run::new(self, Purpose::YieldLoad, None, observer)?)
     }
 }

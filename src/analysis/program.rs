@@ -15,7 +15,7 @@ use super::solver::Solver;
 use super::stopwatch::Row;
 use super::targets::Start;
 use super::zone_choice;
-use super::zone_fit::ZoneFit;
+use super::zone_fit::{Expected, ZoneFit};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::progress::{Flow, Observer};
@@ -62,9 +62,20 @@ pub(super) struct Run<'m, 'o> {
     /// The path between the rows of the history.
     pub(super) path: PathSampler,
     pub(super) checkpoints: Option<CheckpointWriter>,
-    /// Whether first yield is all that is asked for, and the quality of the state there.
-    pub(super) yield_only: bool,
+    pub(super) purpose: Purpose,
+    /// Quality of the state at first yield, where that is all that is asked for.
     pub(super) at_yield: Option<Quality>,
+}
+
+/// What is asked of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// The whole program.
+    Program,
+    /// The load at first yield.
+    YieldLoad,
+    /// The stress by which a finer mesh chooses its zone: it ends at first yield, too.
+    Zone,
 }
 
 /// What a step of the program came to.
@@ -80,13 +91,26 @@ impl<'m, 'o> Run<'m, 'o> {
     ///
     /// # Errors
     /// Those of [`Solver::new`].
-    pub(super) fn new(analysis: &'m Analysis, observer: &'o mut dyn Observer) -> Result<Self> {
+    pub(super) fn new(
+        analysis: &'m Analysis,
+        purpose: Purpose,
+        expected: Option<Expected>,
+        observer: &'o mut dyn Observer,
+    ) -> Result<Self> {
         let model = &analysis.model;
         observer.model(model.freedoms.n, model.pairs.len());
         observer.phase("factorisation");
         let start = Instant::now();
-        let within = zone_choice::first_guess(model).elements;
-        let choice = zone_choice::place_of_first_yield(model);
+        let (within, choice) = match &expected {
+            Some(expected) => {
+                let choice = zone_choice::predict(model, &expected.ratios);
+                (choice.elements.clone(), choice)
+            }
+            None => {
+                let within = zone_choice::first_guess(model).elements;
+                (within, zone_choice::place_of_first_yield(model))
+            }
+        };
         let (system, elements) = (&analysis.system, choice.elements.clone());
         let solver = Solver::new(
             model,
@@ -105,7 +129,12 @@ impl<'m, 'o> Run<'m, 'o> {
             observer.warning(warning);
         }
         let mut run = Run::of(solver, ZoneFit::new(choice), results, observer);
-        run.position.seconds = run.position.seconds.running_since(start);
+        run.purpose = purpose;
+        let seconds = &mut run.position.seconds;
+        let found_since = expected.as_ref().map_or(start, |expected| expected.since);
+        *seconds = seconds.running_since(found_since);
+        seconds.hand_over((start - found_since).as_secs_f64(), Row::Zone);
+        run.zone.expected = expected.map(|expected| expected.ratios);
         run.begin()?;
         Ok(run)
     }
@@ -128,7 +157,7 @@ impl<'m, 'o> Run<'m, 'o> {
             results,
             path: PathSampler::default(),
             checkpoints: None,
-            yield_only: false,
+            purpose: Purpose::Program,
             at_yield: None,
         }
     }
@@ -400,7 +429,7 @@ impl<'m, 'o> Run<'m, 'o> {
     /// material was not seen to yield, and does, is applied again.
     fn prepare(&mut self, again: bool) -> Result<()> {
         let program = &self.model().scene.program;
-        let required = self.yield_only
+        let required = self.purpose == Purpose::YieldLoad
             || program.unit == Unit::Yield
             || program
                 .targets
@@ -421,9 +450,10 @@ impl<'m, 'o> Run<'m, 'o> {
                 return self.begin();
             }
         }
-        if self.yield_only {
+        if self.purpose != Purpose::Program {
             self.position.stage = Stage::YieldOnly;
             return match self.position.first_yield.point {
+                None if self.purpose == Purpose::Zone => Ok(()),
                 Some(_) => Ok(()),
                 None if self.model().start.is_some() => Err(Error::analysis(
                     "no yield load: the material has yielded in the run that this one starts \

@@ -7,12 +7,12 @@
 
 use super::Analysis;
 use super::path::PathSampler;
-use super::position::Position;
+use super::position::{Position, Stage};
 use super::program::Run;
 use super::solver::{Solver, SolverRecord};
 use super::targets::Start;
 use super::zone_choice::Choice;
-use super::zone_fit::ZoneFit;
+use super::zone_fit::{Expected, ZoneFit};
 use crate::checkpoint::{PartId, Store};
 use crate::error::{Error, Result};
 use crate::progress::Observer;
@@ -179,6 +179,7 @@ impl<'m, 'o> Run<'m, 'o> {
         observer: &'o mut dyn Observer,
         store: Store,
         every: usize,
+        expect: fn(&Analysis, &mut dyn Observer) -> Option<Expected>,
     ) -> Result<Self> {
         let model = &analysis.model;
         let record: RunRecord = store.read()?;
@@ -222,6 +223,9 @@ impl<'m, 'o> Run<'m, 'o> {
         let mut zone = ZoneFit::new(Choice { elements, guard });
         if let Some(part) = record.parts.spread {
             zone.spread = Some(store.part_of(part)?);
+        }
+        if let Stage::Preload { .. } = record.position.stage {
+            zone.expected = expect(analysis, observer).map(|expected| expected.ratios);
         }
         let start: Option<Start> = match record.parts.start {
             Some(part) => Some(store.part_of(part)?),

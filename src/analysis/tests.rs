@@ -2,7 +2,7 @@
 //! asks for first yield, loads that fall or turn, yielding far from the contact.
 
 use super::Analysis;
-use super::program::Run;
+use super::program::{Purpose, Run};
 use super::solver::Solver;
 use super::targets::Start;
 use crate::error::{Error, ErrorKind};
@@ -249,7 +249,7 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
     let analysis = Analysis::new(model, Backend::Dense).unwrap();
     let search = |fails_at: usize| {
         let mut observer = Silent;
-        let mut run = Run::new(&analysis, &mut observer).unwrap();
+        let mut run = Run::new(&analysis, Purpose::Program, None, &mut observer).unwrap();
         run.execute().unwrap();
         let calls = Rc::new(Cell::new(0));
         let counted = Rc::clone(&calls);
@@ -338,7 +338,7 @@ fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
     let model = Model::new(&Scene::load_with(path, &coarse).unwrap()).unwrap();
     let analysis = Analysis::new(model, Backend::default()).unwrap();
     let mut observer = Silent;
-    let mut run = Run::new(&analysis, &mut observer).unwrap();
+    let mut run = Run::new(&analysis, Purpose::Program, None, &mut observer).unwrap();
     run.execute().unwrap();
     let known = run.position.first_yield;
     assert!(known.point.is_some() && known.alpha.is_some() && known.is_behind);
@@ -376,7 +376,7 @@ targets = [{ load_factor = 1.0 }, { load_factor = 1.3 }]
     let model = Model::new(&Scene::parse(&text, "test").unwrap()).unwrap();
     let analysis = Analysis::new(model, Backend::Dense).unwrap();
     let mut observer = Silent;
-    let mut run = Run::new(&analysis, &mut observer).unwrap();
+    let mut run = Run::new(&analysis, Purpose::Program, None, &mut observer).unwrap();
     run.execute().unwrap();
     let solver = &mut run.solver;
     assert!(!solver.zone.is_symmetric());

@@ -296,6 +296,9 @@ mod tests {
                 let found = choice.elements.binary_search(&element);
                 assert_eq!(found.is_ok(), taken, "{name}");
                 assert!(found.is_err() || !choice.guard[found.unwrap()]);
+                // The outermost layer watches: where it yields the zone is made larger.
+                let core = choice.guard.iter().filter(|guard| !**guard).count();
+                assert_eq!(taken, core > 0 && core < choice.guard.len(), "{name}");
             }
         }
     }

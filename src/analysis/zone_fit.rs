@@ -11,6 +11,7 @@ use super::zone_choice::{self, Choice, PREDICTED};
 use crate::error::Result;
 use crate::scene::History;
 use serde::{Deserialize, Serialize};
+use std::time::Instant;
 
 /// Factor on the load from one stage of the zone to the next: what it saves in trailing solves
 /// against what a stage costs, a copy of the zone's part of the factor.
@@ -24,8 +25,20 @@ pub(super) struct ZoneFit {
     /// Elastic von Mises stress over yield stress of each element where first yield was last looked
     /// for; empty where the zone holds all that may yield.
     pub(super) ratios_before_yield: Vec<f64>,
+    /// Elastic von Mises stress over yield stress of each element by a coarser mesh, until the zone
+    /// was fitted to it.
+    pub(super) expected: Option<Vec<f64>>,
     /// What the zone follows the load by.
     pub(super) spread: Option<Spread>,
+}
+
+/// What another mesh lets expect of the stress.
+pub(super) struct Expected {
+    /// Elastic von Mises stress over yield stress of each element at first yield and at the
+    /// program's extreme loads, the larger one.
+    pub(super) ratios: Vec<f64>,
+    /// When the search for it began.
+    pub(super) since: Instant,
 }
 
 impl ZoneFit {
@@ -34,6 +47,7 @@ impl ZoneFit {
             choice,
             recovery: None,
             ratios_before_yield: Vec::new(),
+            expected: None,
             spread: None,
         }
     }
@@ -99,24 +113,11 @@ impl Run<'_, '_> {
             // Nothing yields: the elastic path needs no zone at all.
             return Ok(());
         };
-        let before = self.solver.state();
-        let mut ratios = vec![0.0f64; self.model().mesh.n_elements()];
         let extremes = self.extreme_factors(at_yield);
-        for &alpha in &extremes {
-            let point = self.solver.structure.point(alpha);
-            if self.solver.solve_contact_at(&point).is_err() {
-                continue;
-            }
-            let u = self.solver.all_displacements()?;
-            for (r, new) in ratios.iter_mut().zip(zone_choice::stress_ratios(
-                self.model(),
-                &u,
-                &self.solver.at.factors,
-            )) {
-                *r = r.max(new);
-            }
-        }
-        self.solver.restore_elastic(&before);
+        let mut ratios = match self.zone.expected.take() {
+            Some(ratios) => ratios,
+            None => self.elastic_ratios(&extremes)?,
+        };
         self.set_zone(zone_choice::predict(self.model(), &ratios))?;
         let model = self.model();
         let proportional = |l: &crate::model::LoadCase| {
@@ -135,6 +136,38 @@ impl Run<'_, '_> {
             self.zone.spread = Some(Spread::new(&ratios, highest));
         }
         Ok(())
+    }
+
+    /// Elastic von Mises stress over yield stress of each element at first yield and at the
+    /// program's extreme loads, the larger one; `None` where nothing yields.
+    pub(super) fn ratios_at_extremes(&mut self) -> Result<Option<Vec<f64>>> {
+        let Some(at_yield) = self.position.first_yield.alpha else {
+            return Ok(None);
+        };
+        let mut factors = self.extreme_factors(at_yield);
+        factors.push(at_yield);
+        self.elastic_ratios(&factors).map(Some)
+    }
+
+    /// Elastic von Mises stress over yield stress of each element, the largest at some load
+    /// factors.
+    fn elastic_ratios(&mut self, factors: &[f64]) -> Result<Vec<f64>> {
+        let before = self.solver.state();
+        let mut ratios = vec![0.0f64; self.model().mesh.n_elements()];
+        for &alpha in factors {
+            let point = self.solver.structure.point(alpha);
+            if self.solver.solve_contact_at(&point).is_err() {
+                continue;
+            }
+            let u = self.solver.all_displacements()?;
+            let factors = &self.solver.at.factors;
+            let here = zone_choice::stress_ratios(self.model(), &u, factors);
+            for (ratio, here) in ratios.iter_mut().zip(here) {
+                *ratio = ratio.max(here);
+            }
+        }
+        self.solver.restore_elastic(&before);
+        Ok(ratios)
     }
 
     /// Lets the zone follow the load: while it is far below the program's largest, so is the zone.

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::Silent;
-use crate::results::Results;
+use crate::results::{Results, State};
 
 pub(super) const FAMILIES: &[Family] = &[
     Family {
@@ -38,6 +38,14 @@ pub(super) const FAMILIES: &[Family] = &[
         bound: 1e-8,
         source: "they push no body away; forces balance to 1e-10",
         cases: loose,
+    },
+    Family {
+        name: "bodies that nothing holds sideways",
+        figure: "pressure and dent against those of the same bodies held at a corner",
+        bound: 1e-7,
+        source: "a motion that nothing drives changes nothing; forces balance to 1e-10, a hundred \
+                 times that in displacements",
+        cases: sideways,
     },
     Family {
         name: "unlike meshes, far beyond yield",
@@ -214,6 +222,35 @@ fn loose(cases: &mut Cases) -> Result<()> {
                         _ => 2.0,
                     };
                     cases.add(state.contact_force / (100.0 * area) - 1.0);
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn sideways(cases: &mut Cases) -> Result<()> {
+    let low = "block = { x = [0, 4], y = [0, 2], elements = [12, 6] }";
+    for kind in ["plane_strain", "plane_stress"] {
+        for element in ["tri3", "tri6", "quad4", "quad8"] {
+            let up = format!(
+                "element = \"{element}\", block = {{ x = [1, 3], y = [2, 3], elements = [7, 4] }}"
+            );
+            let of = |on: &str| {
+                let text = on_block(kind, "", "", [low, &up]);
+                let text = text.replace("{ on = \"up.left\", fix = [\"x\"] }", on);
+                results(&scene(&text.replace(
+                    "[{ load_factor = 1.0 }]",
+                    "[{ load_factor = 1.0 }, { load_factor = 3.0 }, { load_factor = 0.0 }]",
+                ))?)
+            };
+            let [loose, held] = [of("")?, of("{ on = \"up.top_left\", fix = [\"x\"] }")?];
+            for (loose, held) in loose.states.iter().zip(&held.states) {
+                for figure in [|s: &State| s.max_pressure, |s: &State| s.residual_depth] {
+                    let size = figure(held);
+                    if size > 0.0 {
+                        cases.add(figure(loose) / size - 1.0);
+                    }
                 }
             }
         }

@@ -233,7 +233,7 @@ f(51, "analysis/restart.rs", "(first + 1..=end).contains(&point.increment)",
 f(52, "analysis/zone_choice.rs", ".map(|&e| !core[e])",
   ".map(|&e| !core[e] && !" + on(52) + ")",
   "analysis", "no element of the plastic zone is a guard: the zone is not made larger when its rim yields",
-  "cost (counts), stability (elsewhere, flow)")
+  "unit analysis::zone_choice; cost (counts)")
 f(53, "analysis/measure.rs", "sum * model.symmetry",
   "sum * " + x(53, "1.0", "model.symmetry"),
   "analysis", "the load of a run that a gap drives is that of the meshed part, not of all its copies",

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::analysis::Analysis;
-use crate::analysis::program::Run;
+use crate::analysis::program::{Purpose, Run};
 use crate::linalg::Backend;
 use crate::progress::Silent;
 use crate::scene::Scene;
@@ -21,7 +21,7 @@ fn far_below_yield_the_first_of_the_largest_samples_is_the_peak() {
     let scene = Scene::load("data/scenes/thick_cylinder.toml").unwrap();
     let analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::Dense).unwrap();
     let (model, mut observer) = (analysis.model(), Silent);
-    let mut run = Run::new(&analysis, &mut observer).unwrap();
+    let mut run = Run::new(&analysis, Purpose::Program, None, &mut observer).unwrap();
     let recovery = plane(run.zone.recovery(&run.solver, Watched::Recovered));
     let n = recovery.positions.len();
     let yield_stress = recovery.materials[0].0.yield_stress();
@@ -54,7 +54,7 @@ fn a_looser_search_misses_no_more_than_it_says() {
         scene.program.gamma = gamma;
         let analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::Dense).unwrap();
         let (model, mut observer) = (analysis.model(), Silent);
-        let mut run = Run::new(&analysis, &mut observer).unwrap();
+        let mut run = Run::new(&analysis, Purpose::Program, None, &mut observer).unwrap();
         let recovery = plane(run.zone.recovery(&run.solver, Watched::Recovered));
         let yield_stress = recovery.materials[0].0.yield_stress();
         let hill = |[x, y]: [f64; 2]| {
