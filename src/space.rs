@@ -200,7 +200,12 @@ pub fn dot(a: Vector, b: Vector) -> f64 {
 
 /// `|a|`
 pub fn length(a: Vector) -> f64 {
-    a[0].hypot(a[1]).hypot(a[2])
+    let square = dot(a, a);
+    // Squares that lose digits, or are too large or no numbers.
+    if !(1e-280..1e280).contains(&square) {
+        return a[0].hypot(a[1]).hypot(a[2]);
+    }
+    square.sqrt()
 }
 
 /// A vector of length 1; zero where there is no direction.

@@ -22,8 +22,9 @@ const STRAIGHT: f64 = 1e-3;
 /// Halvings of a quarter of the way.
 const HALVINGS: usize = 3;
 
-/// A point: how much of the way lies behind, maximum pressure, half width.
-type Figures = [f64; 3];
+/// A point: how much of the way lies behind, maximum pressure, half width, and what that may be
+/// off by where the reading of a patch in space wavers more than a line bends.
+type Figures = [f64; 4];
 
 impl PathSampler {
     /// Takes note of the next row, at which the solver is; the points on the way to it that a
@@ -52,14 +53,18 @@ impl PathSampler {
             let ends = from.forces.iter().zip(&self.forces);
             let forces: Vec<f64> = ends.map(|(a, b)| between(*a, *b, share)).collect();
             let found = contact_figures(solver.structure.model, &forces, solver.scales.force);
-            [share, found.max_pressure, found.half_width]
+            let wavers = match solver.structure.model.kind.is_solid() {
+                true => found.half_width_reading.error,
+                false => 0.0,
+            };
+            [share, found.max_pressure, found.half_width, wavers]
         };
         let ends = [
-            [0.0, from.row.max_pressure, from.row.half_width],
-            [1.0, row.max_pressure, row.half_width],
+            [0.0, from.row.max_pressure, from.row.half_width, 0.0],
+            [1.0, row.max_pressure, row.half_width, 0.0],
         ];
         let points = bends(ends, &figures).into_iter();
-        let points = points.map(|[share, max_pressure, half_width]| PathPoint {
+        let points = points.map(|[share, max_pressure, half_width, _]| PathPoint {
             increment: row.increment,
             alpha: between(from.row.alpha, row.alpha, share),
             load: between(from.row.load, row.load, share),
@@ -109,9 +114,10 @@ fn halve(
 /// Whether a point lies on the line between two.
 fn is_straight([from, to]: [Figures; 2], point: Figures) -> bool {
     let share = (point[0] - from[0]) / (to[0] - from[0]);
-    (1..3).all(|k| {
+    [(1, 0.0), (2, point[3])].into_iter().all(|(k, wavers)| {
         let on_line = from[k] + share * (to[k] - from[k]);
-        (point[k] - on_line).abs() <= STRAIGHT * from[k].abs().max(to[k].abs())
+        let near = STRAIGHT * from[k].abs().max(to[k].abs());
+        (point[k] - on_line).abs() <= near.max(wavers)
     })
 }
 
@@ -121,11 +127,14 @@ mod tests {
 
     #[test]
     fn a_curve_has_the_points_that_it_needs() {
-        let even = |t: f64| [t, 2.0 + t, 1.0];
+        let even = |t: f64| [t, 2.0 + t, 1.0, 0.0];
+        // A bend of 0.02 that may be one of the reading.
+        let wavering = |t: f64| [t, 2.0 + t, 1.0 + 0.08 * t * (1.0 - t), 0.03];
+        assert!(bends([wavering(0.0), wavering(1.0)], &wavering).is_empty());
         assert!(bends([even(0.0), even(1.0)], &even).is_empty());
         // A kink on the way, and a curve.
-        let kink = |t: f64| [t, (t - 0.3).abs(), 1.0];
-        let curve = |t: f64| [t, 1.0, t.sqrt()];
+        let kink = |t: f64| [t, (t - 0.3).abs(), 1.0, 0.0];
+        let curve = |t: f64| [t, 1.0, t.sqrt(), 0.0];
         for path in [&kink as &dyn Fn(f64) -> Figures, &curve] {
             let ends = [path(0.0), path(1.0)];
             let mut points = vec![ends[0]];

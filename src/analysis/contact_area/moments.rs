@@ -28,6 +28,15 @@ pub(super) struct Sums {
 }
 
 impl Sums {
+    /// Convex polygons.
+    pub(super) fn add_all(&mut self, polygons: &[Polygon]) {
+        for corners in polygons {
+            for k in 2..corners.len() {
+                self.add_whole([corners[0], corners[k - 1], corners[k]]);
+            }
+        }
+    }
+
     /// The part of convex polygons where a function is positive.
     pub(super) fn add_parts(&mut self, parts: &[Polygon], level: impl Fn([f64; 2]) -> f64) {
         where_positive(parts, level, &mut |triangle| self.add_whole(triangle));

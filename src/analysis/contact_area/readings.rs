@@ -39,7 +39,7 @@ impl Shape<'_> {
             let places = self.places(corners);
             let parts = || self.covered(face).unwrap_or_else(|| vec![places.clone()]);
             if corners.iter().all(|k| layers[k] > skipped) {
-                sums.add_parts(&parts(), |_| 1.0);
+                sums.add_all(&parts());
                 continue;
             }
             let left = |k: &usize| (skipped + 1).saturating_sub(layers[k]) as f64;
@@ -60,7 +60,7 @@ impl Shape<'_> {
         for (near, parts) in self.slivers() {
             let is_believed = |k: &usize| layers.get(k).is_some_and(|l| *l > skipped);
             if near.iter().all(is_believed) {
-                sums.add_parts(&parts, |_| 1.0);
+                sums.add_all(&parts);
             } else if let Some(fit) = believed.fit(middle(&self.places(near)), &[]) {
                 sums.add_parts(&parts, |x| fit.value(x));
             }
@@ -153,7 +153,7 @@ impl Shape<'_> {
             let signs: Vec<f64> = corners.iter().map(sign).collect();
             match self.covered(face) {
                 Some(parts) if signs.iter().all(|sign| *sign > 0.0) => {
-                    sums.add_parts(&parts, |_| 1.0);
+                    sums.add_all(&parts);
                 }
                 _ => sums.add_corners(&places, &signs),
             }
