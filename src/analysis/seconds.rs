@@ -29,8 +29,8 @@ const STATE: f64 = 4.5e-7;
 /// Of the elastic path, per cube of the pairs: each change of contact goes over their matrix.
 const PATH: f64 = 1.5e-9;
 /// Of a trailing solve with its share of the plastic iteration: to begin with, for each entry of
-/// the factor's trailing columns, and for each freedom of the zone (its material, two to four points
-/// a freedom, once for some four solves).
+/// the factor's trailing columns, and for each freedom of the zone (its material, two to four
+/// points a freedom, once for some four solves).
 const SOLVE: [f64; 3] = [2e-5, 5.5e-10, 2.5e-7];
 /// Share of the pairs that change their status in an increment of their own while the load goes one
 /// way: where gaps differ (the contact grows pair by pair), and where all are alike.

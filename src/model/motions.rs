@@ -419,7 +419,7 @@ impl Motions<'_> {
             Some(d) => format!("move along {}", axes[d]),
             None => {
                 let along: Vec<String> = (shift.iter().take(axes.len()))
-                    .map(|x| format!("{x:.3}"))
+                    .map(|x| format!("{:.3}", tidy(*x, far)))
                     .collect();
                 format!("move along ({})", along.join(", "))
             }

@@ -6,6 +6,7 @@ mod generated;
 mod held;
 mod hertz;
 mod nodal_forces;
+mod once;
 mod patch;
 mod patches;
 mod punch;
