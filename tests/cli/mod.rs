@@ -4,6 +4,7 @@ mod accuracy;
 mod ccx;
 mod directory;
 mod guide;
+mod hertz;
 mod interruption;
 mod kernels;
 mod mutations;
