@@ -218,8 +218,8 @@ impl HertzEllipse {
     }
 
     /// Amplitude of the shear parallel to the surface, along x (0) or y (1), by which a contact
-    /// that rolls along that axis fatigues the material: it has this size with either sign before and
-    /// behind the middle.
+    /// that rolls along that axis fatigues the material: it has this size with either sign before
+    /// and behind the middle.
     ///
     /// With `t` of `(s/o)^2 = (t^2 - 1)(2 t - 1)`, s the half axis along that axis and o the other
     /// one, it is `p0 (2 t - 1)^(1/2)/(2 t (t + 1))` at the depth `s/((t + 1)(2 t - 1)^(1/2))`.

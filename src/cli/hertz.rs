@@ -23,10 +23,10 @@ total over --length.
 Without load, pressure and approach the load is that of first yield.
 
 Examples:
-  brinell hertz --radius 5 --load 100 --material 100Cr6 --second-material S355
+  brinell hertz --radius 5 --load 100 --material 100Cr6 --second-material S355 --json
   brinell hertz --radius 5 --second-radius=-5.2,20 --pressure 4200 --youngs-modulus 208000
   brinell hertz --radius 5,flat --load 2000 --length 10 --youngs-modulus 208000 --yield-stress 2000
-  brinell hertz --radius 4,flat --second-radius 12,flat --angle 60 --load 50 --material S355 --json";
+  brinell hertz --radius 4,flat --second-radius 6,flat --angle 60 --load 50 --material S355";
 
 /// What `brinell hertz` takes.
 #[derive(Debug, Args)]

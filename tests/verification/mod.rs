@@ -3,6 +3,7 @@
 
 mod back_stresses;
 mod body_forces;
+mod by_position;
 mod circular_punch;
 mod contact_edges;
 mod contact_patch;

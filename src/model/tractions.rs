@@ -1,0 +1,124 @@
+//! Consistent nodal forces of what acts on surfaces: `f = int N' t dA` over their facets.
+
+use super::names::Entry;
+use super::on_mesh::OnMesh;
+use crate::element::{FacetPoint, facet_points};
+use crate::error::{Error, Result};
+use crate::mesh::{Mesh, Surface};
+use crate::scene::{Field, Load, Scene, VectorField};
+use crate::space::{Space, Vector, length};
+use std::collections::BTreeMap;
+use std::convert::Infallible;
+
+/// Forces at nodes, ascending.
+type Nodal = Vec<(usize, Vector)>;
+
+/// A load of a scene that acts on a surface by a pressure or a traction.
+pub(super) struct Tractions<'a> {
+    scene: &'a Scene,
+    mesh: &'a Mesh,
+    entry: &'a Entry<'a>,
+    load: &'a Load,
+}
+
+impl<'a> Tractions<'a> {
+    pub fn new(scene: &'a Scene, mesh: &'a Mesh, entry: &'a Entry<'a>, load: &'a Load) -> Self {
+        Tractions {
+            scene,
+            mesh,
+            entry,
+            load,
+        }
+    }
+
+    /// Forces of a pressure, positive into the body, and its largest size at an integration point.
+    ///
+    /// # Errors
+    /// `Input` where the pressure is not known somewhere.
+    pub fn of_pressure(&self, pressure: &Field, surface: &Surface) -> Result<(Nodal, f64)> {
+        let found = OnMesh::new(pressure, "pressure", self.scene, self.mesh).and_then(|field| {
+            self.integrate(surface, |nodes, point| {
+                let p = field.at_point(nodes, point)?;
+                Ok((point.normal.map(|n| -p * n), p.abs()))
+            })
+        });
+        found.map_err(|error| self.refused(error))
+    }
+
+    /// Forces of a traction, and its largest size at an integration point.
+    ///
+    /// # Errors
+    /// `Input` where a component is not known somewhere.
+    pub fn of_vector(&self, traction: &VectorField, surface: &Surface) -> Result<(Nodal, f64)> {
+        let fields = traction
+            .iter()
+            .map(|field| OnMesh::new(field, "traction", self.scene, self.mesh));
+        let found = fields.collect::<Result<Vec<_>>>().and_then(|fields| {
+            self.integrate(surface, |nodes, point| {
+                let mut t = [0.0; 3];
+                for (t, field) in t.iter_mut().zip(&fields) {
+                    *t = field.at_point(nodes, point)?;
+                }
+                Ok((t, length(t)))
+            })
+        });
+        found.map_err(|error| self.refused(error))
+    }
+
+    fn integrate(
+        &self,
+        surface: &Surface,
+        traction: impl Fn(&[usize], &FacetPoint) -> Result<(Vector, f64)>,
+    ) -> Result<(Nodal, f64)> {
+        let mut largest = 0.0f64;
+        let forces = try_integrate(self.scene.kind, self.mesh, surface, |nodes, point| {
+            let (traction, size) = traction(nodes, point)?;
+            largest = largest.max(size);
+            Ok::<_, Error>(traction)
+        });
+        Ok((forces?, largest))
+    }
+
+    fn refused(&self, error: Error) -> Error {
+        self.entry
+            .refused(error.within(self.entry.on(&self.load.on)))
+    }
+}
+
+/// Consistent nodal forces of a traction on a surface.
+pub(super) fn integrate(
+    space: Space,
+    mesh: &Mesh,
+    surface: &Surface,
+    traction: impl Fn(&FacetPoint) -> Vector,
+) -> Nodal {
+    let Ok(forces) = try_integrate(space, mesh, surface, |_, point| {
+        Ok::<_, Infallible>(traction(point))
+    });
+    forces
+}
+
+/// As [`integrate`], for a traction that needs the nodes of the facet and may not be known.
+fn try_integrate<E>(
+    space: Space,
+    mesh: &Mesh,
+    surface: &Surface,
+    mut traction: impl FnMut(&[usize], &FacetPoint) -> std::result::Result<Vector, E>,
+) -> std::result::Result<Nodal, E> {
+    let mut forces = BTreeMap::new();
+    for &facet in &surface.facets {
+        let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
+        let x: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
+        let reference = mesh.facet_reference(facet);
+        for point in facet_points(space, reference, &x) {
+            let t = traction(&nodes, &point)?;
+            for (i, &node) in nodes.iter().enumerate() {
+                let f: &mut Vector = forces.entry(node).or_default();
+                for (f, t) in f.iter_mut().zip(t) {
+                    *f += point.weight * point.values[i] * t;
+                }
+            }
+        }
+    }
+    Ok(forces.into_iter().collect())
+}
