@@ -31,21 +31,24 @@ impl<'a> Tractions<'a> {
         }
     }
 
-    /// Forces of a pressure, positive into the body, and its largest size at an integration point.
+    /// Forces of a pressure, positive into the body, and its largest size at a node or an
+    /// integration point.
     ///
     /// # Errors
     /// `Input` where the pressure is not known somewhere.
     pub fn of_pressure(&self, pressure: &Field, surface: &Surface) -> Result<(Nodal, f64)> {
-        let found = OnMesh::new(pressure, "pressure", self.scene, self.mesh).and_then(|field| {
-            self.integrate(surface, |nodes, point| {
+        let field = OnMesh::new(pressure, "pressure", self.scene, self.mesh);
+        let found = field.and_then(|field| {
+            let traction = |nodes: &[usize], point: &FacetPoint| {
                 let p = field.at_point(nodes, point)?;
                 Ok((point.normal.map(|n| -p * n), p.abs()))
-            })
+            };
+            self.integrate(surface, traction, |node| Ok(field.at_node(node)?.abs()))
         });
         found.map_err(|error| self.refused(error))
     }
 
-    /// Forces of a traction, and its largest size at an integration point.
+    /// Forces of a traction, and its largest size at a node or an integration point.
     ///
     /// # Errors
     /// `Input` where a component is not known somewhere.
@@ -54,29 +57,38 @@ impl<'a> Tractions<'a> {
             .iter()
             .map(|field| OnMesh::new(field, "traction", self.scene, self.mesh));
         let found = fields.collect::<Result<Vec<_>>>().and_then(|fields| {
-            self.integrate(surface, |nodes, point| {
+            let vector = |at: &dyn Fn(&OnMesh) -> Result<f64>| {
                 let mut t = [0.0; 3];
                 for (t, field) in t.iter_mut().zip(&fields) {
-                    *t = field.at_point(nodes, point)?;
+                    *t = at(field)?;
                 }
                 Ok((t, length(t)))
-            })
+            };
+            let traction =
+                |nodes: &[usize], point: &FacetPoint| vector(&|field| field.at_point(nodes, point));
+            let size = |node: usize| Ok(vector(&|field| field.at_node(node))?.1);
+            self.integrate(surface, traction, size)
         });
         found.map_err(|error| self.refused(error))
     }
 
+    /// Forces of a traction that is known with its size, and the largest size.
     fn integrate(
         &self,
         surface: &Surface,
         traction: impl Fn(&[usize], &FacetPoint) -> Result<(Vector, f64)>,
+        size_at: impl Fn(usize) -> Result<f64>,
     ) -> Result<(Nodal, f64)> {
         let mut largest = 0.0f64;
         let forces = try_integrate(self.scene.kind, self.mesh, surface, |nodes, point| {
             let (traction, size) = traction(nodes, point)?;
             largest = largest.max(size);
             Ok::<_, Error>(traction)
-        });
-        Ok((forces?, largest))
+        })?;
+        // A formula need not be finite at a node: no force comes from there.
+        let at_nodes = forces.iter().filter_map(|(node, _)| size_at(*node).ok());
+        let largest = at_nodes.fold(largest, f64::max);
+        Ok((forces, largest))
     }
 
     fn refused(&self, error: Error) -> Error {

@@ -310,8 +310,8 @@ fn asked_for(displacement: Option<&DisplacementTarget>) -> f64 {
     })
 }
 
-/// Size of a prescribed displacement along y, where it is a number. Not inlined: the tag of `y` would
-/// be read before that of the displacement, which memory checkers of programs in C report.
+/// Size of a prescribed displacement along y, where it is a number. Not inlined: the tag of `y`
+/// would be read before that of the displacement, which memory checkers of programs in C report.
 #[inline(never)]
 fn prescribed(displacement: Option<&Displacement>) -> f64 {
     let along_y = displacement.and_then(|d| d.y.as_ref()?.uniform());
