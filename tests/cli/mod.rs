@@ -17,6 +17,7 @@ mod shown;
 mod solids;
 mod solvers;
 mod sweep;
+mod sweep_points;
 mod watching;
 
 use std::path::PathBuf;
