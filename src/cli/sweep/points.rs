@@ -130,6 +130,14 @@ fn rows(path: &Path) -> Result<Points> {
     read_rows(&text).map_err(|error| error.within(path.display()))
 }
 
+/// The line of a record, whose position may be that of empty lines and comments before it.
+fn line_of(text: &str, position: &csv::Position) -> u64 {
+    let from = usize::try_from(position.byte()).unwrap_or(usize::MAX);
+    let rest = text.get(from..).unwrap_or_default().lines();
+    let passed = rest.take_while(|line| line.trim().is_empty() || line.starts_with('#'));
+    position.line() + passed.count() as u64
+}
+
 fn read_rows(text: &str) -> Result<Points> {
     let mut reader = csv::ReaderBuilder::new()
         .has_headers(false)
@@ -140,7 +148,7 @@ fn read_rows(text: &str) -> Result<Points> {
     let mut lines: Vec<(u64, Vec<String>)> = Vec::new();
     for record in reader.records() {
         let record = record.map_err(|cause| Error::input("is no table").because(cause))?;
-        let line = record.position().map_or(0, csv::Position::line);
+        let line = record.position().map_or(0, |at| line_of(text, at));
         lines.push((line, record.iter().map(str::to_string).collect()));
     }
     let Some(((first, keys), rows)) = lines.split_first() else {
@@ -279,7 +287,7 @@ mod tests {
             ("a,\n1,2\n", "line 1: a column has no key"),
             ("a,b\n1\n", "line 2: 1 values for 2 keys"),
             ("a,b\n1,2\n\n3,\n", "line 4: no value of b"),
-            ("a\n1\n2\n1\n", "line 4 is line 2 again"),
+            ("a\n1\n# two\n2\n1\n", "line 5 is line 2 again"),
         ] {
             let error = read_rows(text).unwrap_err();
             assert!(error.message().contains(part), "{text:?}: {error}");
