@@ -132,7 +132,7 @@ fn blocks() -> brinell::Result<()> {
         })
         .load(Load {
             on: "top".into(),
-            pressure: Some(300.0),
+            pressure: Some(300.0.into()),
             ..Load::default()
         })
         .target(Target {

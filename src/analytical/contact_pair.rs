@@ -1,4 +1,6 @@
-//! What two elastic bodies are to a local contact: one modulus and one radius.
+//! What two elastic bodies are to a local contact: one modulus and one radius, or two.
+
+use crate::error::{Error, Result};
 
 /// Contact modulus `E* = [(1 - nu1^2)/E1 + (1 - nu2^2)/E2]^-1`, plane strain or three-dimensional.
 ///
@@ -28,9 +30,149 @@ pub fn relative_radius(radius1: f64, radius2: f64) -> f64 {
     1.0 / (1.0 / radius1 + 1.0 / radius2)
 }
 
+/// Relative curvature of two surfaces that touch in a point or along a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RelativeRadii {
+    /// Larger and smaller relative radius; the larger one is infinite along a line of contact.
+    pub radii: [f64; 2],
+    /// Angle from the first principal plane of the first surface to the larger radius, in degrees
+    /// from 0 on, less than 180.
+    pub direction: f64,
+}
+
+impl RelativeRadii {
+    /// Round-off of sums of curvatures over the largest of them.
+    const ROUND_OFF: f64 = 1e-12;
+
+    /// The relative curvature of surfaces with two principal radii each, positive convex, negative
+    /// hollow, 0 or infinite flat; the principal planes of the second are turned by `angle` degrees
+    /// from those of the first.
+    ///
+    /// ```text
+    /// k = sum/2 -+ ((d1 + d2 cos 2 angle)^2 + (d2 sin 2 angle)^2)^(1/2)
+    /// ```
+    ///
+    /// with the sum of all four curvatures and d1, d2 half the difference of a surface's own.
+    ///
+    /// # Errors
+    /// `Input` where the surfaces do not part from each other in a direction, unless both are flat
+    /// along it (a line contact): a hollow that is no wider than what lies in it, flat on flat; a
+    /// radius or an angle that is not a number.
+    ///
+    /// # Source
+    /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, p. 85 and appendix 2, pp. 414-415.
+    pub fn new(first: [f64; 2], second: [f64; 2], angle: f64) -> Result<Self> {
+        let given = || format!("the radii {first:?} and {second:?} at {angle} degrees");
+        if !angle.is_finite() || [first, second].concat().iter().any(|r| r.is_nan()) {
+            return Err(Error::input(format!(
+                "{}: radii are numbers or infinite, the angle is finite",
+                given()
+            )));
+        }
+        let curvature = |radius: f64| if radius == 0.0 { 0.0 } else { 1.0 / radius };
+        let [k1, k2] = [first, second].map(|radii| radii.map(curvature));
+        let [small, large, direction] = principal(k1, k2, angle);
+        let largest = [k1, k2].concat().iter().fold(0.0f64, |m, k| m.max(k.abs()));
+        let zero = Self::ROUND_OFF * largest;
+        let has_flat = |k: [f64; 2]| k[0] * k[1] == 0.0;
+        let is_line = small.abs() <= zero && has_flat(k1) && has_flat(k2);
+        if large <= zero || (small <= zero && !is_line) {
+            return Err(Error::input(format!(
+                "{} leave no gap in some direction, so that the bodies do not touch in a point or \
+                 a line: a hollow must be wider than what lies in it, and one of two surfaces \
+                 curved",
+                given()
+            )));
+        }
+        Ok(RelativeRadii {
+            radii: [
+                if is_line { f64::INFINITY } else { 1.0 / small },
+                1.0 / large,
+            ],
+            direction,
+        })
+    }
+}
+
+/// Smaller and larger sum of curvatures and the direction of the smaller.
+fn principal(k1: [f64; 2], k2: [f64; 2], angle: f64) -> [f64; 3] {
+    // Planes that agree need no differences, in which digits would be lost.
+    let aligned = match angle.rem_euclid(180.0) {
+        0.0 => Some(k2),
+        90.0 => Some([k2[1], k2[0]]),
+        _ => None,
+    };
+    if let Some(k2) = aligned {
+        let [x, y] = [k1[0] + k2[0], k1[1] + k2[1]];
+        return if x <= y { [x, y, 0.0] } else { [y, x, 90.0] };
+    }
+    let (sin, cos) = (2.0 * angle.to_radians()).sin_cos();
+    let [d1, d2] = [k1, k2].map(|k| 0.5 * (k[0] - k[1]));
+    let mean = 0.5 * (k1[0] + k1[1] + k2[0] + k2[1]);
+    let (along, across) = (d1 + d2 * cos, d2 * sin);
+    let half = along.hypot(across);
+    // The larger curvature lies at half the angle of the difference, the smaller across.
+    let direction = 90.0 + 0.5 * across.atan2(along).to_degrees();
+    [mean - half, mean + half, direction.rem_euclid(180.0)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn curvatures_of_turned_planes() {
+        let flat = f64::INFINITY;
+        let of = |first, second, angle| RelativeRadii::new(first, second, angle).unwrap();
+        // Along the axes it is the sum of each.
+        let groove = of([5.0, 5.0], [-5.2, 20.0], 0.0);
+        assert!((groove.radii[0] - 130.0).abs() < 1e-10 && groove.direction == 0.0);
+        assert!((groove.radii[1] - 4.0).abs() < 1e-14);
+        assert_eq!(of([5.0, 5.0], [20.0, -5.2], 90.0), groove);
+        // Equal cylinders at an angle w: R'/R'' = cot^2(w/2), between them.
+        for angle in [10.0f64, 45.0, 90.0, 120.0] {
+            let crossed = of([3.0, flat], [3.0, flat], angle);
+            let half = 0.5 * angle.to_radians();
+            let [small, large] = [half.sin().abs(), half.cos().abs()];
+            let ratio = (large / small).powi(2);
+            let found = crossed.radii[0] / crossed.radii[1];
+            assert!(
+                (found / ratio.max(1.0 / ratio) - 1.0).abs() < 1e-12,
+                "{angle}"
+            );
+            if angle < 90.0 {
+                // Flat directions are at 90 and 90 + angle.
+                assert!(
+                    (crossed.direction - 90.0 - 0.5 * angle).abs() < 1e-12,
+                    "{angle}"
+                );
+            }
+        }
+        // Parallel cylinders touch along a line, and so do turned ones on a plane.
+        assert_eq!(of([6.0, flat], [3.0, flat], 0.0).radii, [flat, 2.0]);
+        assert_eq!(of([6.0, 0.0], [flat, 0.0], 30.0).radii[0], flat);
+        assert_eq!(of([6.0, flat], [-12.0, flat], 0.0).radii, [flat, 12.0]);
+    }
+
+    #[test]
+    fn surfaces_that_do_not_part_are_refused() {
+        let flat = f64::INFINITY;
+        for (first, second, angle) in [
+            ([5.0, 5.0], [-5.0, 20.0], 0.0),
+            ([5.0, 5.0], [-4.0, 20.0], 0.0),
+            ([5.0, 5.0], [-5.0, -5.0], 17.0),
+            ([flat, flat], [flat, 0.0], 0.0),
+            ([5.0, flat], [-6.0, flat], 20.0),
+            ([f64::NAN, 1.0], [1.0, 1.0], 0.0),
+            ([1.0, 1.0], [1.0, 1.0], f64::INFINITY),
+        ] {
+            let refused = RelativeRadii::new(first, second, angle);
+            assert!(
+                refused.is_err(),
+                "{first:?} {second:?} {angle}: {refused:?}"
+            );
+        }
+    }
 
     #[test]
     fn limits_of_rigid_and_plane() {

@@ -1,16 +1,19 @@
 //! Hertz's line contact: two parallel cylinders, or a cylinder on a half plane.
 
+use super::Peak;
 use super::domain::positive;
-use super::von_mises;
+use super::von_mises::{greatest_shear, von_mises};
 use crate::error::Result;
 use crate::root::maximum;
+use std::f64::consts::PI;
 
 /// Frictionless line contact of elastic cylinders with parallel axes in plane strain.
 ///
 /// Half width `b = sqrt(4 P R/(pi E*))`, pressure `p(x) = p0 sqrt(1 - x^2/b^2)` with
 /// `p0 = sqrt(P E*/(pi R))`, load `P = pi b p0/2` per length. Valid for `b` small compared with the
-/// radii and the size of the bodies. The approach of the bodies is *not* given: in the plane it
-/// depends on their size.
+/// radii and the size of the bodies. The approach of the bodies depends on their size: what each of
+/// them contributes is [`cylinder_compression`](Self::cylinder_compression) or
+/// [`half_space_compression`](Self::half_space_compression).
 ///
 /// Units are consistent, any: `radius` a length, `contact_modulus` a stress, load a force per
 /// length. Stresses are positive in tension, pressures in compression.
@@ -47,22 +50,22 @@ impl HertzLine {
 
     /// Half width `b` of the contact under `load >= 0` per length.
     pub fn half_width(&self, load: f64) -> f64 {
-        (4.0 * load * self.radius / (std::f64::consts::PI * self.contact_modulus)).sqrt()
+        (4.0 * load * self.radius / (PI * self.contact_modulus)).sqrt()
     }
 
     /// Greatest pressure `p0`, in the middle, under `load >= 0` per length.
     pub fn max_pressure(&self, load: f64) -> f64 {
-        (load * self.contact_modulus / (std::f64::consts::PI * self.radius)).sqrt()
+        (load * self.contact_modulus / (PI * self.radius)).sqrt()
     }
 
     /// Load per length that opens a contact of half width `b`: `P = pi E* b^2/(4 R)`.
     pub fn load_for_half_width(&self, half_width: f64) -> f64 {
-        std::f64::consts::PI * self.contact_modulus * half_width * half_width / (4.0 * self.radius)
+        PI * self.contact_modulus * half_width * half_width / (4.0 * self.radius)
     }
 
     /// Load per length at which the greatest pressure is `p0`: `P = pi R p0^2/E*`.
     pub fn load_for_max_pressure(&self, pressure: f64) -> f64 {
-        std::f64::consts::PI * self.radius * pressure * pressure / self.contact_modulus
+        PI * self.radius * pressure * pressure / self.contact_modulus
     }
 
     /// Contact pressure at the distance `x` from the middle; 0 outside the contact.
@@ -99,6 +102,63 @@ impl HertzLine {
         unit_stress(x / half_width, z / half_width, poisson).map(|s| peak * s)
     }
 
+    /// Compression of a cylinder between the contact and its axis, under `load > 0` per length on
+    /// either side of a diameter: `P (1 - nu^2)/(pi E) (2 ln(4 R/b) - 1)`, for `b` small compared
+    /// with the radius R of that body.
+    ///
+    /// # Source
+    /// K. L. Johnson, *Contact Mechanics*, section 5.6, pp. 129-131.
+    pub fn cylinder_compression(&self, load: f64, radius: f64, young: f64, poisson: f64) -> f64 {
+        let logarithm = (4.0 * radius / self.half_width(load)).ln();
+        load * (1.0 - poisson * poisson) / (PI * young) * (2.0 * logarithm - 1.0)
+    }
+
+    /// Displacement of the surface of a half space relative to the depth `depth` below the contact,
+    /// under `load > 0` per length: `P (1 - nu^2)/(pi E) (2 ln(2 d/b) - nu/(1 - nu))`, for `b`
+    /// small compared with the depth d.
+    ///
+    /// # Source
+    /// K. L. Johnson, *Contact Mechanics*, section 5.6, pp. 130-131.
+    pub fn half_space_compression(&self, load: f64, depth: f64, young: f64, poisson: f64) -> f64 {
+        let logarithm = (2.0 * depth / self.half_width(load)).ln();
+        load * (1.0 - poisson * poisson) / (PI * young)
+            * (2.0 * logarithm - poisson / (1.0 - poisson))
+    }
+
+    /// Largest shear below the middle of the contact under `load >= 0` per length, half the
+    /// difference of the principal stresses: `0.300 p0` at `0.786 b` for `nu` from 0.19 on.
+    ///
+    /// # Source
+    /// K. L. Johnson, *Contact Mechanics*, p. 102 and p. 103.
+    pub fn largest_shear(&self, load: f64, poisson: f64) -> Peak {
+        self.scaled(load, peak(greatest_shear, poisson))
+    }
+
+    /// Largest von Mises stress below the middle of the contact under `load >= 0` per length.
+    pub fn largest_von_mises(&self, load: f64, poisson: f64) -> Peak {
+        self.scaled(load, peak(|stresses| von_mises(stresses, 0.0), poisson))
+    }
+
+    /// Amplitude of the shear parallel to the surface, `p0/4` at the depth `b/2` and
+    /// `x = 3^(1/2)/2 b` before and behind the middle, by which a rolling contact fatigues the
+    /// material.
+    ///
+    /// # Source
+    /// K. L. Johnson, *Contact Mechanics*, p. 103 and section 9.2; [`Self::stress`] has it.
+    pub fn orthogonal_shear(&self, load: f64) -> Peak {
+        Peak {
+            stress: 0.25 * self.max_pressure(load),
+            depth: 0.5 * self.half_width(load),
+        }
+    }
+
+    fn scaled(&self, load: f64, unit: Peak) -> Peak {
+        Peak {
+            stress: unit.stress * self.max_pressure(load),
+            depth: unit.depth * self.half_width(load),
+        }
+    }
+
     /// Pressure `p0` at which a body with Poisson's ratio `poisson` and tensile yield stress
     /// `yield_stress` first yields after von Mises: 1.7937 Y for `nu = 0.3`.
     ///
@@ -109,7 +169,7 @@ impl HertzLine {
     /// K. L. Johnson, *Contact Mechanics*, pp. 154-155 (Tresca 1.67 Y and, for von Mises and
     /// `nu = 0.3`, 1.79 Y).
     pub fn yield_pressure(poisson: f64, yield_stress: f64) -> f64 {
-        yield_stress / peak_von_mises(poisson).1
+        yield_stress / peak_von_mises(poisson).stress
     }
 
     /// Load per length at first yield: `pi R p0^2/E*`; 10.107 R Y^2/E* for `nu = 0.3`.
@@ -124,7 +184,7 @@ impl HertzLine {
 
     /// Depth at which yield begins: 0.7043 of the half width at first yield for `nu = 0.3`.
     pub fn yield_depth(&self, poisson: f64, yield_stress: f64) -> f64 {
-        peak_von_mises(poisson).0 * self.yield_half_width(poisson, yield_stress)
+        peak_von_mises(poisson).depth * self.yield_half_width(poisson, yield_stress)
     }
 }
 
@@ -155,21 +215,26 @@ fn unit_stress(x: f64, z: f64, poisson: f64) -> [f64; 4] {
     [sxx, poisson * (sxx + szz), szz, sxz]
 }
 
-/// `(depth/b, von Mises/p0)` of the most stressed point; it lies on the axis for every `nu`.
-fn peak_von_mises(poisson: f64) -> (f64, f64) {
+/// The most stressed point after von Mises for `b = p0 = 1`; it lies on the axis for every `nu`.
+fn peak_von_mises(poisson: f64) -> Peak {
+    peak(|stresses| von_mises(stresses, 0.0), poisson)
+}
+
+/// The largest of a figure of the principal stresses below the middle, for `b = p0 = 1`.
+fn peak(figure: impl Fn([f64; 3]) -> f64, poisson: f64) -> Peak {
     let at = |depth: f64| {
-        let [sxx, syy, szz, sxz] = unit_stress(0.0, depth, poisson);
-        von_mises([sxx, syy, szz], sxz)
+        let [sxx, syy, szz, _] = unit_stress(0.0, depth, poisson);
+        figure([sxx, syy, szz])
     };
     // Three half widths down the stresses are below a third of p0, less than any peak.
-    maximum(at, 0.0, 3.0, 300)
+    let (depth, stress) = maximum(at, 0.0, 3.0, 300);
+    Peak { stress, depth }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::contact_modulus;
     use super::*;
-    use std::f64::consts::PI;
 
     fn contact() -> HertzLine {
         HertzLine::new(50.0, contact_modulus(210e3, 0.3, 70e3, 0.3)).unwrap()
@@ -198,18 +263,25 @@ mod tests {
     fn incompressible_yield_is_trescas_and_small_poisson_yields_at_the_surface() {
         // nu = 1/2: von Mises is sqrt(3) times the greatest shear, 0.300 p0 at 0.786 b (Johnson p.
         // 102).
-        let (depth, peak) = peak_von_mises(0.5);
+        let Peak {
+            depth,
+            stress: peak,
+        } = peak_von_mises(0.5);
         assert!((peak / 3.0_f64.sqrt() - 0.300).abs() < 5e-4);
         assert!((depth - 0.786).abs() < 5e-4);
-        assert_eq!(peak_von_mises(0.0), (0.0, 1.0));
-        assert_eq!(peak_von_mises(0.1937).0, 0.0);
-        assert!(peak_von_mises(0.1939).0 > 0.5);
+        let at_surface = Peak {
+            stress: 1.0,
+            depth: 0.0,
+        };
+        assert_eq!(peak_von_mises(0.0), at_surface);
+        assert_eq!(peak_von_mises(0.1937).depth, 0.0);
+        assert!(peak_von_mises(0.1939).depth > 0.5);
     }
 
     #[test]
     fn the_peak_lies_on_the_axis() {
         for nu in [0.0, 0.1, 0.2, 0.3, 0.4, 0.5] {
-            let peak = peak_von_mises(nu).1;
+            let peak = peak_von_mises(nu).stress;
             for i in 1..200 {
                 for j in 0..150 {
                     let [sxx, syy, szz, sxz] = unit_stress(0.01 * i as f64, 0.02 * j as f64, nu);
@@ -289,5 +361,61 @@ mod tests {
         assert_eq!(line.stress(1.0, 1.0, 0.0, 0.3), [0.0; 4]);
         assert!(HertzLine::new(0.0, 1.0).is_err());
         assert!(HertzLine::new(1.0, f64::NAN).is_err());
+    }
+
+    /// Johnson pp. 102-103: 0.30 p0 at 0.786 b, p0/4 at b/2; the field has no larger one.
+    #[test]
+    fn largest_shears() {
+        let (line, load) = (contact(), 35e3);
+        let (p0, b) = (line.max_pressure(load), line.half_width(load));
+        let largest = line.largest_shear(load, 0.3);
+        assert!((largest.stress / p0 - 0.300).abs() < 5e-4);
+        assert!((largest.depth / b - 0.786).abs() < 5e-4);
+        let orthogonal = line.orthogonal_shear(load);
+        let x = 0.75f64.sqrt() * b;
+        let there = line.stress(-x, orthogonal.depth, load, 0.3)[3];
+        assert!((there / orthogonal.stress - 1.0).abs() < 1e-14);
+        for i in 1..100 {
+            for j in 1..100 {
+                let [x, z] = [i, j].map(|i| 0.02 * b * f64::from(i));
+                let shear = line.stress(x, z, load, 0.3)[3].abs();
+                assert!(shear <= orthogonal.stress * (1.0 + 1e-14));
+            }
+        }
+    }
+
+    /// The compressions are the strains of McEwen's field and of what a cylinder adds to it, from
+    /// the surface to the depth; terms of (b/d)^2 are left out.
+    #[test]
+    fn compressions_are_integrals_of_the_strain() {
+        let (line, load, young, nu) = (contact(), 200.0, 210e3, 0.3);
+        let b = line.half_width(load);
+        let strain = |sx: f64, sz: f64| (1.0 - nu * nu) / young * (sz - nu / (1.0 - nu) * sx);
+        let depth = 1e4 * b;
+        let below = -super::super::quadrature::integrate(
+            |z| {
+                let [sx, _, sz, _] = line.stress(0.0, z, load, nu);
+                strain(sx, sz)
+            },
+            0.0,
+            depth,
+        );
+        let found = line.half_space_compression(load, depth, young, nu);
+        assert!((below / found - 1.0).abs() < 1e-7, "{below} {found}");
+        // The opposite line load and the tension that frees the circle (Timoshenko and Goodier,
+        // par. 41).
+        let radius = depth;
+        let whole = -super::super::quadrature::integrate(
+            |z| {
+                let [sx, _, sz, _] = line.stress(0.0, z, load, nu);
+                let all_round = load / (PI * radius);
+                let opposite = -2.0 * load / (PI * (2.0 * radius - z));
+                strain(sx + all_round, sz + all_round + opposite)
+            },
+            0.0,
+            radius,
+        );
+        let found = line.cylinder_compression(load, radius, young, nu);
+        assert!((whole / found - 1.0).abs() < 1e-7, "{whole} {found}");
     }
 }

@@ -8,9 +8,10 @@
 //!
 //! | case | file | what it gives | source |
 //! |---|---|---|---|
-//! | cylinder on a half plane (the paper's 5.1) | `hertz_line.rs`: [`HertzLine`] | half width, pressure, stress everywhere, first yield for any `nu` | Hertz; McEwen 1949; Johnson pp. 99-103 |
+//! | cylinder on a half plane (the paper's 5.1) | `hertz_line.rs`: [`HertzLine`] | half width, pressure, stress everywhere, largest shears, first yield for any `nu`, compression of cylinder and half space | Hertz; McEwen 1949; Johnson pp. 99-103, 129-131 |
 //! | ball on a half space | `hertz_point.rs`: [`HertzPoint`] | contact radius, approach, pressure, stress everywhere, first yield for any `nu` | Hertz; Huber 1904; Johnson pp. 60-63, 90-93 |
-//! | bodies of any curvature | `hertz_ellipse.rs`: [`HertzEllipse`] | half axes, approach, pressure, first yield for any `nu` | Hertz; Johnson pp. 84-99 |
+//! | bodies of any curvature | `hertz_ellipse.rs`: [`HertzEllipse`] | half axes, approach, pressure, stress below the middle, largest shears, first yield for any `nu` | Hertz; Johnson pp. 84-99; Lundberg and Palmgren 1947 |
+//! | any of these by its radii | `hertz_contact.rs`: [`HertzContact`] | circle, ellipse or line | as they |
 //! | disc in a plate (the paper's 5.2) | `disc_in_plate.rs`: [`DiscInPlate`] | contact angle, pressure, gap, stress in both bodies, first yield | derived in the file from Muskhelishvili's potentials |
 //! | pin in a hole | `pin_in_hole.rs`: [`PinInHole`] | contact angle, pressure, with clearance, neat or with interference | Persson 1964; Ciavarella and Decuzzi 2001 |
 //! | hole in a plate | `kirsch.rs`: [`KirschField`] | stress, traction on a cut, displacement | Kirsch 1898; Timoshenko and Goodier par. 35 |
@@ -19,7 +20,7 @@
 //! | thick sphere, elastoplastic | `thick_sphere.rs`: [`ThickSphere`] | the same, for any `nu` | Hill ch. V |
 //! | shaft in a ring | `shrink_fit.rs`: [`ShrinkFit`] | pressure, stress, interference at first yield | Timoshenko |
 //! | flat punches | `flat_punch.rs`: [`FlatPunch`], [`CircularPunch`] | elastic pressure, limit load | Prandtl 1920; Shield 1955 |
-//! | two bodies as one | `contact_pair.rs`: [`contact_modulus`], [`relative_radius`] | contact modulus, relative radius | Johnson pp. 85-92 |
+//! | two bodies as one | `contact_pair.rs`: [`contact_modulus`], [`relative_radius`], [`RelativeRadii`] | contact modulus, relative radii, planes at an angle too | Johnson pp. 85-92 |
 //!
 //! The published figures that these reproduce are in `data/reference`; a test compares them row by
 //! row.
@@ -30,6 +31,7 @@ mod domain;
 mod elastoplastic_cylinder;
 mod elliptic;
 mod flat_punch;
+mod hertz_contact;
 mod hertz_ellipse;
 mod hertz_line;
 mod hertz_point;
@@ -43,11 +45,12 @@ mod thick_cylinder;
 mod thick_sphere;
 mod von_mises;
 
-pub use contact_pair::{contact_modulus, relative_radius};
+pub use contact_pair::{RelativeRadii, contact_modulus, relative_radius};
 pub use disc_in_plate::DiscInPlate;
 pub use elastoplastic_cylinder::ElastoplasticCylinder;
 pub use elliptic::{elliptic_d, elliptic_e, elliptic_k};
 pub use flat_punch::{CircularPunch, FlatPunch};
+pub use hertz_contact::HertzContact;
 pub use hertz_ellipse::HertzEllipse;
 pub use hertz_line::HertzLine;
 pub use hertz_point::HertzPoint;
@@ -57,7 +60,7 @@ pub use plane::Plane;
 pub use shrink_fit::ShrinkFit;
 pub use thick_cylinder::ThickCylinder;
 pub use thick_sphere::ThickSphere;
-pub use von_mises::von_mises;
+pub use von_mises::{Peak, von_mises};
 
 #[cfg(test)]
 mod tests;

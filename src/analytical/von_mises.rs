@@ -1,4 +1,4 @@
-//! The von Mises equivalent stress of closed-form stress states.
+//! What closed-form stress states are judged by, and where that is largest.
 
 /// Von Mises stress of three normal stresses and the one shear stress of a plane or axisymmetric
 /// state: `sqrt(((s1-s2)^2 + (s2-s3)^2 + (s3-s1)^2)/2 + 3 t^2)`. Units of stress.
@@ -6,6 +6,20 @@ pub fn von_mises(normal: [f64; 3], shear: f64) -> f64 {
     let [s1, s2, s3] = normal;
     let (d1, d2, d3) = (s1 - s2, s2 - s3, s3 - s1);
     (0.5 * (d1 * d1 + d2 * d2 + d3 * d3) + 3.0 * shear * shear).sqrt()
+}
+
+/// Greatest shear of three principal stresses: half the difference of the largest and the smallest.
+pub(super) fn greatest_shear([s1, s2, s3]: [f64; 3]) -> f64 {
+    0.5 * (s1.max(s2).max(s3) - s1.min(s2).min(s3))
+}
+
+/// A stress that is largest at some depth below a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// The stress there.
+    pub stress: f64,
+    /// Depth below the surface.
+    pub depth: f64,
 }
 
 #[cfg(test)]

@@ -121,8 +121,8 @@ fn hash_of_start(state: &EndState) -> Result<u128> {
 fn hash_of_values(scene: &Scene) -> Result<u128> {
     let mut hash = Xxh3::new();
     let mut has_some = false;
-    for load in &scene.load {
-        if let Some(Field::Nodal(of)) = &load.temperature {
+    for field in scene.fields() {
+        if let Field::Nodal(of) = field {
             hash.update(&files::read(
                 "read the values of nodes",
                 &scene.beside(&of.file),

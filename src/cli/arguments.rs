@@ -14,6 +14,7 @@ Examples:
   brinell yield press.toml --json
   brinell new ball-on-flat --radius 5 --load 20 > ball.toml
   brinell sweep ball.toml --vary materials.steel.yield_stress=400,500,600 --jobs 2
+  brinell hertz --radius 5 --load 100 --material 100Cr6
   brinell view press.out
   brinell check press.inp
 
@@ -120,6 +121,11 @@ pub(super) enum Command {
     Sweep(super::sweep::SweepArguments),
     /// List steels and alloys that a scene takes by name, with the sources of their numbers
     Materials(super::materials::MaterialsArguments),
+    /// Print Hertz's closed forms for two bodies: pressure, half axes, approach, stresses below the
+    /// surface, first yield
+    ///
+    /// Elastic bodies that touch in a point or along a line, by their radii; no mesh, no run.
+    Hertz(super::hertz::HertzArguments),
     /// Print a commented scene to start from, or list those there are
     Example(super::example::ExampleArguments),
     /// Write a commented scene for a common problem from a few numbers

@@ -40,6 +40,7 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
         Command::Accuracy(arguments) => study::execute(arguments),
         Command::Sweep(sweep) => super::sweep::execute(sweep),
         Command::Materials(materials) => super::materials::run(materials),
+        Command::Hertz(hertz) => super::hertz::run(hertz),
         Command::Example(example) => example::run(example),
         Command::New(new) => new::run(new),
         Command::Schema(schema) => schema::run(schema),

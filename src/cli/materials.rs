@@ -23,21 +23,24 @@ pub(super) struct MaterialsArguments {
 pub(super) fn run(arguments: &MaterialsArguments) -> Result<()> {
     match &arguments.name {
         None => print(&list()),
-        Some(name) => match Listed::of(name) {
-            Some(listed) => print(&details(name, listed)),
-            None => Err(unknown(name)),
-        },
+        Some(name) => print(&details(name, of_list(name)?)),
     }
 }
 
-fn unknown(name: &str) -> Error {
-    let known: Vec<&str> = materials().iter().map(|(name, _)| name.as_str()).collect();
-    let meant = closest(name, &known);
-    let meant = meant.map_or(".".to_string(), |k| format!(", did you mean \"{k}\"?"));
-    let known = known.join(", ");
-    Error::input(format!(
-        "there is no material \"{name}\" in the list{meant} There are {known}"
-    ))
+/// The material of a name.
+///
+/// # Errors
+/// `Input` with what the list has, where that is none.
+pub(super) fn of_list(name: &str) -> Result<&'static Listed> {
+    Listed::of(name).ok_or_else(|| {
+        let known: Vec<&str> = materials().iter().map(|(name, _)| name.as_str()).collect();
+        let meant = closest(name, &known);
+        let meant = meant.map_or(".".to_string(), |k| format!(", did you mean \"{k}\"?"));
+        let known = known.join(", ");
+        Error::input(format!(
+            "there is no material \"{name}\" in the list{meant} There are {known}"
+        ))
+    })
 }
 
 fn list() -> String {

@@ -15,6 +15,7 @@ mod deck;
 mod example;
 mod forecast;
 mod fresh;
+mod hertz;
 mod interrupt;
 mod materials;
 mod new;

@@ -65,7 +65,7 @@ pub(super) enum Problem {
     Punch(punch::Punch),
 }
 
-fn positive(text: &str) -> std::result::Result<f64, String> {
+pub(super) fn positive(text: &str) -> std::result::Result<f64, String> {
     within(text, |v| v > 0.0, "greater than 0")
 }
 
@@ -77,7 +77,7 @@ fn not_negative(text: &str) -> std::result::Result<f64, String> {
     within(text, |v| v >= 0.0, "not less than 0")
 }
 
-fn poissons_ratio(text: &str) -> std::result::Result<f64, String> {
+pub(super) fn poissons_ratio(text: &str) -> std::result::Result<f64, String> {
     within(text, |v| -1.0 < v && v < 0.5, "between -1 and 0.5")
 }
 

@@ -1,6 +1,9 @@
 //! `brinell sweep`: the same scene with other values of some keys, each point in a process of its
 //! own.
 
+mod cost;
+mod points;
+
 use super::arguments::CommonArguments;
 use super::commands::json;
 use super::table::{Column, Table, page_width};
@@ -10,7 +13,10 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::files;
 use crate::number::{number, seconds};
 use crate::output::sweep::{Outcome, Point, Sweep, folder};
+use crate::scene::Field;
 use clap::{Args, ValueEnum};
+use points::{Points, Shard, Varied, varied};
+use std::collections::BTreeSet;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -36,12 +42,27 @@ pub(super) struct SweepArguments {
     #[arg(
         long,
         value_name = "KEY=A,B,...",
-        required = true,
+        required_unless_present = "points",
         value_parser = varied,
         help = "Values of a key, separated by commas (see --help)",
         long_help = VARY_HELP
     )]
     pub vary: Vec<Varied>,
+    /// CSV file whose first line has keys of the scene: each line below it is a point, with all
+    /// that --vary says besides
+    #[arg(long, value_name = "FILE")]
+    pub points: Option<PathBuf>,
+    /// Take the values of all --vary together, the first with the first, in place of all
+    /// combinations
+    #[arg(long, requires = "vary")]
+    pub zip: bool,
+    /// Run the I-th of N shares of the points only, for job arrays. Each share writes a record of
+    /// its own; the same command without it gathers them all
+    #[arg(long, value_name = "I/N")]
+    pub shard: Option<Shard>,
+    /// Run nothing: predict the time and the memory of each point and of the whole
+    #[arg(long)]
+    pub check: bool,
     /// How many points are run at a time; each takes its share of the threads
     #[arg(
         long,
@@ -72,79 +93,31 @@ pub(super) struct SweepArguments {
     pub quiet: bool,
 }
 
-/// A key and its values.
-#[derive(Debug, Clone)]
-pub(super) struct Varied {
-    key: String,
-    values: Vec<String>,
-}
-
-/// `KEY=A,B,...`; commas within brackets, braces and quotes separate nothing.
-fn varied(text: &str) -> std::result::Result<Varied, String> {
-    let wanted = "give KEY=A,B,... such as materials.steel.yield_stress=400,500";
-    let (key, list) = text.split_once('=').ok_or(wanted)?;
-    let (mut depth, mut is_quoted) = (0i32, false);
-    let mut values = vec![String::new()];
-    for c in list.chars() {
-        match c {
-            '"' => is_quoted = !is_quoted,
-            '[' | '{' if !is_quoted => depth += 1,
-            ']' | '}' if !is_quoted => depth -= 1,
-            _ => {}
-        }
-        let last = values.len() - 1;
-        match c {
-            ',' if depth == 0 && !is_quoted => values.push(String::new()),
-            c => values[last].push(c),
-        }
-    }
-    let values: Vec<String> = values
-        .iter()
-        .map(|value| value.trim().to_string())
-        .collect();
-    let is_twice = (1..values.len()).any(|k| values[..k].contains(&values[k]));
-    match key.trim().is_empty() || values.iter().any(String::is_empty) {
-        true => Err(wanted.to_string()),
-        false if is_twice => Err("a value is given twice".to_string()),
-        false => Ok(Varied {
-            key: key.trim().to_string(),
-            values,
-        }),
-    }
-}
-
-/// All combinations of the values, the last key's varying fastest.
-fn combinations(vary: &[Varied]) -> Vec<Vec<String>> {
-    vary.iter().fold(vec![Vec::new()], |points, varied| {
-        let with = |point: &Vec<String>, value: &String| {
-            let mut point = point.clone();
-            point.push(value.clone());
-            point
-        };
-        let of_point = |point: Vec<String>| -> Vec<Vec<String>> {
-            varied
-                .values
-                .iter()
-                .map(|value| with(&point, value))
-                .collect()
-        };
-        points.into_iter().flat_map(of_point).collect()
-    })
-}
-
 /// Runs what is not finished yet, writes table and charts, and prints the table.
 pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
     let common = &arguments.common;
     let dir = (arguments.out.clone()).unwrap_or_else(|| common.scene.with_extension("sweep"));
-    let keys: Vec<String> = arguments.vary.iter().map(|v| v.key.clone()).collect();
-    let values = combinations(&arguments.vary);
+    let asked = Points::new(arguments.points.as_deref(), &arguments.vary, arguments.zip)?;
+    let keys = asked.keys;
     // What is wrong with any point is found before the first is run.
-    let points: Result<Vec<Point>> = values
-        .into_iter()
-        .map(|values| point(arguments, &keys, values))
-        .collect();
-    let mut sweep = Sweep::new(&dir, keys, points?)?;
+    let points = asked.values.into_iter();
+    let points: Result<Vec<Point>> = points.map(|v| point(arguments, &keys, v)).collect();
+    let mut points = points?;
+    tell_apart(&mut points);
+    if let Some(shard) = arguments.shard {
+        let mut own = (0..points.len()).map(|k| shard.has(k));
+        points.retain(|_| own.next().unwrap_or(false));
+    }
+    let shard = arguments.shard.map(Shard::numbers);
+    let mut sweep = Sweep::new(&dir, keys, points, shard)?;
+    if arguments.check {
+        return cost::predict(arguments, &sweep);
+    }
     std::fs::create_dir_all(&dir).map_err(|cause| Error::io("make", &dir, cause))?;
+    if shard.is_some() {
+        // Other shares see by it that the directory is a sweep's.
+        sweep.record(&dir)?;
+    }
     let running: Arc<Mutex<Vec<u32>>> = Arc::default();
     let at_once = Arc::clone(&running);
     interrupt::listen(None, move || stop(&at_once))?;
@@ -162,7 +135,11 @@ pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
         true => outcome.main_paths(),
         false => arguments.show.clone(),
     };
-    let written = outcome.write(&dir, &shown)?;
+    // Table and charts are of all points, which a share does not have.
+    let written = match arguments.shard {
+        None => outcome.write(&dir, &shown)?,
+        Some(_) => vec!["a share; the same command without --shard gathers all".to_string()],
+    };
     print(&match common.json {
         true => json(&outcome.json())?,
         false => format!(
@@ -199,12 +176,34 @@ fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Re
         let folder = common.scene.parent().unwrap_or(Path::new(""));
         content.extend(files::read("read the mesh", &folder.join(file), None)?);
     }
+    for field in scene.fields() {
+        if let Field::Nodal(of) = field {
+            let path = scene.beside(&of.file);
+            content.extend(files::read("read the values of nodes", &path, None)?);
+        }
+    }
     Ok(Point {
         folder: folder(keys, &values),
         values,
         identity: format!("{:032x}", xxh3_128(&content)),
         ..Point::default()
     })
+}
+
+/// Points whose folders would have the same name get what they stand for at its end.
+fn tell_apart(points: &mut [Point]) {
+    let mut seen = BTreeSet::new();
+    let twice: BTreeSet<String> = (points.iter())
+        .filter(|point| !seen.insert(point.folder.clone()))
+        .map(|point| point.folder.clone())
+        .collect();
+    for point in points
+        .iter_mut()
+        .filter(|point| twice.contains(&point.folder))
+    {
+        let identity: String = point.identity.chars().take(8).collect();
+        point.folder = format!("{}-{identity}", point.folder);
+    }
 }
 
 /// The scene's overrides and those of a point after them.
@@ -462,33 +461,5 @@ fn ending(sweep: &Sweep) -> Result<()> {
             failed.len(),
             failed.join(", ")
         ))),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn commas_within_brackets_and_quotes_separate_nothing() {
-        let values = |text: &str| varied(text).map(|v| (v.key, v.values));
-        let texts = |list: &[&str]| list.iter().map(|s| s.to_string()).collect::<Vec<_>>();
-        assert_eq!(
-            values("a.b=1, 2,3"),
-            Ok(("a.b".to_string(), texts(&["1", "2", "3"])))
-        );
-        let force = values("load.0.force=[0.0, -1.0],[0.0, -2.0]").unwrap().1;
-        assert_eq!(force, ["[0.0, -1.0]", "[0.0, -2.0]"]);
-        assert_eq!(values("title=\"a,b\",c").unwrap().1, ["\"a,b\"", "c"]);
-        for wrong in ["", "a", "=1,2", "a=", "a=1,,2", "a=1,1"] {
-            assert!(values(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn all_combinations_are_run() {
-        let vary = ["a=1,2", "b=x,y,z"].map(|text| varied(text).unwrap());
-        let points: Vec<String> = combinations(&vary).iter().map(|p| p.concat()).collect();
-        assert_eq!(points, ["1x", "1y", "1z", "2x", "2y", "2z"]);
     }
 }

@@ -83,13 +83,14 @@ fn every_keyword_becomes_what_it_means() {
         History::Table(vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.5]])
     );
     let pressure = &scene.load[1];
-    assert_eq!(pressure.pressure, Some(3.0));
+    assert_eq!(pressure.pressure, Some(3.0.into()));
     assert_eq!(
         pressure.history,
         History::Table(vec![[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]])
     );
     let contact = &scene.contact[0];
-    assert_eq!((contact.first.as_str(), contact.gap), ("UNDER", Some(0.0)));
+    assert_eq!(contact.first, "UNDER");
+    assert_eq!(contact.gap, Some(0.0.into()));
     let targets = scene.program.targets.iter();
     let targets: Vec<_> = targets
         .map(|t| (t.name.as_deref(), t.load_factor))

@@ -145,6 +145,11 @@ impl ContactBasis {
         }
     }
 
+    /// A number at a control point, from those at nodes.
+    pub(super) fn number_at_control(&self, node: usize, value: impl Fn(usize) -> f64) -> f64 {
+        self.at_control(node, |node| [value(node), 0.0, 0.0])[0]
+    }
+
     /// Forces on control points for those on nodes.
     pub fn share(&self, forces: &mut [Vector]) {
         for (node, ends) in self.edges() {

@@ -7,6 +7,7 @@ use super::equations::Following;
 use super::followers::{Followers, Others};
 use super::frame::{ALIGNED, Frame, frame};
 use super::names::Entry;
+use super::on_mesh::OnMesh;
 use super::pairs::ties::Tied;
 use super::springs::Spring;
 use super::supports::{Held, Supports, turn_normals_into_supports};
@@ -235,18 +236,21 @@ impl Freedoms {
     fn apply_loads(&mut self, scene: &Scene, mesh: &Mesh, touches: &[bool]) -> Result<Planes> {
         let mut planes = Planes::new();
         for (index, load) in scene.load.iter().enumerate() {
-            let directions: Vec<(usize, Option<f64>)> = if let Some(d) = load.displacement {
-                d.components()
-                    .into_iter()
-                    .enumerate()
-                    .filter_map(|(i, v)| v.map(|v| (i, Some(v))))
-                    .collect()
+            let entry = Entry::of_list(scene, "load", index);
+            let directions: Vec<(usize, Option<OnMesh>)> = if let Some(d) = &load.displacement {
+                let given = d.components().into_iter().enumerate();
+                let given = given.filter_map(|(axis, field)| Some((axis, field?)));
+                let fields = given.map(|(axis, field)| {
+                    let field = OnMesh::new(field, "displacement", scene, mesh);
+                    Ok((axis, Some(field?)))
+                });
+                let within = |error: Error| entry.refused(error.within(entry.on(&load.on)));
+                fields.collect::<Result<_>>().map_err(within)?
             } else if let Some(plane) = load.plane_force {
                 vec![(plane.direction.axis(), None)]
             } else {
                 continue;
             };
-            let entry = Entry::of_list(scene, "load", index);
             for node in entry.nodes(mesh, &load.on)? {
                 let refused = |why: String| {
                     entry.refused(Error::input(format!(
@@ -257,7 +261,8 @@ impl Freedoms {
                     )))
                 };
                 let touches = touches[node];
-                for &(direction, value) in &directions {
+                for (direction, value) in &directions {
+                    let direction = *direction;
                     let name = Direction::ALL[direction].name();
                     let local = self.local_axis(node, direction).ok_or_else(|| {
                         let has = match touches {
@@ -275,7 +280,10 @@ impl Freedoms {
                         )));
                     }
                     match value {
-                        Some(value) => {
+                        Some(field) => {
+                            let value = field
+                                .at_control(node, &self.basis)
+                                .map_err(|error| entry.refused(error.within(entry.on(&load.on))))?;
                             self.slots[node][local] =
                                 Slot::Prescribed(self.prescribed.len() as u32);
                             self.prescribed.push(Prescribed {

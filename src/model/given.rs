@@ -51,7 +51,7 @@ pub(super) struct Partner {
     /// Place among the nodes of the first surface.
     pub(super) first: usize,
     pub(super) normal: Vector,
-    /// `None` for the geometric gap.
+    /// `None` for that of the contact, or the geometric one.
     pub(super) gap: Option<f64>,
 }
 
@@ -70,7 +70,6 @@ pub(super) fn partners(
     names: [&str; 2],
     [first_nodes, second_nodes]: [&[usize]; 2],
     normals: &[Vector],
-    gap: Option<f64>,
 ) -> Result<Vec<Option<Partner>>> {
     let places = |nodes: &[usize]| -> BTreeMap<usize, usize> {
         nodes.iter().enumerate().map(|(i, &n)| (n, i)).collect()
@@ -113,7 +112,7 @@ pub(super) fn partners(
         out[second] = Some(Partner {
             first,
             normal,
-            gap: pair.gap.or(gap),
+            gap: pair.gap,
         });
     }
     Ok(out)

@@ -3,14 +3,16 @@
 use super::given::Given;
 use super::heat::FreeStrain;
 use super::names::Entry;
-use super::{Freedoms, Pair, Slot, volume_loads};
+use super::on_mesh::OnMesh;
+use super::openings::{Opening, opened};
+use super::tractions::{Tractions, integrate};
+use super::{ContactSurface, Freedoms, Pair, Slot, volume_loads};
 use crate::analytical::KirschField;
-use crate::element::facet_points;
 use crate::error::{Error, Result};
 use crate::interpolation::interpolate;
 use crate::mesh::Mesh;
-use crate::scene::{self, History, Scene};
-use crate::space::{Space, Vector, dot, length, unit};
+use crate::scene::{self, Displacement, Field, History, Scene};
+use crate::space::{Space, Vector, along, dot, length, unit};
 
 /// What a load's reported magnitude measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,7 +59,7 @@ pub struct LoadCase {
     /// temperature, or brought along.
     pub free_strain: Vec<FreeStrain>,
     /// Of a load by a gap: the contacts whose gaps it changes, and by how much at factor 1.
-    pub opens: Vec<(usize, f64)>,
+    pub opens: Vec<(usize, Opening)>,
 }
 
 impl LoadCase {
@@ -76,14 +78,16 @@ impl LoadCase {
             .opens
             .iter()
             .filter(|(contact, _)| *contact == pair.contact);
-        opened.map(|(_, gap)| gap * pair.unit_gap).sum()
+        opened
+            .map(|(_, opening)| opening.at(pair.slave) * pair.unit_gap)
+            .sum()
     }
 
     /// Whether it changes anything at factor 1.
     pub(crate) fn acts(&self) -> bool {
         match self.measures {
             Magnitude::Displacement => self.magnitude != 0.0,
-            Magnitude::Gap => self.opens.iter().any(|(_, gap)| *gap != 0.0),
+            Magnitude::Gap => self.magnitude != 0.0,
             _ => !self.free_strain.is_empty() || self.nodal.iter().any(|(_, f)| *f != [0.0; 3]),
         }
     }
@@ -133,18 +137,21 @@ pub(super) fn resolve(
     scene: &Scene,
     mesh: &Mesh,
     given: &Given,
-    freedoms: &Freedoms,
+    (freedoms, contacts): (&Freedoms, &[ContactSurface]),
 ) -> Result<Vec<LoadCase>> {
     scene
         .load
         .iter()
         .enumerate()
         .map(|(index, load)| {
-            let mut case = resolve_load(index, load, scene, mesh)?;
+            let mut case = resolve_load(index, load, (scene, contacts), mesh)?;
             if let Some(forces) = given.forces.get(&index) {
                 case.nodal.clone_from(forces);
             }
             case.nodal = freedoms.basis.share_of(case.nodal);
+            for (_, opening) in &mut case.opens {
+                opening.restate(&freedoms.basis);
+            }
             case.forces = on_freedoms(&case.nodal, freedoms);
             Ok(case)
         })
@@ -176,7 +183,12 @@ fn body_of(mesh: &Mesh, nodes: &[usize]) -> u32 {
     element.map_or(0, |e| mesh.element_body[e])
 }
 
-fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) -> Result<LoadCase> {
+fn resolve_load(
+    index: usize,
+    load: &scene::Load,
+    (scene, contacts): (&Scene, &[ContactSurface]),
+    mesh: &Mesh,
+) -> Result<LoadCase> {
     let entry = Entry::of_list(scene, "load", index);
     if load.acts_on_volume() {
         return volume_loads::resolve(index, load, scene, mesh);
@@ -206,10 +218,11 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
             )))
         })
     };
-    if let Some(gap) = load.gap {
-        case.opens = opened(load, scene, gap).map_err(|e| entry.refused(e))?;
+    if let Some(gap) = &load.gap {
+        case.opens = opened(load, (scene, contacts), mesh, gap).map_err(|e| entry.refused(e))?;
         case.measures = Magnitude::Gap;
-        case.magnitude = gap.abs();
+        let sizes = case.opens.iter().map(|(_, opening)| opening.largest());
+        case.magnitude = sizes.fold(0.0, f64::max);
     } else if let Some(force) = load.force {
         let force = force.vector();
         case.set_size(force, Magnitude::Force);
@@ -217,7 +230,7 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         match mesh.surfaces.get(&load.on) {
             Some(surface) => {
                 let area = area(scene.kind, mesh, surface);
-                case.nodal = integrate(scene.kind, mesh, surface, |_, _| share.map(|f| f / area));
+                case.nodal = integrate(scene.kind, mesh, surface, |_| share.map(|f| f / area));
             }
             None => {
                 let n = case.nodes.len() as f64;
@@ -228,23 +241,33 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
                     .collect();
             }
         }
-    } else if let Some(p) = load.pressure {
-        case.nodal = integrate(scene.kind, mesh, surface("pressure")?, |_, n| {
-            n.map(|n| -p * n)
-        });
+    } else if let Some(pressure) = &load.pressure {
+        let tractions = Tractions::new(scene, mesh, &entry, load);
+        let surface = surface("pressure")?;
+        let (nodal, largest) = tractions.of_pressure(pressure, surface)?;
+        case.nodal = nodal;
         case.set_size(total(&case.nodal), Magnitude::Stress);
-        case.magnitude = p.abs();
-    } else if let Some(t) = load.traction {
-        let t = t.vector();
-        case.nodal = integrate(scene.kind, mesh, surface("traction")?, |_, _| t);
-        case.set_size(t, Magnitude::Stress);
+        case.magnitude = largest;
+    } else if let Some(traction) = &load.traction {
+        let tractions = Tractions::new(scene, mesh, &entry, load);
+        let surface = surface("traction")?;
+        let (nodal, largest) = tractions.of_vector(traction, surface)?;
+        case.nodal = nodal;
+        match traction.uniform() {
+            Some(uniform) => case.set_size(uniform, Magnitude::Stress),
+            None => {
+                case.set_size(total(&case.nodal), Magnitude::Stress);
+                case.magnitude = largest;
+            }
+        }
     } else if let Some(k) = load.kirsch {
         let field = KirschField {
             stress_x: k.stress_x,
             stress_y: k.stress_y,
             radius: k.radius,
         };
-        case.nodal = integrate(scene.kind, mesh, surface("kirsch")?, |x, n| {
+        case.nodal = integrate(scene.kind, mesh, surface("kirsch")?, |point| {
+            let (x, n) = (point.position, point.normal);
             let [sxx, syy, sxy] = field.stress(x[0], x[1]);
             [sxx * n[0] + sxy * n[1], sxy * n[0] + syy * n[1], 0.0]
         });
@@ -252,11 +275,10 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
         if k.stress_y == 0.0 || k.stress_x == 0.0 {
             case.magnitude = (k.stress_x + k.stress_y).abs();
         }
-    } else if let Some(d) = load.displacement {
-        case.set_size(
-            d.components().map(|value| value.unwrap_or(0.0)),
-            Magnitude::Displacement,
-        );
+    } else if let Some(displacement) = &load.displacement {
+        case.displace(displacement, scene, mesh).map_err(|error| {
+            entry.refused(error.within(format!("load {} on `{}`", index + 1, load.on)))
+        })?;
     } else if let Some(plane) = load.plane_force {
         let mut force = [0.0; 3];
         force[plane.direction.axis()] = plane.total;
@@ -273,28 +295,6 @@ fn resolve_load(index: usize, load: &scene::Load, scene: &Scene, mesh: &Mesh) ->
     Ok(case)
 }
 
-/// The contacts of a surface whose gaps a load changes, and by how much.
-fn opened(load: &scene::Load, scene: &Scene, gap: f64) -> Result<Vec<(usize, f64)>> {
-    let contacts = scene.contact.iter().enumerate();
-    let found: Vec<(usize, f64)> = contacts
-        .filter(|(_, contact)| contact.first == load.on || contact.second == load.on)
-        .map(|(index, _)| (index, gap))
-        .collect();
-    if found.is_empty() {
-        let of = scene
-            .contact
-            .iter()
-            .flat_map(|c| [c.first.as_str(), c.second.as_str()]);
-        let of: Vec<&str> = of.collect();
-        return Err(Error::input(format!(
-            "a load by `gap` on `{}`, which no contact has; surfaces in contact are `{}`",
-            load.on,
-            of.join("`, `")
-        )));
-    }
-    Ok(found)
-}
-
 pub(super) fn name(index: usize, load: &scene::Load) -> String {
     match load.name.is_empty() {
         true => format!("load {}", index + 1),
@@ -303,6 +303,37 @@ pub(super) fn name(index: usize, load: &scene::Load) -> String {
 }
 
 impl LoadCase {
+    /// Size and direction of a prescribed displacement: the largest at any node, and the mean.
+    fn displace(&mut self, given: &Displacement, scene: &Scene, mesh: &Mesh) -> Result<()> {
+        let mut fields = Vec::new();
+        for (axis, field) in given.components().into_iter().enumerate() {
+            if let Some(field) = field {
+                fields.push((axis, OnMesh::new(field, "displacement", scene, mesh)?));
+            }
+        }
+        let (mut mean, mut largest) = ([0.0; 3], 0.0f64);
+        for (&node, &share) in self.nodes.iter().zip(&self.shares) {
+            let mut vector = [0.0; 3];
+            for (axis, field) in &fields {
+                vector[*axis] = field.at_node(node)?;
+            }
+            mean = along(mean, share, vector);
+            largest = largest.max(length(vector));
+        }
+        // Without the round-off of a mean where all are the same.
+        let uniform = given
+            .components()
+            .map(|field| field.map_or(Some(0.0), Field::uniform));
+        match uniform {
+            [Some(x), Some(y), Some(z)] => self.set_size([x, y, z], Magnitude::Displacement),
+            _ => {
+                self.set_size(mean, Magnitude::Displacement);
+                self.magnitude = largest;
+            }
+        }
+        Ok(())
+    }
+
     pub(super) fn set_size(&mut self, vector: Vector, measures: Magnitude) {
         let size = length(vector);
         self.magnitude = size;
@@ -324,7 +355,7 @@ fn shares(space: Space, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
         return equal();
     };
     // In the order of the nodes: both ascend.
-    let areas = integrate(space, mesh, surface, |_, _| unit(0));
+    let areas = integrate(space, mesh, surface, |_| unit(0));
     let whole: f64 = areas.iter().map(|(_, a)| a[0]).sum();
     if areas.len() == nodes.len() && whole > 0.0 {
         areas.iter().map(|(_, a)| a[0] / whole).collect()
@@ -334,7 +365,7 @@ fn shares(space: Space, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
 }
 
 fn area(space: Space, mesh: &Mesh, surface: &crate::mesh::Surface) -> f64 {
-    integrate(space, mesh, surface, |_, _| unit(0))
+    integrate(space, mesh, surface, |_| unit(0))
         .iter()
         .map(|(_, f)| f[0])
         .sum()
@@ -343,31 +374,6 @@ fn area(space: Space, mesh: &Mesh, surface: &crate::mesh::Surface) -> f64 {
 fn total(nodal: &[(usize, Vector)]) -> Vector {
     let sum = |s: Vector, f: &Vector| std::array::from_fn(|d| s[d] + f[d]);
     nodal.iter().fold([0.0; 3], |s, (_, f)| sum(s, f))
-}
-
-/// Consistent nodal forces of a traction `t(x, n)` on a surface.
-fn integrate(
-    space: Space,
-    mesh: &Mesh,
-    surface: &crate::mesh::Surface,
-    traction: impl Fn(Vector, Vector) -> Vector,
-) -> Vec<(usize, Vector)> {
-    let mut forces = std::collections::BTreeMap::new();
-    for &facet in &surface.facets {
-        let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
-        let x: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n)).collect();
-        let reference = mesh.facet_reference(facet);
-        for point in facet_points(space, reference, &x) {
-            let t = traction(point.position, point.normal);
-            for (i, &node) in nodes.iter().enumerate() {
-                let f: &mut Vector = forces.entry(node).or_default();
-                for (f, t) in f.iter_mut().zip(t) {
-                    *f += point.weight * point.values[i] * t;
-                }
-            }
-        }
-    }
-    forces.into_iter().collect()
 }
 
 pub(super) fn on_freedoms(nodal: &[(usize, Vector)], freedoms: &Freedoms) -> Vec<(usize, f64)> {

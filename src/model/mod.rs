@@ -25,6 +25,8 @@ mod loads;
 pub(crate) mod mirror;
 mod motions;
 mod names;
+mod on_mesh;
+mod openings;
 mod pairs;
 mod plausible;
 mod recipe;
@@ -32,6 +34,7 @@ mod rows;
 mod springs;
 mod sums;
 mod supports;
+mod tractions;
 mod volume_loads;
 mod yield_depth;
 
@@ -192,7 +195,9 @@ impl Model {
             })?;
         }
         freedoms.basis.restate(&mut pairs, &contacts);
-        let mut loads = loads::resolve(scene, &mesh, given, &freedoms)?;
+        let stated = (&mut pairs[..], &contacts[..]);
+        pairs::stated::at_control_points(scene, &mesh, &freedoms.basis, stated)?;
+        let mut loads = loads::resolve(scene, &mesh, given, (&freedoms, &contacts))?;
         let of_bodies = (&materials[..], &contacts[..]);
         loads.extend(initial_strain::resolve(scene, &mesh, of_bodies, &freedoms)?);
         check_targets(scene, &mesh)?;

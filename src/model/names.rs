@@ -37,6 +37,11 @@ impl<'s> Entry<'s> {
         self.scene.places.in_front(&self.key, error)
     }
 
+    /// The entry and what it acts on, in words: load 1 on `block.top`.
+    pub(super) fn on(&self, name: &str) -> String {
+        format!("{} on `{name}`", self.what)
+    }
+
     /// The nodes of the set that its key `on` names.
     pub(super) fn nodes(&self, mesh: &Mesh, name: &str) -> Result<Vec<usize>> {
         let what = format!("{} on", self.what);

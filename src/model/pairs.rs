@@ -6,6 +6,7 @@
 
 mod matching;
 pub(super) mod mortar;
+pub(super) mod stated;
 pub(super) mod ties;
 
 use super::given::Given;
@@ -16,6 +17,7 @@ use crate::mesh::surface::{self, PAIRING};
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::{Contact, Scene, SlaveSide};
 use crate::space::{Space, Vector, difference, direction, dot, length};
+use stated::Stated;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative error of a coordinate of a mesh: it was rounded some times on its way through rotations
@@ -148,6 +150,7 @@ const NO_AREA: f64 = 0.02;
 struct Entries<'a> {
     index: usize,
     contact: Contact,
+    stated: &'a Stated<'a>,
     /// First and second.
     surfaces: [&'a Surface; 2],
     mesh: &'a Mesh,
@@ -202,9 +205,12 @@ pub(super) fn resolve(
             contact.first,
             contact.second
         );
+        let stated = Stated::of(contact, scene, mesh);
+        let stated = stated.map_err(|error| entry.refused(error.within(&what)))?;
         let mut entries = Entries {
             index,
             contact: contact.clone(),
+            stated: &stated,
             surfaces: [
                 entry.surface(mesh, "first", &contact.first)?,
                 entry.surface(mesh, "second", &contact.second)?,

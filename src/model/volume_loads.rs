@@ -3,14 +3,13 @@
 use super::heat::FreeStrain;
 use super::loads::{LoadCase, Magnitude, name};
 use super::names::Entry;
+use super::on_mesh::OnMesh;
 use super::{body_forces, heat};
 use crate::error::{Error, Result};
 use crate::material::Material;
-use crate::mesh::{Mesh, node_values};
+use crate::mesh::Mesh;
 use crate::scene::{self, Field, Scene};
 use crate::space::Vector;
-use std::collections::{BTreeSet, HashMap};
-use std::path::Path;
 
 pub(super) fn resolve(
     index: usize,
@@ -69,7 +68,8 @@ pub(super) fn resolve(
             "thermal_expansion",
             data.thermal_expansion,
         )?;
-        let changes = changes(temperature, scene, mesh, &case.nodes).map_err(refused)?;
+        let changes = changes(temperature, scene, mesh, &case.nodes)
+            .map_err(|error| refused(error.message().to_string()))?;
         let free: Vec<f64> = changes.iter().map(|change| expansion * change).collect();
         let law = Material::new(material, &data, scene.kind).lame();
         let kind = (scene.kind, scene.mesh.formulation);
@@ -95,63 +95,11 @@ pub(super) fn resolve(
 }
 
 /// The change of temperature at every node of the mesh, zero at nodes of other bodies.
-fn changes(
-    field: &Field,
-    scene: &Scene,
-    mesh: &Mesh,
-    nodes: &[usize],
-) -> std::result::Result<Vec<f64>, String> {
-    if let Field::Nodal(of) = field {
-        return nodal(&scene.beside(&of.file), mesh, nodes);
-    }
-    let of = field.function(scene.kind)?;
+fn changes(field: &Field, scene: &Scene, mesh: &Mesh, nodes: &[usize]) -> Result<Vec<f64>> {
+    let field = OnMesh::new(field, "temperature", scene, mesh)?;
     let mut out = vec![0.0; mesh.n_nodes()];
     for &node in nodes {
-        out[node] = of(mesh.point(node));
-        if !out[node].is_finite() {
-            return Err(format!(
-                "the temperature at node {} at {} is {}",
-                mesh.node_label(node),
-                mesh.place(node),
-                out[node]
-            ));
-        }
+        out[node] = field.at_node(node)?;
     }
     Ok(out)
-}
-
-/// Changes that a file gives by node: all nodes of the body, and none that the mesh does not have.
-fn nodal(path: &Path, mesh: &Mesh, nodes: &[usize]) -> std::result::Result<Vec<f64>, String> {
-    let given = node_values::read(path).map_err(|error| error.message().to_string())?;
-    let index: HashMap<u64, usize> = (0..mesh.n_nodes())
-        .map(|node| (mesh.node_label(node), node))
-        .collect();
-    let mut out = vec![None; mesh.n_nodes()];
-    let another = "is the file of another mesh?";
-    for (label, value) in given {
-        let Some(&node) = index.get(&label) else {
-            let path = path.display();
-            return Err(format!(
-                "{path} has a value of node {label}, which is not there: {another}"
-            ));
-        };
-        if !value.is_finite() {
-            let path = path.display();
-            return Err(format!(
-                "{path} has {value} as the temperature of node {label}"
-            ));
-        }
-        out[node] = Some(value);
-    }
-    if let Some(&missing) = nodes.iter().find(|&&node| out[node].is_none()) {
-        return Err(format!(
-            "{} has no value of node {} of the body: {another}",
-            path.display(),
-            mesh.node_label(missing)
-        ));
-    }
-    let of_body: BTreeSet<usize> = nodes.iter().copied().collect();
-    let each = out.into_iter().enumerate();
-    let values = each.map(|(node, value)| value.filter(|_| of_body.contains(&node)));
-    Ok(values.map(|value| value.unwrap_or(0.0)).collect())
 }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //! DIR/sweep.json        points with their values, folders and how they ended
+//!     sweep-1-of-8.json the same of a share of the points
 //!     sweep.csv         a row per point: values, all figures of first yield and of the states
 //!     sweep_PATH.svg    charts of the main figures
 //!     NAME/             the result directory of a point
@@ -18,6 +19,8 @@ use std::path::Path;
 
 /// What a sweep has done.
 const RECORD_FILE: &str = "sweep.json";
+/// What the record of a share begins with.
+const SHARE_PREFIX: &str = "sweep-";
 const TABLE_FILE: &str = "sweep.csv";
 /// Longest name of a point's folder.
 const NAME_LENGTH: usize = 80;
@@ -31,6 +34,9 @@ pub(crate) struct Sweep {
     pub keys: Vec<String>,
     /// In the order of their values.
     pub points: Vec<Point>,
+    /// Where it is recorded: a share of the points has a file of its own.
+    #[serde(skip)]
+    file: String,
 }
 
 /// A point.
@@ -57,55 +63,72 @@ impl Point {
 }
 
 impl Sweep {
-    /// A sweep of these points. What an earlier one in `dir` has finished is taken over.
+    /// A sweep of these points, which are all or the share `[i, n]`. What an earlier one in `dir`
+    /// has finished, in whatever shares, is taken over.
     ///
     /// # Errors
     /// `Input` where `dir` holds something else, `Io` where it cannot be read.
-    pub(crate) fn new(dir: &Path, keys: Vec<String>, points: Vec<Point>) -> Result<Self> {
+    pub(crate) fn new(
+        dir: &Path,
+        keys: Vec<String>,
+        points: Vec<Point>,
+        shard: Option<[usize; 2]>,
+    ) -> Result<Self> {
         let mut sweep = Sweep {
             brinell: env!("CARGO_PKG_VERSION").to_string(),
             keys,
             points,
+            file: match shard {
+                None => RECORD_FILE.to_string(),
+                Some([i, n]) => format!("{SHARE_PREFIX}{i}-of-{n}.json"),
+            },
         };
         let before = Sweep::read(dir)?;
         for point in &mut sweep.points {
             let same = |old: &&Point| old.identity == point.identity && old.folder == point.folder;
-            if let Some(old) = before
-                .points
-                .iter()
-                .find(same)
-                .filter(|old| old.is_finished())
-            {
-                let summary = dir.join(&old.folder).join(super::SUMMARY_FILE);
-                if summary.exists() && super::stale(&dir.join(&old.folder)).is_none() {
-                    *point = old.clone();
-                }
+            let ended = before.iter().filter(same).filter(|old| old.is_finished());
+            let has_results = |old: &&Point| {
+                let folder = dir.join(&old.folder);
+                folder.join(super::SUMMARY_FILE).exists() && super::stale(&folder).is_none()
+            };
+            if let Some(old) = ended.into_iter().find(has_results) {
+                *point = old.clone();
             }
         }
         Ok(sweep)
     }
 
-    /// That of a directory; an empty one where there is none yet.
-    fn read(dir: &Path) -> Result<Self> {
-        let path = dir.join(RECORD_FILE);
-        if path.exists() {
+    /// The points of all records in a directory; none where there is nothing yet.
+    fn read(dir: &Path) -> Result<Vec<Point>> {
+        let entries = std::fs::read_dir(dir).into_iter().flatten().flatten();
+        let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+        // What begins with a point is in the making.
+        let names: Vec<String> = names.filter(|name| !name.starts_with('.')).collect();
+        let is_record = |name: &&String| {
+            let is_share = name.starts_with(SHARE_PREFIX) && name.ends_with(".json");
+            *name == RECORD_FILE || is_share
+        };
+        let records: Vec<&String> = names.iter().filter(is_record).collect();
+        if records.is_empty() && (!names.is_empty() || dir.is_file()) {
+            return Err(Error::input(format!(
+                "{} exists and is no sweep of brinell: choose another --out",
+                dir.display()
+            )));
+        }
+        let mut points = Vec::new();
+        for name in records {
+            let path = dir.join(name);
             let text = files::read_text("read the sweep", &path, None)?;
-            return serde_json::from_str(&text).map_err(|cause| {
+            let sweep: Sweep = serde_json::from_str(&text).map_err(|cause| {
                 let what = format!(
                     "{}: no record of a sweep; choose another --out",
                     path.display()
                 );
                 Error::input(what).because(cause)
-            });
+            })?;
+            points.extend(sweep.points);
         }
-        let is_in_use = std::fs::read_dir(dir).is_ok_and(|mut entries| entries.next().is_some());
-        match is_in_use || dir.is_file() {
-            false => Ok(Sweep::default()),
-            true => Err(Error::input(format!(
-                "{} exists and is no sweep of brinell: choose another --out",
-                dir.display()
-            ))),
-        }
+        Ok(points)
     }
 
     /// Writes what is known so far, so that an interrupted sweep can go on.
@@ -115,7 +138,7 @@ impl Sweep {
     pub(crate) fn record(&self, dir: &Path) -> Result<()> {
         let text = serde_json::to_string_pretty(self)
             .map_err(|cause| Error::internal("a sweep is not plain data").because(cause))?;
-        atomic::replace(&dir.join(RECORD_FILE), (text + "\n").as_bytes())
+        atomic::replace(&dir.join(&self.file), (text + "\n").as_bytes())
     }
 
     /// Reads the results of all points that have some.

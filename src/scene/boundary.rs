@@ -1,6 +1,6 @@
 //! Contact, supports and loads.
 
-use super::Field;
+use super::{Field, VectorField};
 use crate::space::{Components, Vector, unit};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
@@ -18,8 +18,9 @@ pub struct Contact {
     pub second: String,
     /// Direction from the second body to the first; by default the second surface's outward normal.
     pub normal: Option<Components>,
-    /// Initial gap for all pairs instead of the geometric one.
-    pub gap: Option<f64>,
+    /// Initial gap for all pairs instead of the geometric one: a number, or a formula of the
+    /// position or values at nodes, at the nodes of the slaves.
+    pub gap: Option<Field>,
     /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the
     /// finer one (the coarser where its facets are linear and more than twice as long, or longer at
     /// all where they are of a curved surface whose shape is not known), the second where nodes
@@ -31,13 +32,30 @@ pub struct Contact {
     /// default contact is hard.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<f64>,
-    /// Interference: taken off every initial gap, applied gradually before the load program.
+    /// Interference: taken off every initial gap, applied gradually before the load program; a
+    /// number, or a formula of the position or values at nodes, at the nodes of the slaves.
     #[serde(default)]
-    pub interference: f64,
+    pub interference: Field,
     /// Whether the surfaces may overlap in the mesh: by as much as they do, pair by pair, they
     /// interfere. By default an overlap is an error.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub overlap: bool,
+}
+
+impl Contact {
+    /// What is said of a negative value of a field.
+    pub(crate) fn instead_of_negative(key: &str) -> &'static str {
+        match key {
+            "gap" => "an overlap is given by `interference`",
+            _ => "a clearance is given by `gap`",
+        }
+    }
+
+    /// What may depend on the position, by its key below that of the contact.
+    pub(crate) fn fields(&self) -> Vec<(&'static str, &Field)> {
+        let gap = self.gap.iter().map(|gap| ("gap", gap));
+        gap.chain([("interference", &self.interference)]).collect()
+    }
 }
 
 /// Two surfaces that stay together, across and along: whether their nodes face each other or not,
@@ -156,10 +174,12 @@ pub struct Load {
     /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction
     /// (surface) or equally (node set).
     pub force: Option<Components>,
-    /// Pressure on a surface, positive into the body.
-    pub pressure: Option<f64>,
-    /// Uniform traction (x, y; of a solid x, y, z) on a surface.
-    pub traction: Option<Components>,
+    /// Pressure on a surface, positive into the body: a number, a formula of the position or values
+    /// at nodes.
+    pub pressure: Option<Field>,
+    /// Traction (x, y; of a solid x, y, z) on a surface: numbers, formulas of the position or
+    /// values at nodes.
+    pub traction: Option<VectorField>,
     /// Traction of the Kirsch field: plate with a hole of `radius` at the origin under remote
     /// tensions.
     pub kirsch: Option<Kirsch>,
@@ -182,9 +202,10 @@ pub struct Load {
     pub temperature: Option<Field>,
     /// Change of the gap between a surface and those it may touch: positive takes them apart (a
     /// layer ground off, a contact that is to be off), negative presses them together (an
-    /// interference that grows).
+    /// interference that grows). A number, or a formula of the position or values at nodes, at the
+    /// nodes of the slaves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub gap: Option<f64>,
+    pub gap: Option<Field>,
     /// How it depends on the load factor.
     #[serde(default)]
     pub history: History,
@@ -194,6 +215,29 @@ impl Load {
     /// Whether it acts on the volume of a body, which `on` then names.
     pub fn acts_on_volume(&self) -> bool {
         self.acceleration.is_some() || self.rotation.is_some() || self.temperature.is_some()
+    }
+
+    /// What may depend on the position, by its key below that of the load.
+    pub(crate) fn fields(&self) -> Vec<(String, &Field)> {
+        let named = |key: &str, field| (key.to_string(), field);
+        let single = [
+            ("pressure", &self.pressure),
+            ("temperature", &self.temperature),
+            ("gap", &self.gap),
+        ];
+        let single = single
+            .into_iter()
+            .filter_map(|(key, field)| Some((key, field.as_ref()?)));
+        let mut out: Vec<_> = single.map(|(key, field)| named(key, field)).collect();
+        for (k, field) in self.traction.iter().flat_map(VectorField::iter).enumerate() {
+            out.push((format!("traction.{k}"), field));
+        }
+        if let Some(displacement) = &self.displacement {
+            let components = Direction::ALL.into_iter().zip(displacement.components());
+            let given = components.filter_map(|(axis, field)| Some((axis, field?)));
+            out.extend(given.map(|(axis, of)| (format!("displacement.{}", axis.name()), of)));
+        }
+        out
     }
 }
 
@@ -210,23 +254,23 @@ pub struct Kirsch {
     pub radius: f64,
 }
 
-/// Prescribed displacement components.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+/// Prescribed displacement components: numbers, formulas of the position or values at nodes.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Displacement {
     /// Along x (r).
-    pub x: Option<f64>,
+    pub x: Option<Field>,
     /// Along y (z).
-    pub y: Option<f64>,
+    pub y: Option<Field>,
     /// Along z, of a solid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub z: Option<f64>,
+    pub z: Option<Field>,
 }
 
 impl Displacement {
     /// Its components, axis by axis.
-    pub fn components(&self) -> [Option<f64>; 3] {
-        [self.x, self.y, self.z]
+    pub fn components(&self) -> [Option<&Field>; 3] {
+        [self.x.as_ref(), self.y.as_ref(), self.z.as_ref()]
     }
 }
 

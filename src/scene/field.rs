@@ -1,14 +1,19 @@
 //! A quantity as a function of position.
 
-use crate::space::{Space, Vector};
-use exmex::{Express, FlatEx};
+use crate::number::exact;
+use crate::space::{Components, Space, Vector};
+use exmex::{Express, FlatEx, FloatOpsFactory, MatchLiteral};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use std::fmt;
 use std::path::PathBuf;
 
 /// A number, a formula of the position, or values at nodes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "a number, a formula in quotes or { file = \"values.msh\" } is wanted"
+)]
 pub enum Field {
     /// The same everywhere.
     Uniform(f64),
@@ -27,6 +32,93 @@ pub struct NodalField {
     pub file: PathBuf,
 }
 
+impl Default for Field {
+    fn default() -> Self {
+        Field::Uniform(0.0)
+    }
+}
+
+impl From<f64> for Field {
+    fn from(value: f64) -> Self {
+        Field::Uniform(value)
+    }
+}
+
+/// As a reader has it: the number, the formula, or the name of the file.
+impl fmt::Display for Field {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Field::Uniform(value) => f.write_str(&exact(*value)),
+            Field::Formula(text) => f.write_str(text),
+            Field::Nodal(of) => write!(f, "as in {}", of.file.display()),
+        }
+    }
+}
+
+/// The components of a vector that may depend on the position: two in the plane, three in space.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(try_from = "Vec<Field>", into = "Vec<Field>")]
+#[schemars(with = "Vec<Field>", extend("minItems" = 2, "maxItems" = 3))]
+pub struct VectorField(Vec<Field>);
+
+impl VectorField {
+    /// Each component, as many as are given.
+    pub fn iter(&self) -> std::slice::Iter<'_, Field> {
+        self.0.iter()
+    }
+
+    /// How many are given.
+    pub fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// The vector, where it is the same everywhere.
+    pub fn uniform(&self) -> Option<Vector> {
+        let mut vector = [0.0; 3];
+        for (component, field) in vector.iter_mut().zip(&self.0) {
+            *component = field.uniform()?;
+        }
+        Some(vector)
+    }
+}
+
+impl From<[f64; 2]> for VectorField {
+    fn from(plane: [f64; 2]) -> Self {
+        Components::from(plane).into()
+    }
+}
+
+impl From<Vector> for VectorField {
+    fn from(vector: Vector) -> Self {
+        Components::from(vector).into()
+    }
+}
+
+impl From<Components> for VectorField {
+    fn from(components: Components) -> Self {
+        VectorField(components.iter().map(Field::Uniform).collect())
+    }
+}
+
+impl TryFrom<Vec<Field>> for VectorField {
+    type Error = String;
+
+    fn try_from(given: Vec<Field>) -> Result<Self, String> {
+        match given.len() {
+            2 | 3 => Ok(VectorField(given)),
+            n => Err(format!(
+                "{n} components: a vector has 2, in a solid model 3"
+            )),
+        }
+    }
+}
+
+impl From<VectorField> for Vec<Field> {
+    fn from(vector: VectorField) -> Self {
+        vector.0
+    }
+}
+
 impl JsonSchema for Field {
     fn schema_name() -> std::borrow::Cow<'static, str> {
         "Field".into()
@@ -36,7 +128,8 @@ impl JsonSchema for Field {
         json_schema!({
             "description": "A number, or a formula of the position such as `\"20 * log(r / 50)\"`: \
                             x, y, of a solid z, and r = sqrt(x^2 + y^2); of an axisymmetric model \
-                            r and z. exp, log (natural), sqrt, sin, cos, abs, ^ and the like. Or \
+                            r and z. exp, log (natural), sqrt, sin, cos, abs, min, max, ^ and the \
+                            like. Or \
                             `{ file = \"heat.msh\" }`: values at nodes, the one section \
                             $NodeData of a Gmsh file beside the scene.",
             "anyOf": [
@@ -54,6 +147,14 @@ impl JsonSchema for Field {
 }
 
 impl Field {
+    /// The number, where it is one.
+    pub fn uniform(&self) -> Option<f64> {
+        match self {
+            Field::Uniform(value) => Some(*value),
+            Field::Formula(_) | Field::Nodal(_) => None,
+        }
+    }
+
     /// The field as a function.
     ///
     /// # Errors
@@ -63,7 +164,7 @@ impl Field {
             Field::Uniform(value) => Err(*value),
             Field::Nodal(_) => return Err("has values at nodes only".to_string()),
             Field::Formula(text) => {
-                let formula = FlatEx::<f64>::parse(text)
+                let formula = Parsed::parse(text)
                     .map_err(|why| format!("\"{text}\" is no formula: {why}"))?;
                 let names: &[&str] = match space {
                     Space::Axisymmetric => &["r", "z"],
@@ -97,6 +198,38 @@ impl Field {
     }
 }
 
+/// A formula that is read.
+type Parsed = FlatEx<f64, FloatOpsFactory<f64>, Numbers>;
+
+/// Numbers of formulas: digits with a point among them, and an exponent.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Numbers;
+
+impl MatchLiteral for Numbers {
+    fn is_literal(text: &str) -> Option<&str> {
+        let digits = |from: usize| {
+            let rest = text.get(from..).unwrap_or_default();
+            rest.bytes().take_while(u8::is_ascii_digit).count()
+        };
+        let whole = digits(0);
+        let has_point = text[whole..].starts_with('.');
+        let fraction = if has_point { digits(whole + 1) } else { 0 };
+        if whole + fraction == 0 {
+            return None;
+        }
+        let end = whole + usize::from(has_point) + fraction;
+        let mut exponent = text[end..].bytes();
+        if !matches!(exponent.next(), Some(b'e' | b'E')) {
+            return Some(&text[..end]);
+        }
+        let sign = usize::from(matches!(exponent.next(), Some(b'+' | b'-')));
+        match digits(end + 1 + sign) {
+            0 => Some(&text[..end]),
+            n => Some(&text[..end + 1 + sign + n]),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,9 +246,12 @@ mod tests {
         assert_eq!(value("r - 2*z", Space::Axisymmetric, x), -5.0);
         assert_eq!(value("r + z", Space::Solid, x), 12.0);
         assert!((value("log(exp(x))", Space::Solid, x) - 3.0).abs() < 1e-15);
-        let Field::Uniform(20.0) = Field::Uniform(20.0) else {
-            panic!()
-        };
+        let numbers = "1e-3*x + 2.5E2 - 1.e+1 * .5 + exp(0*y)";
+        assert_eq!(value(numbers, Space::Solid, x), 0.003 + 250.0 - 5.0 + 1.0);
+        assert_eq!(
+            value("max(0, 1 - x^2) + min(x, y)", Space::PlaneStrain, x),
+            3.0
+        );
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub use boundary::{
 };
 pub use catalogue::{Listed, Published, materials};
 pub use equation::{Equation, EquationTerm};
-pub use field::{Field, NodalField};
+pub use field::{Field, NodalField, VectorField};
 pub use geometry::{
     Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, Extrusion, Formulation,
     MeshSource, Meshed, Part, Piece, Revolution, Ring, SurfaceCircle, SurfaceCylinder,
@@ -161,6 +161,17 @@ impl Scene {
     pub(crate) fn beside(&self, path: &Path) -> PathBuf {
         let folder = self.file.as_deref().and_then(Path::parent);
         folder.map_or(path.to_path_buf(), |folder| folder.join(path))
+    }
+
+    /// Everything that may depend on the position.
+    pub(crate) fn fields(&self) -> impl Iterator<Item = &Field> {
+        let of_loads = self
+            .load
+            .iter()
+            .flat_map(Load::fields)
+            .map(|(_, field)| field);
+        let of_contacts = self.contact.iter().flat_map(Contact::fields);
+        of_loads.chain(of_contacts.map(|(_, field)| field))
     }
 
     /// A scene of a kind with nothing in it: the whole of it is meshed, one target at load factor

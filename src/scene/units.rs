@@ -63,7 +63,7 @@ impl Units {
 
     /// How many of the unit of stress are force over length squared, where all three are known and
     /// that is not one.
-    pub(super) fn mismatch(&self) -> Option<f64> {
+    pub(crate) fn mismatch(&self) -> Option<f64> {
         let force = known(&FORCES, &self.force)?;
         let ratio = force / self.metres()?.powi(2) / self.pascals()?;
         // Products and quotients of a few rounded numbers.

@@ -3,7 +3,7 @@
 use crate::support::{close, largest, sparse, try_run};
 use brinell::linalg::Backend;
 use brinell::results::{HistoryRow, Results, State};
-use brinell::scene::Scene;
+use brinell::scene::{Field, Scene};
 
 /// Relative agreement asked for by the project: far above round-off times the condition of these
 /// models, far below any tolerance of the analysis except the plastic one, which both runs stop at
@@ -72,8 +72,12 @@ const FIGURES: [Figure; 6] = [
 /// forces are zero.
 fn of_movement(scene: &Scene) -> f64 {
     let stiffest = largest(scene.materials.values().map(|m| m.youngs_modulus));
-    let moves = scene.load.iter().filter_map(|load| load.displacement);
-    let moves = moves.flat_map(|d| [d.x, d.y]).flatten().map(f64::abs);
+    let moves = scene
+        .load
+        .iter()
+        .filter_map(|load| load.displacement.as_ref());
+    let moves = moves.flat_map(|d| [d.x.as_ref(), d.y.as_ref()]).flatten();
+    let moves = moves.filter_map(Field::uniform).map(f64::abs);
     stiffest * largest(moves)
 }
 

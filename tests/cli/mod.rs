@@ -4,6 +4,7 @@ mod accuracy;
 mod ccx;
 mod directory;
 mod guide;
+mod hertz;
 mod interruption;
 mod kernels;
 mod mutations;
@@ -16,6 +17,7 @@ mod shown;
 mod solids;
 mod solvers;
 mod sweep;
+mod sweep_points;
 mod watching;
 
 use std::path::PathBuf;

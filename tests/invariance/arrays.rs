@@ -193,7 +193,7 @@ fn nodal_forces_act_as_the_pressure_that_they_are_consistent_with() {
     let expected = run(model.clone());
     let entry = scene.load[0].clone();
     let nodes = model.mesh.set_nodes(&entry.on).unwrap();
-    let pressure = entry.pressure.unwrap();
+    let pressure = entry.pressure.unwrap().uniform().unwrap();
     // The top of 8 equal quad4 elements over a width of 2.
     let forces: Vec<[f64; 3]> = nodes
         .iter()

@@ -87,7 +87,7 @@ fn force_and_displacement_lead_to_the_same_dent() {
         scene.load[0].plane_force = None;
         scene.load[0].displacement = Some(brinell::scene::Displacement {
             x: None,
-            y: Some(-pressed.approach),
+            y: Some((-pressed.approach).into()),
             z: None,
         });
         let by_displacement = run(&scene);

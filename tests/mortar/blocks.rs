@@ -122,7 +122,7 @@ pub fn symmetric(builder: &mut ModelBuilder) {
 pub fn pressed(builder: &mut ModelBuilder, on: &str, pressure: f64) {
     builder.load(Load {
         on: on.into(),
-        pressure: Some(pressure),
+        pressure: Some(pressure.into()),
         ..Load::default()
     });
 }

@@ -78,7 +78,7 @@ fn tube_in_ring(shape: Shape, cells: [usize; 2], slave: SlaveSide) -> ModelBuild
     builder.contact(Contact {
         first: "tube.right".into(),
         second: "ring.left".into(),
-        interference: 0.05,
+        interference: 0.05.into(),
         slave,
         ..Contact::default()
     });
@@ -166,7 +166,7 @@ fn shells(
     builder.contact(Contact {
         first: "inside.z1".into(),
         second: "outside.z0".into(),
-        interference: 0.05,
+        interference: 0.05.into(),
         slave,
         ..Contact::default()
     });

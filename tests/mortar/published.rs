@@ -31,8 +31,8 @@ fn ssnp121_contact_patch() {
         builder.load(Load {
             on: if solid { "upper.z1" } else { "upper.top" }.into(),
             displacement: Some(Displacement {
-                y: (!solid).then_some(-0.1),
-                z: solid.then_some(-0.1),
+                y: (!solid).then_some((-0.1).into()),
+                z: solid.then_some((-0.1).into()),
                 ..Displacement::default()
             }),
             ..Load::default()

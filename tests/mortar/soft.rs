@@ -22,7 +22,7 @@ fn blocks(kind: Kind, [lower, upper]: [Cells; 2], interference: f64) -> ModelBui
         first: names[0].into(),
         second: names[1].into(),
         stiffness: Some(STIFFNESS),
-        interference,
+        interference: interference.into(),
         ..Contact::default()
     });
     held(

@@ -50,7 +50,7 @@ fn hold(builder: &mut ModelBuilder, on: &str, direction: Point) {
 fn pressed(builder: &mut ModelBuilder, on: &str, pressure: f64) {
     builder.load(Load {
         on: on.into(),
-        pressure: Some(pressure),
+        pressure: Some(pressure.into()),
         ..Load::default()
     });
 }

@@ -92,7 +92,7 @@ fn a_block_under_pressure_is_exact() {
         held(&mut builder, "block.z0", Direction::Z);
         builder.load(Load {
             on: "block.z1".into(),
-            pressure: Some(10.0),
+            pressure: Some(10.0.into()),
             ..Load::default()
         });
         builder.target(Target {

@@ -143,7 +143,7 @@ fn the_limit_load_of_a_square_punch_lies_between_its_bounds() {
         builder.load(Load {
             on: "punch.z1".into(),
             displacement: Some(Displacement {
-                z: Some(-0.08),
+                z: Some((-0.08).into()),
                 ..Displacement::default()
             }),
             ..Load::default()

@@ -40,7 +40,7 @@ fn shell(shape: Shape, cells: [usize; 3], nu: f64, map: &dyn Fn(Point) -> Point)
     builder.body("shell", body).unwrap();
     builder.load(Load {
         on: "shell.z0".into(),
-        pressure: Some(1.0),
+        pressure: Some(1.0.into()),
         ..Load::default()
     });
     builder

@@ -88,7 +88,7 @@ impl Rectangle {
         }
         builder.load(Load {
             on: "top".into(),
-            pressure: Some(10.0),
+            pressure: Some(10.0.into()),
             ..Load::default()
         });
         builder.build().unwrap()

@@ -170,7 +170,7 @@ fn flat_faces_pass_a_uniform_pressure() {
         });
         builder.load(Load {
             on: "upper.z1".into(),
-            pressure: Some(10.0),
+            pressure: Some(10.0.into()),
             ..Load::default()
         });
         let results = result(&builder);
@@ -209,7 +209,7 @@ fn a_ball_grazes_without_force() {
     builder.load(Load {
         on: "ball.z1".into(),
         displacement: Some(Displacement {
-            z: Some(-gap),
+            z: Some((-gap).into()),
             ..Displacement::default()
         }),
         ..Load::default()
@@ -343,7 +343,7 @@ fn plastic_flow_near_incompressibility_passes_through_a_contact() {
         builder.load(Load {
             on: "upper.z1".into(),
             displacement: Some(Displacement {
-                z: Some(-0.02),
+                z: Some((-0.02).into()),
                 ..Displacement::default()
             }),
             ..Load::default()

@@ -431,5 +431,5 @@ fn temperatures_of_nodes_from_a_file() {
     }
     all.pop();
     write(&all);
-    refused("no value of node 1 of the body");
+    refused("no value of node 1 at");
 }

@@ -3,6 +3,8 @@
 
 mod back_stresses;
 mod body_forces;
+mod by_position;
+mod by_position_refused;
 mod circular_punch;
 mod contact_edges;
 mod contact_patch;

@@ -1,9 +1,10 @@
 //! What the bodies of a new scene are made of.
 
 use super::{not_negative, poissons_ratio, positive, toml};
+use crate::cli::materials::of_list;
 use crate::error::{Error, Result};
 use crate::files;
-use crate::scene::{Listed, Material, Units, closest, materials};
+use crate::scene::{Material, Units};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
@@ -214,15 +215,7 @@ impl Second {
 
 /// A material of the list, in N, mm and MPa.
 fn listed(name: &str, flag: &str) -> Result<Made> {
-    let known: Vec<&str> = materials().iter().map(|(name, _)| name.as_str()).collect();
-    let listed = Listed::of(name).ok_or_else(|| {
-        let meant =
-            closest(name, &known).map_or(String::new(), |k| format!(", did you mean \"{k}\"?"));
-        Error::input(format!(
-            "{flag} \"{name}\" is not of the list{meant} There are {}",
-            known.join(", ")
-        ))
-    })?;
+    let listed = of_list(name).map_err(|error| error.within(flag))?;
     Ok(Made {
         name: name.to_string(),
         is_listed: true,

@@ -127,7 +127,7 @@ impl Draft<'_> {
     }
 
     fn displace(&mut self, on: String, axis: u8, series: Series, place: Place) {
-        let value = |of: u8| (of == axis).then(|| series.largest());
+        let value = |of: u8| (of == axis).then(|| series.largest().into());
         let load = Load {
             on,
             displacement: Some(Displacement {
@@ -210,7 +210,7 @@ impl Draft<'_> {
     fn press(&mut self, on: String, series: Series, place: Place) {
         let load = Load {
             on,
-            pressure: Some(series.largest()),
+            pressure: Some(series.largest().into()),
             ..Load::default()
         };
         self.add_load("pressure", load, series, place);

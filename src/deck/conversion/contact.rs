@@ -63,8 +63,8 @@ impl Draft<'_> {
         for clearance in
             clearances.filter(|c| alike(&c.slave, &pair.slave) && alike(&c.master, &pair.master))
         {
-            contact.gap = Some(clearance.value.max(0.0));
-            contact.interference = (-clearance.value).max(0.0);
+            contact.gap = Some(clearance.value.max(0.0).into());
+            contact.interference = (-clearance.value).max(0.0).into();
             let text = match clearance.value < 0.0 {
                 true => format!("an interference of {}", exact(-clearance.value)),
                 false => format!("a gap of {} everywhere", exact(clearance.value)),
@@ -92,7 +92,7 @@ impl Draft<'_> {
         };
         let near = slave.iter().filter(|node| is_near(node)).count();
         let text = if near == slave.len() {
-            contact.gap = Some(0.0);
+            contact.gap = Some(0.0.into());
             format!(
                 "ADJUST={}: all nodes of {} begin in contact",
                 exact(within),

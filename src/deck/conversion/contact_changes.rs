@@ -60,7 +60,7 @@ impl Draft<'_> {
             };
             let load = Load {
                 on: self.own_surface(index, place)?,
-                gap: Some(series.largest()),
+                gap: Some(series.largest().into()),
                 ..Load::default()
             };
             self.add_load("gap", load, series, place);

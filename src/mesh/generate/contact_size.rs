@@ -8,8 +8,8 @@ use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
 use crate::root;
 use crate::scene::{
-    CylinderOnHalfPlane, Direction, Displacement, DisplacementTarget, History, Load, Plastic,
-    Scene, Unit,
+    CylinderOnHalfPlane, Direction, Displacement, DisplacementTarget, Field, History, Load,
+    Plastic, Scene, Unit, VectorField,
 };
 use std::f64::consts::PI;
 
@@ -283,7 +283,12 @@ impl Largest {
             force += times * normal_force(scene, p, load, size);
             depth += times * prescribed(load.displacement.as_ref());
         }
-        depth += largest(&mut scene.contact.iter().map(|c| c.interference));
+        depth += largest(
+            &mut scene
+                .contact
+                .iter()
+                .filter_map(|c| c.interference.uniform()),
+        );
         let at_yield = first.map_or(half_width, |first| first.half_width);
         let asked = largest(&mut targets().filter_map(|t| t.half_width)) * at_yield;
         Some(Largest {
@@ -305,11 +310,12 @@ fn asked_for(displacement: Option<&DisplacementTarget>) -> f64 {
     })
 }
 
-/// Size of a prescribed displacement along y. Not inlined: the tag of `y` would be read before that
-/// of the displacement, which memory checkers of programs in C report.
+/// Size of a prescribed displacement along y, where it is a number. Not inlined: the tag of `y`
+/// would be read before that of the displacement, which memory checkers of programs in C report.
 #[inline(never)]
 fn prescribed(displacement: Option<&Displacement>) -> f64 {
-    displacement.and_then(|d| d.y).map_or(0.0, f64::abs)
+    let along_y = displacement.and_then(|d| d.y.as_ref()?.uniform());
+    along_y.map_or(0.0, f64::abs)
 }
 
 /// Total force along y of a load on the whole cylinder or ball, where its kind and place state it:
@@ -336,8 +342,8 @@ fn normal_force(scene: &Scene, p: &CylinderOnHalfPlane, load: &Load, size: f64) 
     let parts = [
         plane.map(|plane| of_model(plane.total)),
         load.force.map(|force| of_model(force.vector()[1])),
-        load.pressure.map(on_area),
-        load.traction.map(|traction| on_area(traction.vector()[1])),
+        load.pressure.as_ref().and_then(Field::uniform).map(on_area),
+        (load.traction.as_ref().and_then(VectorField::uniform)).map(|t| on_area(t[1])),
     ];
     let parts = parts.into_iter().flatten();
     models * parts.fold(0.0, |sum, f| sum + f.abs())

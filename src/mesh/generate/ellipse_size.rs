@@ -4,7 +4,7 @@
 use super::EllipseSize;
 use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::{Error, Result};
-use crate::scene::{CurvedBodies, Direction, History, Load, Scene, Unit};
+use crate::scene::{CurvedBodies, Direction, Field, History, Load, Scene, Unit, VectorField};
 
 /// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off
 /// beside their edge.
@@ -111,8 +111,11 @@ fn normal_force(load: &Load, p: &CurvedBodies, semi_axes: [f64; 2]) -> f64 {
     let parts = [
         plane.map(|plane| plane.total),
         load.force.map(|force| force.vector()[2]),
-        load.pressure.map(|p| p * area),
-        load.traction.map(|t| t.vector()[2] * area),
+        load.pressure
+            .as_ref()
+            .and_then(Field::uniform)
+            .map(|p| p * area),
+        (load.traction.as_ref().and_then(VectorField::uniform)).map(|t| t[2] * area),
     ];
     parts.into_iter().flatten().map(f64::abs).sum()
 }

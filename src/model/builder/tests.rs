@@ -28,7 +28,7 @@ fn squares() -> ModelBuilder {
         .unwrap()
         .load(Load {
             on: "top".into(),
-            pressure: Some(10.0),
+            pressure: Some(10.0.into()),
             ..Load::default()
         });
     builder
@@ -356,8 +356,8 @@ fn scene_text_says_the_rest_or_leaves_the_builder_as_it_was() {
     ";
     builder.tables(tables).unwrap();
     let scene = &builder.scene;
-    assert_eq!(scene.contact.last().unwrap().gap, Some(0.5));
-    assert_eq!(scene.load.last().unwrap().pressure, Some(3.0));
+    assert_eq!(scene.contact.last().unwrap().gap, Some(0.5.into()));
+    assert_eq!(scene.load.last().unwrap().pressure, Some(3.0.into()));
     assert_eq!((scene.program.steps, scene.analysis.tolerance), (7, 1e-9));
     let before = scene.clone();
     for (text, part) in [

@@ -35,7 +35,7 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
         Some(given) => {
             let names = [contact.first.as_str(), contact.second.as_str()];
             let nodes = [&*master_nodes, &*slave_nodes];
-            partners(given, mesh, names, nodes, &normal, contact.gap)?
+            partners(given, mesh, names, nodes, &normal)?
         }
         None => {
             let near = Balls::new(master_nodes.iter().map(|&n| (mesh.point(n), 0.0)).collect());
@@ -47,7 +47,7 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
                 Some(Partner {
                     first: places[at],
                     normal,
-                    gap: contact.gap,
+                    gap: None,
                 })
             };
             slave_nodes.iter().zip(&normal).map(faced).collect()
@@ -84,8 +84,11 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
                     slave: node,
                     masters: vec![(faced, 1.0)],
                     normal: partner.normal,
-                    gap: partner.gap.unwrap_or(geometric),
-                    interference: contact.interference,
+                    gap: match partner.gap {
+                        Some(gap) => gap,
+                        None => entries.stated.gap(node)?.unwrap_or(geometric),
+                    },
+                    interference: entries.stated.interference(node)?,
                     unit_gap: 1.0,
                     area,
                     arc,

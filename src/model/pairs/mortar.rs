@@ -217,7 +217,7 @@ fn coupled<'a>(entries: &'a Entries<'a>, slave: SlaveSide) -> Result<Coupled<'a>
             alone.push(node);
             continue;
         };
-        match sides.pair(node, of_node, arc) {
+        match sides.pair(node, of_node, arc)? {
             Some(pair) => pairs.push(pair),
             None => left_out.push(node),
         }
@@ -303,9 +303,11 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
 
 impl Sides<'_> {
     /// The pair of a slave node; `None` where too little of it is covered.
-    fn pair(&self, node: usize, of_node: &Integrals, arc: f64) -> Option<Pair> {
-        let (mesh, contact) = (self.entries.mesh, &self.entries.contact);
-        let normal = *self.normals.get(&node)?;
+    fn pair(&self, node: usize, of_node: &Integrals, arc: f64) -> Result<Option<Pair>> {
+        let (mesh, stated) = (self.entries.mesh, self.entries.stated);
+        let Some(&normal) = self.normals.get(&node) else {
+            return Ok(None);
+        };
         let (weight, masters) = match of_node.covered > COVERED * of_node.whole {
             true => (of_node.covered, of_node.weights()),
             false => (0.0, Vec::new()),
@@ -319,7 +321,7 @@ impl Sides<'_> {
         let masters = match &met {
             Some(met) if on_axis => met.masters.clone(),
             _ if weight > 0.0 => masters,
-            _ => return None,
+            _ => return Ok(None),
         };
         // The dual functions are negative in places, and go on beyond what is covered: of surfaces
         // that overlap nowhere the mean with them may be negative. No surface is then closer than
@@ -335,17 +337,17 @@ impl Sides<'_> {
             }
             _ => (weighted(), 1.0),
         };
-        Some(Pair {
+        Ok(Some(Pair {
             contact: self.entries.index,
             slave: node,
             masters,
             normal,
-            gap: contact.gap.unwrap_or(gap),
-            interference: unit_gap * contact.interference,
+            gap: stated.gap(node)?.map_or(gap, |stated| unit_gap * stated),
+            interference: unit_gap * stated.interference(node)?,
             unit_gap,
             area: weight,
             arc,
-        })
+        }))
     }
 
     /// Refuses pairs that share nodes.

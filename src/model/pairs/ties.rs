@@ -1,5 +1,6 @@
 //! Surfaces that are tied: which of their nodes follow which, by the rows of [`super::mortar`].
 
+use super::stated::Stated;
 use super::{ContactSurface, Entries, Pair, list, mortar};
 use crate::error::{Error, Result};
 use crate::mesh::{Facet, Mesh, Surface};
@@ -69,9 +70,11 @@ fn rows(
         slave: tie.slave,
         ..Contact::default()
     };
+    let stated = Stated::default();
     let entries = Entries {
         index,
         contact: sides,
+        stated: &stated,
         surfaces,
         mesh,
         space: scene.kind,

@@ -12,7 +12,7 @@ use crate::mesh::Facet;
 use crate::mesh::surface::{normals, ordered_nodes};
 use crate::model::{Magnitude, Model};
 use crate::output::Labels;
-use crate::scene::Support;
+use crate::scene::{Field, Support};
 use crate::space::{Vector, unit};
 use plotters::prelude::*;
 
@@ -164,7 +164,7 @@ impl<'a> Signs<'a> {
             self.support(area, support)?;
         }
         for (load, entry) in self.model.loads.iter().zip(&self.model.scene.load) {
-            let (on, pressure) = (&entry.on, entry.pressure);
+            let (on, pressure) = (&entry.on, entry.pressure.as_ref());
             let nodes = self.spread(on);
             let pulled = nodes
                 .iter()
@@ -177,7 +177,8 @@ impl<'a> Signs<'a> {
                     (Some(p), Some(surface)) => normals(&self.model.mesh, surface, &[node])
                         .first()
                         .map_or(in_plane(load.direction), |n| {
-                            [-p.signum() * n[0], -p.signum() * n[1]]
+                            let inward = -self.sign(p, node);
+                            [inward * n[0], inward * n[1]]
                         }),
                     _ => in_plane(load.direction),
                 };
@@ -189,6 +190,13 @@ impl<'a> Signs<'a> {
             }
         }
         Ok(())
+    }
+
+    /// 1 where a pressure acts into the body, -1 where it pulls; values at nodes count as pressing.
+    fn sign(&self, pressure: &Field, node: usize) -> f64 {
+        let at = pressure.function(self.model.kind);
+        let value = at.map_or(1.0, |at| at(self.model.mesh.point(node)));
+        if value < 0.0 { -1.0 } else { 1.0 }
     }
 
     fn is_shown(&self, node: usize) -> bool {

@@ -139,22 +139,25 @@ fn given(value: f64) -> String {
     trimmed(value, 6)
 }
 
+/// A number with its unit, a formula as it is.
+fn stated(field: &Field, unit: &str) -> String {
+    match field.uniform() {
+        Some(value) => with_unit(&given(value), unit),
+        None => field.to_string(),
+    }
+}
+
 fn conditions(model: &Model, labels: &Labels) -> Markup {
     let scene = &model.scene;
     let mut rows: Vec<Vec<Markup>> = Vec::new();
     for (contact, surface) in scene.contact.iter().zip(&model.contacts) {
         let mut what = format!("{} pairs of nodes, without friction", surface.range.len());
-        if contact.interference != 0.0 {
-            what.push_str(&format!(
-                ", interference {}",
-                with_unit(&given(contact.interference), labels.length())
-            ));
+        if contact.interference != Field::default() {
+            let interference = stated(&contact.interference, labels.length());
+            what.push_str(&format!(", interference {interference}"));
         }
-        if let Some(gap) = contact.gap {
-            what.push_str(&format!(
-                ", initial gap {}",
-                with_unit(&given(gap), labels.length())
-            ));
+        if let Some(gap) = &contact.gap {
+            what.push_str(&format!(", initial gap {}", stated(gap, labels.length())));
         }
         let on = format!("{} on {}", contact.first, contact.second);
         rows.push(vec![swatch(CONTACT, "contact"), plain(on), plain(what)]);
@@ -189,31 +192,23 @@ fn describe(model: &Model, load: &Load, labels: &Labels) -> String {
     };
     let mut what = if let Some(force) = load.force {
         format!("force {}", vector(force))
-    } else if let Some(pressure) = load.pressure {
-        format!("pressure {}", with_unit(&given(pressure), labels.stress()))
-    } else if let Some(traction) = load.traction {
-        format!("traction {} {}", vector(traction), labels.stress())
+    } else if let Some(pressure) = &load.pressure {
+        format!("pressure {}", stated(pressure, labels.stress()))
+    } else if let Some(traction) = &load.traction {
+        let parts: Vec<String> = traction.iter().map(|part| stated(part, "")).collect();
+        format!("traction ({}) {}", parts.join(", "), labels.stress())
     } else if let Some(kirsch) = load.kirsch {
         format!(
             "traction of a plate with a hole under remote tensions {}",
             vector([kirsch.stress_x, kirsch.stress_y].into())
         )
-    } else if let Some(d) = load.displacement {
-        let parts = [
-            (d.x, Direction::X),
-            (d.y, Direction::Y),
-            (d.z, Direction::Z),
-        ];
-        let parts: Vec<String> = parts
+    } else if let Some(d) = &load.displacement {
+        let parts: Vec<String> = Direction::ALL
             .into_iter()
-            .filter_map(|(value, direction)| {
-                value.map(|v| {
-                    format!(
-                        "{} = {}",
-                        axis(model, direction),
-                        with_unit(&given(v), labels.length())
-                    )
-                })
+            .zip(d.components())
+            .filter_map(|(direction, value)| {
+                let value = stated(value?, labels.length());
+                Some(format!("{} = {value}", axis(model, direction)))
             })
             .collect();
         format!("displacement {}", parts.join(", "))
@@ -229,12 +224,11 @@ fn describe(model: &Model, load: &Load, labels: &Labels) -> String {
         format!("rotation at {} rpm", given(rotation.rpm))
     } else if let Some(temperature) = &load.temperature {
         match temperature {
-            Field::Uniform(change) => format!("temperature changed by {}", given(*change)),
-            Field::Formula(text) => format!("temperature changed by {text}"),
-            Field::Nodal(of) => format!("temperature changed as in {}", of.file.display()),
+            Field::Nodal(_) => format!("temperature changed {temperature}"),
+            _ => format!("temperature changed by {}", stated(temperature, "")),
         }
-    } else if let Some(gap) = load.gap {
-        format!("gap changed by {}", with_unit(&given(gap), labels.length()))
+    } else if let Some(gap) = &load.gap {
+        format!("gap changed by {}", stated(gap, labels.length()))
     } else {
         String::new()
     };

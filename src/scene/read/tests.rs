@@ -349,7 +349,7 @@ fn a_wrong_override_is_named() {
         ("load.0.pressure=[1", &["the value `[1` is not valid TOML"]),
         (
             "load.0.pressure=much",
-            &["--set load.0.pressure=much: load.0.pressure: wrong type"],
+            &["--set load.0.pressure=much: load.0.pressure: \"much\" has the unknown name"],
         ),
         (
             "load.0.pressure=nan",

@@ -3,7 +3,7 @@
 use super::Checks;
 use crate::number::exact;
 use crate::scene::{
-    Contact, Direction, Equation, Field, History, Load, Rotation, Scene, Support, Tie,
+    Contact, Direction, Equation, Field, History, Load, Rotation, Scene, Support, Tie, VectorField,
 };
 use crate::space::{Components, Space};
 use std::collections::BTreeSet;
@@ -75,12 +75,15 @@ impl Checks {
 
     /// A vector has as many components as the model coordinates.
     fn vector(&mut self, key: &str, given: Components, space: Space) {
+        self.components(key, given.count(), space);
+    }
+
+    fn components(&mut self, key: &str, count: usize, space: Space) {
         self.require(
-            given.count() == space.dimension(),
+            count == space.dimension(),
             key,
             format!(
-                "has {} components; a {} model needs {}",
-                given.count(),
+                "has {count} components; a {} model needs {}",
                 space.name(),
                 space.dimension()
             ),
@@ -125,23 +128,25 @@ impl Checks {
         if let Some(stiffness) = contact.stiffness {
             self.stress(format!("{key}.stiffness"), stiffness);
         }
-        self.require(
-            contact.interference >= 0.0,
-            format!("{key}.interference"),
-            format!(
-                "{} is negative; a clearance is given by `gap`",
-                exact(contact.interference)
-            ),
-        );
-        if let Some(gap) = contact.gap {
-            self.require(
-                gap >= 0.0,
-                format!("{key}.gap"),
-                format!(
-                    "{} is negative; an overlap is given by `interference`",
-                    exact(gap)
-                ),
-            );
+        for (name, field) in contact.fields() {
+            let key = format!("{key}.{name}");
+            // Of a field the nodes show it.
+            if let Some(value) = field.uniform() {
+                let other = Contact::instead_of_negative(name);
+                self.require(
+                    value >= 0.0,
+                    key.as_str(),
+                    format!("{} is negative; {other}", exact(value)),
+                );
+            }
+            self.field(&key, field, space);
+        }
+    }
+
+    /// A formula is one of the position.
+    fn field(&mut self, key: &str, field: &Field, space: Space) {
+        if let (Field::Formula(_), Err(wrong)) = (field, field.function(space).map(drop)) {
+            self.problem(key, wrong);
         }
     }
 
@@ -200,7 +205,7 @@ impl Checks {
                 ("gap", load.gap.is_some()),
             ],
         );
-        if let Some(displacement) = load.displacement {
+        if let Some(displacement) = &load.displacement {
             let key = format!("{key}.displacement");
             self.require(
                 displacement.components().iter().any(Option::is_some),
@@ -217,10 +222,8 @@ impl Checks {
         if let Some(rotation) = load.rotation {
             self.rotation(&format!("{key}.rotation"), &rotation, kind);
         }
-        let temperature = load.temperature.as_ref();
-        let of_position = temperature.filter(|t| !matches!(t, Field::Nodal(_)));
-        if let Some(Err(wrong)) = of_position.map(|t| t.function(kind).map(drop)) {
-            self.problem(format!("{key}.temperature"), wrong);
+        for (name, field) in load.fields() {
+            self.field(&format!("{key}.{name}"), field, kind);
         }
         if let (Some(given), Space::Axisymmetric) = (load.acceleration, kind) {
             self.require(
@@ -230,13 +233,13 @@ impl Checks {
             );
         }
         let vectors = [
-            ("force", load.force),
-            ("traction", load.traction),
-            ("acceleration", load.acceleration),
+            ("force", load.force.map(|force| force.count())),
+            ("traction", load.traction.as_ref().map(VectorField::count)),
+            ("acceleration", load.acceleration.map(|a| a.count())),
         ];
-        for (name, vector) in vectors {
-            if let Some(vector) = vector {
-                self.vector(&format!("{key}.{name}"), vector, kind);
+        for (name, count) in vectors {
+            if let Some(count) = count {
+                self.components(&format!("{key}.{name}"), count, kind);
             }
         }
         if let Some(plane) = load.plane_force {

@@ -2,7 +2,7 @@
 
 use super::Checks;
 use crate::number::exact;
-use crate::scene::{History, LEAST_PATH_ERROR, Scene, Target, Unit};
+use crate::scene::{Field, History, LEAST_PATH_ERROR, Scene, Target, Unit};
 use std::collections::BTreeSet;
 
 /// Each increment leaves a row of the history, and each target a state with all its contact pairs.
@@ -156,7 +156,7 @@ impl Checks {
         let shrunk = scene
             .contact
             .iter()
-            .any(|contact| contact.interference != 0.0 || contact.overlap)
+            .any(|contact| contact.interference != Field::default() || contact.overlap)
             || (scene.mesh.disc_in_plate.as_ref()).is_some_and(|disc| disc.interference != 0.0);
         let mut bodies = scene.bodies.values();
         let brought_along = bodies.any(|body| body.brought_along().next().is_some());

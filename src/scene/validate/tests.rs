@@ -221,11 +221,11 @@ fn contact_supports_and_loads() {
                 "contact.0.normal: [0, 0]",
             ),
             (
-                |s| s.contact[0].gap = Some(-0.1),
+                |s| s.contact[0].gap = Some((-0.1).into()),
                 "contact.0.gap: -0.1 is negative",
             ),
             (
-                |s| s.contact[0].interference = f64::INFINITY,
+                |s| s.contact[0].interference = f64::INFINITY.into(),
                 "contact.0.interference: inf",
             ),
             (|s| s.support[1].fix.clear(), "support.1.fix: is empty"),
@@ -238,7 +238,7 @@ fn contact_supports_and_loads() {
                 "load.0: no load kind; give exactly one of force",
             ),
             (
-                |s| s.load[0].pressure = Some(1.0),
+                |s| s.load[0].pressure = Some(1.0.into()),
                 "2 of load kind given (pressure, plane_force)",
             ),
             (

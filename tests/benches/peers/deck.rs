@@ -3,7 +3,7 @@
 
 use brinell::mesh::Shape;
 use brinell::model::Model;
-use brinell::scene::{Direction, Kind};
+use brinell::scene::{Direction, Field, Kind};
 use std::fmt::Write;
 
 /// What a deck needs beside the scene.
@@ -130,7 +130,7 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
         return Err("a deck is made of scenes with one load".into());
     };
     let nodes = mesh.set_nodes(&load.on).ok_or("no such set")?;
-    let applied: Box<dyn Fn(f64) -> String> = match (load.plane_force, load.displacement) {
+    let applied: Box<dyn Fn(f64) -> String> = match (load.plane_force, &load.displacement) {
         (Some(force), _) => {
             let d = axis(force.direction);
             let leader = nodes[0] + 1;
@@ -142,7 +142,8 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
             Box::new(move |alpha| format!("*CLOAD\n{leader}, {d}, {:.12e}", alpha * share))
         }
         (_, Some(displacement)) => {
-            let y = displacement.y.ok_or("a displacement in y")?;
+            let y = displacement.y.as_ref().and_then(Field::uniform);
+            let y = y.ok_or("a displacement in y")?;
             let overlap = settings.overlap;
             Box::new(move |alpha| {
                 let lines = nodes

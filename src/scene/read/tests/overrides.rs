@@ -21,7 +21,7 @@ fn an_override_by_a_table_is_merged_with_it() {
     assert_eq!(scene.materials["steel"].yield_stress, Some(400.0));
     assert_eq!(scene.materials["steel"].youngs_modulus, 210000.0);
     assert_eq!(scene.load[0].name, "press");
-    assert_eq!(scene.load[0].pressure, Some(5.0));
+    assert_eq!(scene.load[0].pressure, Some(5.0.into()));
     let part = &scene.mesh.parts.as_ref().unwrap()[0];
     assert_eq!(part.block.as_ref().unwrap().elements, [4, 4]);
     assert_eq!(part.body, "block");

@@ -1,0 +1,182 @@
+//! Fields of a scene on its mesh: numbers, formulas of the position, values at nodes.
+
+use super::contact_basis::ContactBasis;
+use crate::element::FacetPoint;
+use crate::error::{Error, Result};
+use crate::mesh::{Mesh, node_values};
+use crate::number::exact;
+use crate::scene::{Field, Scene};
+use crate::space::{Vector, in_words};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// A field with the mesh that it is read on.
+pub(super) struct OnMesh<'a> {
+    mesh: &'a Mesh,
+    /// What it is the value of, for messages.
+    name: &'static str,
+    values: Values<'a>,
+}
+
+enum Values<'a> {
+    Uniform(f64),
+    Formula(Box<dyn Fn(Vector) -> f64 + Send + Sync + 'a>),
+    Nodal { path: String, at: Vec<Option<f64>> },
+}
+
+impl<'a> OnMesh<'a> {
+    /// The field `name` of a scene on its mesh.
+    ///
+    /// # Errors
+    /// `Input` where a formula is none, or a file of values cannot be read or is that of another
+    /// mesh.
+    pub fn new(
+        field: &'a Field,
+        name: &'static str,
+        scene: &Scene,
+        mesh: &'a Mesh,
+    ) -> Result<Self> {
+        let values = match field {
+            Field::Uniform(value) => Values::Uniform(*value),
+            Field::Nodal(of) => {
+                let path = scene.beside(&of.file);
+                Values::Nodal {
+                    at: nodal(&path, name, mesh)?,
+                    path: path.display().to_string(),
+                }
+            }
+            Field::Formula(_) => {
+                let function = field.function(scene.kind).map_err(Error::input)?;
+                Values::Formula(Box::new(function))
+            }
+        };
+        Ok(OnMesh { mesh, name, values })
+    }
+
+    /// Its value at a node.
+    ///
+    /// # Errors
+    /// `Input` naming the node, where the formula is not finite or the file has no value.
+    pub fn at_node(&self, node: usize) -> Result<f64> {
+        let label = || {
+            let (label, place) = (self.mesh.node_label(node), self.mesh.place(node));
+            format!("node {label} at {place}")
+        };
+        match &self.values {
+            Values::Uniform(value) => Ok(*value),
+            Values::Formula(of) => self.finite(of(self.mesh.point(node)), label),
+            Values::Nodal { path, at } => at[node].ok_or_else(|| {
+                Error::input(format!(
+                    "{path} has no value of {}: is the file of another mesh?",
+                    label()
+                ))
+            }),
+        }
+    }
+
+    /// Its value at the control point of a node.
+    ///
+    /// # Errors
+    /// As [`at_node`](Self::at_node), of the ends of the edge in whose middle the node lies too.
+    pub fn at_control(&self, node: usize, basis: &ContactBasis) -> Result<f64> {
+        let own = self.at_node(node)?;
+        let (Some([a, b]), None) = (basis.ends(node), self.uniform()) else {
+            return Ok(own);
+        };
+        let ends = [self.at_node(a)?, self.at_node(b)?];
+        Ok(basis.number_at_control(node, |of| match of {
+            n if n == a => ends[0],
+            n if n == b => ends[1],
+            _ => own,
+        }))
+    }
+
+    /// The number, where it is the same everywhere.
+    fn uniform(&self) -> Option<f64> {
+        match &self.values {
+            Values::Uniform(value) => Some(*value),
+            Values::Formula(_) | Values::Nodal { .. } => None,
+        }
+    }
+
+    /// Its value at a point of a facet with these nodes: what a formula has there, or what lies
+    /// between the values at nodes by the shape functions.
+    ///
+    /// # Errors
+    /// As [`at_node`](Self::at_node); a formula names the point.
+    pub fn at_point(&self, nodes: &[usize], point: &FacetPoint) -> Result<f64> {
+        match &self.values {
+            Values::Uniform(value) => Ok(*value),
+            Values::Formula(of) => self.finite(of(point.position), || {
+                let place = in_words(point.position.map(rounded), self.mesh.dimension);
+                let label = nodes.first().map_or(0, |node| self.mesh.node_label(*node));
+                format!("{place}, a point of the facet of node {label}")
+            }),
+            Values::Nodal { .. } => {
+                let terms = nodes.iter().zip(point.values);
+                terms
+                    .map(|(node, share)| Ok(share * self.at_node(*node)?))
+                    .sum()
+            }
+        }
+    }
+
+    fn finite(&self, value: f64, place: impl Fn() -> String) -> Result<f64> {
+        if value.is_finite() {
+            return Ok(value);
+        }
+        let name = self.name;
+        Err(Error::input(format!(
+            "the {name} at {} is {value}: the formula must be finite there",
+            place()
+        )))
+    }
+
+    /// Refuses a value below zero.
+    ///
+    /// # Errors
+    /// `Input` naming the node, with what is to be given `instead`.
+    pub fn not_negative(&self, node: usize, instead: &str) -> Result<f64> {
+        let value = self.at_node(node)?;
+        if value >= 0.0 {
+            return Ok(value);
+        }
+        Err(Error::input(format!(
+            "the {} at node {} at {} is {}, which is negative; {instead}",
+            self.name,
+            self.mesh.node_label(node),
+            self.mesh.place(node),
+            exact(value)
+        )))
+    }
+}
+
+/// A coordinate to six digits behind its first: where it is, not its round-off.
+fn rounded(coordinate: f64) -> f64 {
+    format!("{coordinate:.6e}").parse().unwrap_or(coordinate)
+}
+
+/// Values that a file gives by node, and of no node that the mesh does not have.
+fn nodal(path: &Path, name: &str, mesh: &Mesh) -> Result<Vec<Option<f64>>> {
+    let given = node_values::read(path)?;
+    let index: HashMap<u64, usize> = (0..mesh.n_nodes())
+        .map(|node| (mesh.node_label(node), node))
+        .collect();
+    let mut out = vec![None; mesh.n_nodes()];
+    for (label, value) in given {
+        let path = path.display();
+        let Some(&node) = index.get(&label) else {
+            return Err(Error::input(format!(
+                "{path} has a value of node {label}, which is not there: is the file of another \
+                 mesh?"
+            )));
+        };
+        if !value.is_finite() {
+            return Err(Error::input(format!(
+                "{path} has {value} as the {name} of node {label}"
+            )));
+        }
+        out[node] = Some(value);
+    }
+    Ok(out)
+}
