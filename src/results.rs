@@ -231,6 +231,9 @@ pub struct State {
     /// How well it is read off the contact pressures.
     #[serde(default)]
     pub half_width_reading: EdgeReading,
+    /// Area of the contact patch with the largest force, of the whole; in the plane its width.
+    #[serde(default)]
+    pub contact_area: f64,
     /// For contacts on a circle: begin and end of the contact, in degrees from the middle of the
     /// contact's axis (the pole); `None` elsewhere.
     pub contact_arc: Option<[f64; 2]>,

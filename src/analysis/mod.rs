@@ -9,7 +9,7 @@
 //! | `zone`, `gather`, `region`, `zone_choice`, `zone_fit` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `collapse` | limit load, or an iteration that did not converge | |
-//! | `program`, `position`, `first_yield`, `targets`, `cycles` | the program, step by step; where it is | 5.1, 5.2 |
+//! | `program`, `position`, `first_yield`, `targets`, `target_search`, `awaited`, `unloading`, `cycles` | the program, step by step; where it is | 5.1, 5.2 |
 //! | `drive`, `elastic`, `plastic`, `stretch`, `stepping`, `landing` | along a straight piece of the load path | 4.7 to 4.23 |
 //! | `state`, `restart`, `packed` | a committed state; checkpoints, and going on from them | |
 //! | `starting` | the state that an earlier run left, and that this one leaves | |
@@ -26,6 +26,7 @@
 //! | `stopwatch` | what the time of a run was spent on | |
 
 mod acceleration;
+mod awaited;
 mod check;
 mod collapse;
 mod contact_area;
@@ -87,7 +88,9 @@ mod stresses;
 mod stretch;
 mod structure;
 mod tangent;
+mod target_search;
 mod targets;
+mod unloading;
 mod yield_load;
 mod zone;
 mod zone_border;

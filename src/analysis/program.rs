@@ -20,8 +20,10 @@ use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Incomplete, Quality, Results, State};
-use crate::scene::Unit;
+use crate::scene::{Target, Unit};
+use std::cell::Cell;
 use std::ops::ControlFlow;
+use std::rc::Rc;
 use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
@@ -55,6 +57,8 @@ pub(super) struct Run<'m, 'o> {
     pub(super) start: Option<Start>,
     /// What vanishes at the target at hand, where it is no load factor.
     pub(super) monitor: Option<Box<Monitor<'m>>>,
+    /// Whether the target at hand was looked for with a zone outside of which unloading yields.
+    pub(super) unloads_outside: Rc<Cell<bool>>,
     /// Names of the targets.
     pub(super) labels: Vec<String>,
     pub(super) observer: &'o mut dyn Observer,
@@ -124,6 +128,7 @@ impl<'m, 'o> Run<'m, 'o> {
             position: Position::default(),
             start: None,
             monitor: None,
+            unloads_outside: Rc::default(),
             observer,
             results,
             path: PathSampler::default(),
@@ -170,7 +175,8 @@ impl<'m, 'o> Run<'m, 'o> {
     pub(super) fn next(&mut self) -> Result<Option<Event>> {
         loop {
             if let Some(&stop) = self.position.stops.first() {
-                if let Some(row) = self.advance(stop)? {
+                let advanced = self.advance(stop);
+                if let Some(row) = advanced.map_err(|error| self.not_reached(error))? {
                     return Ok(Some(Event::Increment(row)));
                 }
             } else if self.position.search.is_some() {
@@ -402,10 +408,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let program = &self.model().scene.program;
         let required = self.yield_only
             || program.unit == Unit::Yield
-            || program
-                .targets
-                .iter()
-                .any(|t| t.first_yield || t.half_width.is_some());
+            || program.targets.iter().any(Target::needs_first_yield);
         if again && !self.position.first_yield.is_behind {
             return Err(Error::internal(
                 "the material yields under the preload, and does not when that is applied anew",

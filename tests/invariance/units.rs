@@ -84,6 +84,7 @@ fn equivariant_of(base: &Results, scaled: &Results, [l, s, f]: [f64; 3], toleran
                 Unit::Length => (l, depth),
                 Unit::Stress => (s, 0.0),
                 Unit::Load => (f, 0.0),
+                Unit::Area => (f / s, 0.0),
                 Unit::Size => (l * f / s, 0.0),
                 Unit::Work => (l * f, 0.0),
             };
