@@ -76,8 +76,9 @@ impl<'m> Awaited<'m> {
             TargetFigure::ContactArea => of_contact(solver).area,
             TargetFigure::MaxPressure => of_contact(solver).max_pressure,
             TargetFigure::Approach => {
-                let u = solver.all_displacements()?;
-                solver.reading().approach(&u)
+                let mut reading = solver.reading();
+                let u = reading.displacements()?.total;
+                reading.approach(&u)
             }
             TargetFigure::MaxEquivalentPlasticStrain => solver.zone.extent().1,
         })

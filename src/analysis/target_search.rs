@@ -45,7 +45,7 @@ impl<'m> Run<'m, '_> {
                 Error::input(format!("target `{label}`: the mesh has no set `{on}`"))
             })?;
         Ok(Box::new(move |solver: &mut Solver| {
-            let u = solver.all_displacements()?;
+            let u = solver.reading().displacements()?.total;
             let (freedoms, factors) = (&solver.structure.model.freedoms, &solver.at.factors);
             let along = |&n: &usize| freedoms.displacement(n, &u, factors)[direction];
             let mean = nodes.iter().map(along).sum::<f64>() / nodes.len() as f64;

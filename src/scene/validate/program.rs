@@ -199,7 +199,7 @@ impl Checks {
         for (index, target) in targets.iter().enumerate() {
             for (figure, value) in target.figures().filter(|(figure, _)| figure.stays()) {
                 let of = (figure.key(), target.body.as_deref());
-                let before = largest.entry(of).or_insert(0.0);
+                let before = largest.entry(of).or_insert(value);
                 self.require(
                     value >= *before,
                     format!("program.targets.{index}.{}", figure.key()),
