@@ -46,6 +46,7 @@ mod first_yield;
 mod fitted;
 mod free_strain;
 mod gather;
+mod gauges;
 mod increment;
 mod indicator;
 mod landing;

@@ -6,6 +6,7 @@
 use super::Analysis;
 use super::drive::{Arrival, Drive, IncrementReport, Monitor, Rules, Step, stopped};
 use super::elastic::ElasticDrive;
+use super::gauges::Gauges;
 use super::load_point::LoadPoint;
 use super::path::PathSampler;
 use super::plastic::PlasticDrive;
@@ -59,6 +60,8 @@ pub(super) struct Run<'m, 'o> {
     pub(super) monitor: Option<Box<Monitor<'m>>>,
     /// Whether the target at hand was looked for with a zone outside of which unloading yields.
     pub(super) unloads_outside: Rc<Cell<bool>>,
+    /// What each row of the history has besides.
+    pub(super) gauges: Option<Gauges>,
     /// Names of the targets.
     pub(super) labels: Vec<String>,
     pub(super) observer: &'o mut dyn Observer,
@@ -110,6 +113,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         let mut run = Run::of(solver, ZoneFit::new(choice), results, observer);
         run.position.seconds = run.position.seconds.running_since(start);
+        run.follow_sets()?;
         run.begin()?;
         Ok(run)
     }
@@ -129,6 +133,7 @@ impl<'m, 'o> Run<'m, 'o> {
             start: None,
             monitor: None,
             unloads_outside: Rc::default(),
+            gauges: None,
             observer,
             results,
             path: PathSampler::default(),
@@ -252,7 +257,10 @@ impl<'m, 'o> Run<'m, 'o> {
                 Some(drive) => run.step(drive, &end),
                 None => run.begin_drive(&end),
             })?;
-        let row = increment.map(|report| self.row(&report));
+        let mut row = increment.map(|report| self.row(&report));
+        if let (Some(row), Some(gauges)) = (&mut row, &self.gauges) {
+            row.measured = gauges.read(&mut self.solver)?;
+        }
         if row.is_some() {
             let cycle = self.labels.len().max(1) as f64;
             let cycles = self.model().scene.program.cycles as f64;
@@ -376,7 +384,15 @@ impl<'m, 'o> Run<'m, 'o> {
             trailing_solves: report.trailing_solves,
             residual: report.residual,
             event: report.event.clone(),
+            measured: Vec::new(),
         }
+    }
+
+    /// The history follows what the scene asks for.
+    pub(super) fn follow_sets(&mut self) -> Result<()> {
+        self.gauges = Gauges::of(self.model())?;
+        self.results.history_columns = Gauges::columns(self.model());
+        Ok(())
     }
 
     /// Puts the structure where the program begins: nothing acts, and what an earlier run left in

@@ -31,6 +31,12 @@ pub struct Program {
     pub gamma: f64,
     /// The targets, reached one after the other; each leaves a state.
     pub targets: Vec<Target>,
+    /// Node sets or surfaces that every row of the history follows: mean displacement of the nodes
+    /// and the force that acts on them from outside (loads and supports, the modelled sum times
+    /// `symmetry`). The approach and each contact's force and area come with them. It takes a solve
+    /// for each increment.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub history: Vec<String>,
     /// The targets again and again, at most so often: until the next cycle would be like the last.
     /// The states are those of the last cycle.
     #[serde(default = "super::defaults::cycles", skip_serializing_if = "is_one")]
@@ -59,6 +65,7 @@ impl Default for Program {
             path_error: super::defaults::path_error(),
             gamma: super::defaults::gamma(),
             targets: Vec::new(),
+            history: Vec::new(),
             cycles: super::defaults::cycles(),
             steady: super::defaults::steady(),
         }

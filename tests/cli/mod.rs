@@ -16,6 +16,7 @@ mod shown;
 mod solids;
 mod solvers;
 mod sweep;
+mod targets;
 mod watching;
 
 use std::path::PathBuf;

@@ -75,6 +75,17 @@ impl Checks {
             }
         }
         self.growing(&program.targets);
+        let mut followed = BTreeSet::new();
+        for (index, name) in program.history.iter().enumerate() {
+            let key = format!("program.history.{index}");
+            self.require(
+                !name.is_empty(),
+                key.as_str(),
+                "is empty; name a set of the mesh",
+            );
+            let is_new = followed.insert(name.as_str());
+            self.require(is_new, key, format!("\"{name}\" is there twice"));
+        }
         let mut names = BTreeSet::new();
         for (index, target) in program.targets.iter().enumerate() {
             let key = format!("program.targets.{index}");

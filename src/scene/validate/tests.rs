@@ -349,7 +349,7 @@ fn programs_settings_and_references() {
                     };
                     target(s, by_figure(named));
                 },
-                "program.targets.0.body: the scene has no body \"roller\"; it has cylinder, half_plane",
+                "targets.0.body: the scene has no body \"roller\"; it has cylinder, half_plane",
             ),
             (
                 |s| {
@@ -394,7 +394,7 @@ fn programs_settings_and_references() {
                     );
                     s.bodies.values_mut().for_each(|b| b.plastic = Plastic::No);
                 },
-                "program.targets.0.max_equivalent_plastic_strain: what yielding leaves, but no body",
+                "max_equivalent_plastic_strain: what yielding leaves, but no body",
             ),
             (
                 |s| s.contact.clear(),
