@@ -55,3 +55,21 @@ fn targets_by_figures_that_cannot_be_met() {
         );
     }
 }
+
+/// A set that the history is to follow and the mesh does not have, and one that is there twice.
+#[test]
+fn sets_that_no_history_can_follow() {
+    for (history, fragment) in [
+        (
+            "\"upper.lop\"",
+            "history 1 `upper.lop`: the mesh has no such set, did you mean `upper.top`?",
+        ),
+        (
+            "\"upper.top\", \"upper.top\"",
+            "program.history.1: \"upper.top\" is there twice",
+        ),
+    ] {
+        let history = format!("program.history=[{history}]");
+        refused_with("contact_patch", &[&history], &[], 2, &[fragment]);
+    }
+}

@@ -162,6 +162,7 @@ pub fn results(mesh: &Mesh) -> Results {
             body: 1,
         }),
         states: vec![pressed, without_fields, released],
+        history_columns: Vec::new(),
         path: vec![PathPoint {
             increment: 2,
             alpha: 0.2,

@@ -20,9 +20,9 @@ fn close(a: f64, b: f64, scale: f64, what: &str) {
     assert!((a - b).abs() <= 1e-8 * scale.abs(), "{what}: {a} {b}");
 }
 
-/// Half of a ball: the force on its top is the load of the whole, that on the support below it takes
-/// it up, the contact carries it, and the top comes down by the approach, in every increment of
-/// loading and unloading.
+/// The force on the top of a ball is the load of the whole, the support below it takes it up, the
+/// contact carries it, and the top comes down by the approach, in every increment of loading and
+/// unloading.
 fn follows_the_load(results: &Results, [top, bottom]: [&str; 2], axis: &str, total: f64) {
     let n = results.history.len();
     assert!(n > 5);

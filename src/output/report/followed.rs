@@ -70,8 +70,9 @@ fn sets(columns: &[String]) -> Vec<&str> {
         .collect()
 }
 
-/// Slope with which a curve of force over depth comes down from its largest force: that of the first
-/// increment after it, up to whose end contact is as it was. `None` where it does not come down.
+/// Slope with which a curve of force over depth comes down from its largest force: that of the
+/// first increment after it, up to whose end contact is as it was. `None` where it does not come
+/// down.
 fn unloading_stiffness(points: &[[f64; 2]]) -> Option<f64> {
     let top = (0..points.len()).max_by(|&a, &b| points[a][1].total_cmp(&points[b][1]))?;
     let [from, to] = [points[top], *points.get(top + 1)?];
