@@ -161,6 +161,9 @@ fn whole<S: Serializer>(count: &f64, to: S) -> Result<S::Ok, S::Error> {
     }
 }
 
+/// Name of the effect that loads are found for targets by a figure of the state.
+pub const LOADS_FOUND: &str = "loads found";
+
 /// A row of the effects ledger.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Effect {

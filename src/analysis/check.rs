@@ -7,7 +7,7 @@ use crate::linalg::{Backend, Partition, Prediction};
 use crate::memory;
 use crate::model::{LoadCase, Magnitude, Model};
 use crate::number::exact;
-use crate::results::{Effect, EndState, Sizes};
+use crate::results::{Effect, EndState, LOADS_FOUND, Sizes};
 use crate::substructure::ContactCost;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -326,7 +326,7 @@ fn loads_found(model: &Model) -> Effect {
         true => "no target is a figure of the state".to_string(),
         false => format!("the load is searched for {}", words.join(", ")),
     };
-    effect("loads found", !words.is_empty(), why)
+    effect(LOADS_FOUND, !words.is_empty(), why)
 }
 
 /// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)

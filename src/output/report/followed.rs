@@ -8,6 +8,9 @@ use crate::output::labels::{Labels, labelled};
 use crate::results::Results;
 use plotters::prelude::SeriesLabelPosition;
 
+/// Share of the largest load below which a force is round-off, or what keeps a body in place.
+const ROUND_OFF: f64 = 1e-6;
+
 /// The charts of a run; none where its history follows nothing.
 pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
     let columns = &results.history_columns;
@@ -32,6 +35,8 @@ pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
             points,
         ));
     }
+    let loads = results.history.iter().map(|row| row.load.abs());
+    let largest = loads.fold(0.0, f64::max);
     for (number, name) in sets(columns).into_iter().enumerate() {
         for axis in ["x", "y", "z"] {
             let both = ["displacement", "force"].map(|key| column(&format!("{name}.{key}_{axis}")));
@@ -42,8 +47,9 @@ pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
             let points: Vec<[f64; 2]> = rows
                 .map(|row| [row.measured[moved], row.measured[force]])
                 .collect();
-            // What is held or free along an axis shows nothing there.
-            if (0..2).any(|k| points.iter().all(|point| point[k] == 0.0)) {
+            // What is held or free along an axis shows nothing there, but round-off.
+            let size = |k: usize| points.iter().fold(0.0f64, |m, p| m.max(p[k].abs()));
+            if size(0) == 0.0 || size(1) <= ROUND_OFF * largest {
                 continue;
             }
             out.push(titled(
