@@ -62,6 +62,25 @@ fn the_load_that_leaves_a_dent() {
     }
 }
 
+/// Where the material yields on the way back, by back stresses, what plastic strains leave at the
+/// load that is found is another dent: it is what unloading leaves that is asked for.
+#[test]
+fn yielding_on_the_way_back_is_part_of_the_dent() {
+    let dent = 1e-3;
+    let targets = format!("{{ residual_depth = {dent:e} }}, {{ load_factor = 0.0 }}");
+    let found = ball(
+        &targets,
+        &[
+            "mesh.cylinder_on_half_plane.contact_width=",
+            "materials.steel.tangent_modulus=",
+            "materials.steel.plastic_modulus=100",
+            "materials.steel.back_stresses=[[60000, 300]]",
+        ],
+    );
+    let [pressed, off] = [0, 1].map(|k| relative(found.states[k].residual_depth, dent));
+    assert!(pressed > 1e-6 && off <= 1e-8, "{pressed:e} {off:e}");
+}
+
 /// One body's dent, and one after the other, with the load off in between.
 #[test]
 fn dents_of_one_body_one_after_the_other() {

@@ -140,6 +140,7 @@ fn the_search_for_a_dent_goes_on_from_every_increment() {
             "mesh.cylinder_on_half_plane.resolution=6",
             "program.targets=[{ residual_depth = 5e-5 }, { load_factor = 0.0 }, \
              { approach = 0.02 }]",
+            "program.history=[\"cylinder.top\"]",
         ],
     );
     assert!(same_from_everywhere(&scene, either(5, 2)) >= either(4, 10));
