@@ -69,6 +69,9 @@ pub struct Results {
     pub ranks: Option<Ranks>,
     /// One row per accepted increment.
     pub history: Vec<HistoryRow>,
+    /// Names of what each row has besides, where the scene asks for it: `approach`,
+    /// `contact_1.force`, `contact_1.area`, `top.displacement_y`, `top.force_y`, ...
+    pub history_columns: Vec<String>,
     /// Points of the path between the rows of the history, where its figures bend: for curves.
     pub path: Vec<PathPoint>,
     /// Seconds by phase, in order of execution.
@@ -158,6 +161,9 @@ fn whole<S: Serializer>(count: &f64, to: S) -> Result<S::Ok, S::Error> {
     }
 }
 
+/// Name of the effect that loads are found for targets by a figure of the state.
+pub const LOADS_FOUND: &str = "loads found";
+
 /// A row of the effects ledger.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Effect {
@@ -231,6 +237,9 @@ pub struct State {
     /// How well it is read off the contact pressures.
     #[serde(default)]
     pub half_width_reading: EdgeReading,
+    /// Area of the contact patch with the largest force, of the whole; in the plane its width.
+    #[serde(default)]
+    pub contact_area: f64,
     /// For contacts on a circle: begin and end of the contact, in degrees from the middle of the
     /// contact's axis (the pole); `None` elsewhere.
     pub contact_arc: Option<[f64; 2]>,

@@ -110,7 +110,7 @@ pub(super) fn assess(
         });
     }
     if extent == Extent::Program {
-        out.notes.extend(said_by_width(scene, &out.quantities));
+        out.notes.extend(said_by_load(scene, &out.quantities));
     }
     out.seconds = start.elapsed().as_secs_f64();
     out
@@ -249,24 +249,32 @@ fn state_of<'r>(results: &'r Results, path: &str) -> Option<&'r State> {
     results.states.iter().find(|s| s.name == name)
 }
 
-/// What is to be known of targets by half width: the load at which a mesh reaches them is a result,
-/// and its error one of all that is said of the state and of those after it.
-fn said_by_width(scene: &Scene, quantities: &[QuantityError]) -> Option<String> {
+/// What is to be known of targets by half width or another figure: the load at which a mesh reaches
+/// them is a result, and its error one of all that is said of the state and of those after it.
+fn said_by_load(scene: &Scene, quantities: &[QuantityError]) -> Option<String> {
     let labels = scene.program.labels();
     let targets = scene.program.targets.iter().zip(&labels);
-    let names: Vec<String> = targets
-        .filter(|(target, _)| target.half_width.is_some())
-        .filter_map(|(_, label)| {
-            let path = format!("states.{label}.load");
-            let row = quantities.iter().find(|q| q.quantity == path)?;
-            Some(format!("`{label}`: {}", percent(row.relative_error?)))
-        })
-        .collect();
+    let mut kinds: Vec<&str> = Vec::new();
+    let mut names: Vec<String> = Vec::new();
+    for (target, label) in targets.filter(|(target, _)| target.finds_load()) {
+        let path = format!("states.{label}.load");
+        let row = quantities.iter().find(|q| q.quantity == path);
+        let Some(error) = row.and_then(|row| row.relative_error) else {
+            continue;
+        };
+        let figure = target.figures().next();
+        let kind = figure.map_or("a half width", |(figure, _)| figure.key());
+        if !kinds.contains(&kind) {
+            kinds.push(kind);
+        }
+        names.push(format!("`{label}`: {}", percent(error)));
+    }
     (!names.is_empty()).then(|| {
         format!(
-            "a half width as target is reached at another load on each mesh: the error of that \
-             load ({}) is in the other figures of the state and of those after it, the dent among \
-             them; a load factor as target leaves it out",
+            "{} as target is reached at another load on each mesh: the error of that load ({}) is \
+             in the other figures of the state and of those after it, the dent among them unless \
+             it is what was asked for; a load factor as target leaves it out",
+            kinds.join(" or "),
             names.join(", ")
         )
     })

@@ -13,7 +13,7 @@ pub struct Quantity {
     /// The largest size that a quantity of this KEY has in the run: what its error is measured
     /// against.
     pub scale: f64,
-    /// What the reading of it off the pressures may be wrong by: of half widths, else 0.
+    /// What the reading of it off the pressures may be wrong by: of half widths and areas, else 0.
     pub reading: f64,
     /// What its error is no smaller than: of plastic zones a layer of Gauss points, else 0.
     pub least: f64,
@@ -47,6 +47,16 @@ pub(super) fn formal_order(key: &str, degree: usize) -> f64 {
     }
 }
 
+/// What the reading of a contact's edge leaves in a quantity: in the half width, and in the area,
+/// which goes at most with its square.
+fn read_with(key: &str, value: f64, (width, reading): (f64, &EdgeReading)) -> f64 {
+    match key {
+        "half_width" => reading.error,
+        "contact_area" if width > 0.0 => 2.0 * value * reading.error / width,
+        _ => 0.0,
+    }
+}
+
 /// All quantities of a run whose error is estimated, as far as the scene has contact and yields:
 /// those at first yield, then those of each state.
 pub fn quantities(results: &Results) -> Vec<Quantity> {
@@ -61,14 +71,13 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
         .flat_map(known)
         .collect();
     let mut out: Vec<Quantity> = Vec::new();
-    let mut add = |prefix: &str, key: &str, value: f64, reading: &EdgeReading, least: f64| {
+    let mut add = |prefix: &str, key: &str, value: f64, reading: f64, least: f64| {
         if value.is_finite() {
-            let is_read = key == "half_width";
             out.push(Quantity {
                 path: format!("{prefix}.{key}"),
                 value,
                 scale: 0.0,
-                reading: if is_read { reading.error } else { 0.0 },
+                reading,
                 least,
             });
         }
@@ -76,7 +85,9 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
     for quantity in &known {
         if let (Some(first), Some(field)) = (&results.first_yield, quantity.at_yield) {
             let value = (field.get)(first);
-            add("yield", quantity.key, value, &first.half_width_reading, 0.0);
+            let width = (first.half_width, &first.half_width_reading);
+            let reading = read_with(quantity.key, value, width);
+            add("yield", quantity.key, value, reading, 0.0);
         }
     }
     for state in &results.states {
@@ -90,13 +101,9 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
                 "plastic_zone_size" => state.plastic_zone_layer,
                 _ => 0.0,
             };
-            add(
-                &prefix,
-                quantity.key,
-                value,
-                &state.half_width_reading,
-                least,
-            );
+            let width = (state.half_width, &state.half_width_reading);
+            let reading = read_with(quantity.key, value, width);
+            add(&prefix, quantity.key, value, reading, least);
         }
     }
     let mut scales: BTreeMap<String, f64> = BTreeMap::new();
@@ -160,7 +167,7 @@ mod tests {
         results.states[0].half_width = 0.3;
         // A pressure that is not a number is no quantity.
         let all = quantities(&results);
-        assert_eq!(all.len(), 3 + 8);
+        assert_eq!(all.len(), 3 + 9);
         let width = all.iter().find(|q| q.path == "yield.half_width").unwrap();
         assert_eq!((width.reading, width.scale), (0.01, 0.3));
         assert!(all.iter().filter(|q| q.reading > 0.0).count() == 1);

@@ -6,7 +6,8 @@ use crate::error::Result;
 use crate::linalg::{Backend, Partition, Prediction};
 use crate::memory;
 use crate::model::{LoadCase, Magnitude, Model};
-use crate::results::{Effect, EndState, Sizes};
+use crate::number::exact;
+use crate::results::{Effect, EndState, LOADS_FOUND, Sizes};
 use crate::substructure::ContactCost;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -307,6 +308,27 @@ fn cycles(model: &Model) -> Effect {
     effect("cycles", model.scene.program.cycles > 1, why)
 }
 
+/// Targets whose load is the answer.
+fn loads_found(model: &Model) -> Effect {
+    let program = &model.scene.program;
+    let labels = program.labels();
+    let mut words = Vec::new();
+    for (target, label) in program.targets.iter().zip(&labels) {
+        let found = target.figures().next();
+        let what = match (found, target.half_width) {
+            (Some((figure, value)), _) => format!("{} = {}", figure.key(), exact(value)),
+            (None, Some(width)) => format!("half_width = {}", exact(width)),
+            (None, None) => continue,
+        };
+        words.push(format!("`{label}` ({what})"));
+    }
+    let why = match words.is_empty() {
+        true => "no target is a figure of the state".to_string(),
+        false => format!("the load is searched for {}", words.join(", ")),
+    };
+    effect(LOADS_FOUND, !words.is_empty(), why)
+}
+
 /// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
 /// yield.
 pub(super) fn effects(model: &Model, yields: bool, start: Option<&EndState>) -> Vec<Effect> {
@@ -400,6 +422,7 @@ pub(super) fn effects(model: &Model, yields: bool, start: Option<&EndState>) -> 
         ),
         prescribed_displacements(model),
         cycles(model),
+        loads_found(model),
         effect(
             "preload",
             preload,

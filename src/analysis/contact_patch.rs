@@ -156,6 +156,49 @@ impl Patch<'_> {
         }
     }
 
+    /// Area of the whole, images included, between two arc lengths: in the plane the width,
+    /// under revolution `int 2 pi r ds` with the radius between nodes linear in the arc length.
+    pub(super) fn area_between(&self, [from, to]: [f64; 2]) -> f64 {
+        let width = match self.model.kind {
+            Kind::Axisymmetric => 2.0 * PI * self.moment([from, to]),
+            _ => to - from,
+        };
+        let on_mirror = |k: &usize| self.mirror(*k).is_some() && self.point(*k)[0] != 0.0;
+        let images = match [self.begin, self.end - 1]
+            .iter()
+            .filter(|k| on_mirror(k))
+            .count()
+        {
+            _ if self.model.kind != Kind::Axisymmetric => 2.0 * self.half_widths(),
+            0 => 1.0,
+            1 => 2.0,
+            _ => 2.0 * self.half_widths(),
+        };
+        images * width
+    }
+
+    /// `int r ds` between two arc lengths of a surface of revolution.
+    fn moment(&self, [from, to]: [f64; 2]) -> f64 {
+        let axis = self.contact.axis.as_ref().map(|axis| (axis.pair.arc, 0.0));
+        let mut radii: Vec<(f64, f64)> = (0..self.line.len())
+            .map(|k| (self.line[k].arc, self.point(k)[0]))
+            .chain(axis)
+            .collect();
+        radii.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut sum = 0.0;
+        for (i, ends) in radii.windows(2).enumerate() {
+            let [(a, r), (b, s)] = [ends[0], ends[1]];
+            // The first and the last piece go on beyond the nodes.
+            let low = if i == 0 { from } else { from.max(a) };
+            let high = if i + 2 == radii.len() { to } else { to.min(b) };
+            if high > low && b > a {
+                let middle = 0.5 * (low + high);
+                sum += (high - low) * (r + (s - r) * (middle - a) / (b - a)).max(0.0);
+            }
+        }
+        sum
+    }
+
     /// Where contact ends beyond the place `last`, along the surface in direction `way`, read from
     /// the force of the last [`EDGE_SKIP`] pairs: see [`Tail`]. Its error is measured by a second
     /// reading with one pair more; where the pairs are too few for that, or a reading leaves its

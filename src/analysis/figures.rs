@@ -85,6 +85,7 @@ impl Reading<'_, '_> {
             pole_pressure: figures.pole_pressure,
             half_width: figures.half_width,
             half_width_reading: figures.half_width_reading,
+            contact_area: figures.area,
             contact_arc: arc,
             residual_depth: dent.depth,
             residual_depth_by_body: dent.by_body,

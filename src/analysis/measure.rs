@@ -25,6 +25,8 @@ pub struct ContactFigures {
     pub max_pressure: f64,
     /// Half width of the largest contact patch.
     pub half_width: f64,
+    /// Area of that patch, of the whole; in the plane its width.
+    pub area: f64,
     /// How well it is read.
     pub half_width_reading: EdgeReading,
     /// Sum of the contact forces of the model.
@@ -186,6 +188,7 @@ fn read_patch(patch: &Patch, out: &mut ContactFigures) {
         let from = patch.line[begin].arc;
         out.patch = Some([from, from + turn]);
         out.half_width = 0.5 * turn;
+        out.area = patch.area_between([from, from + turn]);
         out.half_width_reading = EdgeReading {
             error: 0.0,
             pairs: patch.line.len() / 2,
@@ -204,6 +207,7 @@ fn read_patch(patch: &Patch, out: &mut ContactFigures) {
     out.patch = Some([from, to]);
     let half_widths = patch.half_widths();
     out.half_width = half_widths * (to - from);
+    out.area = patch.area_between([from, to]);
     out.half_width_reading = EdgeReading {
         error: half_widths * (ends[0].reading + ends[1].reading),
         pairs: (half_widths * (patch.end - begin) as f64) as usize,
@@ -228,6 +232,7 @@ fn with_patches(mut out: ContactFigures, read: Vec<ReadPatch>) -> ContactFigures
     let strong = read.iter().filter(|read| read.patch.force >= least);
     if let Some(strongest) = strong.min_by_key(|read| read.patch.contact) {
         out.half_width = strongest.patch.semi_axes[1];
+        out.area = strongest.patch.area;
         out.half_width_reading = EdgeReading {
             error: strongest.reading,
             pairs: strongest.pairs,
@@ -252,6 +257,18 @@ impl Solver<'_> {
             &self.contact_forces(),
             self.scales.force,
         )
+    }
+
+    /// Contact figures of one contact at the current state.
+    pub(super) fn contact_figures_of(&self, contact: usize) -> ContactFigures {
+        let model = self.structure.model;
+        let mut force = self.contact_forces().into_owned();
+        for (pair, force) in model.pairs.iter().zip(&mut force) {
+            if pair.contact != contact {
+                *force = 0.0;
+            }
+        }
+        contact_figures(model, &force, self.scales.force)
     }
 
     /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration

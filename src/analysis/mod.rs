@@ -9,13 +9,13 @@
 //! | `zone`, `gather`, `region`, `zone_choice`, `zone_fit`, `scout` | elements that may yield, initial loads, their choice and growth | 4.1 |
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `collapse` | limit load, or an iteration that did not converge | |
-//! | `program`, `position`, `first_yield`, `targets`, `cycles` | the program, step by step; where it is | 5.1, 5.2 |
+//! | `program`, `position`, `first_yield`, `targets`, `target_search`, `awaited`, `unloading`, `cycles` | the program, step by step; where it is | 5.1, 5.2 |
 //! | `drive`, `elastic`, `plastic`, `stretch`, `stepping`, `landing` | along a straight piece of the load path | 4.7 to 4.23 |
 //! | `state`, `restart`, `packed` | a committed state; checkpoints, and going on from them | |
 //! | `starting` | the state that an earlier run left, and that this one leaves | |
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `path` | the path between increments | |
-//! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `quality` | pressure, half width, dent, quality of a state | 5 |
+//! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `gauges`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `element_stresses`, `stresses`, `point_values` | stresses of all elements, the forces they exert | |
 //! | `driving_force` | the force that moves what a load displaces | |
 //! | `local_yield` | yield stresses from place to place | |
@@ -26,6 +26,7 @@
 //! | `stopwatch` | what the time of a run was spent on | |
 
 mod acceleration;
+mod awaited;
 mod check;
 mod collapse;
 mod contact_area;
@@ -45,6 +46,7 @@ mod first_yield;
 mod fitted;
 mod free_strain;
 mod gather;
+mod gauges;
 mod increment;
 mod indicator;
 mod landing;
@@ -88,7 +90,9 @@ mod stresses;
 mod stretch;
 mod structure;
 mod tangent;
+mod target_search;
 mod targets;
+mod unloading;
 mod yield_load;
 mod zone;
 mod zone_border;

@@ -6,6 +6,7 @@
 use super::Analysis;
 use super::drive::{Arrival, Drive, IncrementReport, Monitor, Rules, Step, stopped};
 use super::elastic::ElasticDrive;
+use super::gauges::Gauges;
 use super::load_point::LoadPoint;
 use super::path::PathSampler;
 use super::plastic::PlasticDrive;
@@ -20,8 +21,10 @@ use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Incomplete, Quality, Results, State};
-use crate::scene::Unit;
+use crate::scene::{Target, Unit};
+use std::cell::Cell;
 use std::ops::ControlFlow;
+use std::rc::Rc;
 use std::time::Instant;
 
 /// Doublings of the load in search of first yield or of a target.
@@ -55,6 +58,10 @@ pub(super) struct Run<'m, 'o> {
     pub(super) start: Option<Start>,
     /// What vanishes at the target at hand, where it is no load factor.
     pub(super) monitor: Option<Box<Monitor<'m>>>,
+    /// Whether the target at hand was looked for with a zone outside of which unloading yields.
+    pub(super) unloads_outside: Rc<Cell<bool>>,
+    /// What each row of the history has besides.
+    pub(super) gauges: Option<Gauges>,
     /// Names of the targets.
     pub(super) labels: Vec<String>,
     pub(super) observer: &'o mut dyn Observer,
@@ -135,6 +142,7 @@ impl<'m, 'o> Run<'m, 'o> {
         *seconds = seconds.running_since(found_since);
         seconds.hand_over((start - found_since).as_secs_f64(), Row::Zone);
         run.zone.expected = expected.map(|expected| expected.ratios);
+        run.follow_sets()?;
         run.begin()?;
         Ok(run)
     }
@@ -153,6 +161,8 @@ impl<'m, 'o> Run<'m, 'o> {
             position: Position::default(),
             start: None,
             monitor: None,
+            unloads_outside: Rc::default(),
+            gauges: None,
             observer,
             results,
             path: PathSampler::default(),
@@ -199,7 +209,8 @@ impl<'m, 'o> Run<'m, 'o> {
     pub(super) fn next(&mut self) -> Result<Option<Event>> {
         loop {
             if let Some(&stop) = self.position.stops.first() {
-                if let Some(row) = self.advance(stop)? {
+                let advanced = self.advance(stop);
+                if let Some(row) = advanced.map_err(|error| self.not_reached(error))? {
                     return Ok(Some(Event::Increment(row)));
                 }
             } else if self.position.search.is_some() {
@@ -275,7 +286,10 @@ impl<'m, 'o> Run<'m, 'o> {
                 Some(drive) => run.step(drive, &end),
                 None => run.begin_drive(&end),
             })?;
-        let row = increment.map(|report| self.row(&report));
+        let mut row = increment.map(|report| self.row(&report));
+        if let (Some(row), Some(gauges)) = (&mut row, &self.gauges) {
+            row.measured = gauges.read(&mut self.solver)?;
+        }
         if row.is_some() {
             let cycle = self.labels.len().max(1) as f64;
             let cycles = self.model().scene.program.cycles as f64;
@@ -399,7 +413,15 @@ impl<'m, 'o> Run<'m, 'o> {
             trailing_solves: report.trailing_solves,
             residual: report.residual,
             event: report.event.clone(),
+            measured: Vec::new(),
         }
+    }
+
+    /// The history follows what the scene asks for.
+    pub(super) fn follow_sets(&mut self) -> Result<()> {
+        self.gauges = Gauges::of(self.model())?;
+        self.results.history_columns = Gauges::columns(self.model());
+        Ok(())
     }
 
     /// Puts the structure where the program begins: nothing acts, and what an earlier run left in
@@ -431,10 +453,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let program = &self.model().scene.program;
         let required = self.purpose == Purpose::YieldLoad
             || program.unit == Unit::Yield
-            || program
-                .targets
-                .iter()
-                .any(|t| t.first_yield || t.half_width.is_some());
+            || program.targets.iter().any(Target::needs_first_yield);
         if again && !self.position.first_yield.is_behind {
             return Err(Error::internal(
                 "the material yields under the preload, and does not when that is applied anew",

@@ -249,6 +249,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let mut run = Run::of(solver, zone, results, observer);
         run.path = record.sampler;
         run.position = position;
+        run.follow_sets()?;
         run.position.seconds = run.position.seconds.running_since(begin);
         run.start = start;
         if let Some(search) = run.position.search {

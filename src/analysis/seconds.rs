@@ -109,13 +109,15 @@ pub(super) fn gaps_are_alike(pairs: &[Pair]) -> bool {
 
 /// How often the load turns round on its way from zero to the last target, and once.
 fn ways(program: &Program) -> f64 {
-    let (mut at, mut upward, mut count) = (0.0, true, 1.0);
+    let (mut at, mut upward, mut count) = (0.0f64, true, 1.0);
     for target in &program.targets {
         let displaced = target.displacement.as_ref().map(|d| d.value.abs());
         let to = match (target.load_factor, target.half_width) {
             (Some(factor), _) => factor,
             // The load of a line contact depends on the square of its width.
             (_, Some(width)) => width * width,
+            // A figure is looked for in loading.
+            _ if target.finds_load() => at.max(1.0),
             _ => displaced.unwrap_or(1.0),
         };
         if to != at && (to > at) != upward {

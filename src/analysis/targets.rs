@@ -1,18 +1,17 @@
 //! Targets: from the current load factor to the next state that the program asks for.
 
-use super::drive::{Arrival, Monitor};
-use super::position::{FirstYield, Search, share_of_way};
-use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
+use super::drive::Arrival;
+use super::position::{FirstYield, share_of_way};
+use super::program::{Run, ZONE_ATTEMPTS};
 use super::recovery::Watched;
 use super::seconds::gaps_are_alike;
-use super::solver::Solver;
 use super::state::State;
 use super::stopwatch::Row;
 use super::zone_choice;
 use crate::error::{Error, Result};
 use crate::model::Magnitude;
 use crate::results;
-use crate::scene::{Direction, DisplacementTarget, Kind, Stepping, Target, Unit};
+use crate::scene::{Kind, Stepping, Target, Unit};
 use serde::{Deserialize, Serialize};
 
 /// Where the way to a target starts: it is gone again where the zone was too small for it.
@@ -39,10 +38,8 @@ impl<'m> Run<'m, '_> {
             self.position.stops = self.stops(alpha);
         } else if let Some(alpha) = target.load_factor {
             self.position.stops = self.stops(alpha);
-        } else if target.half_width.is_some() {
-            let monitor = self.monitor_of(1.0)?;
-            let off = monitor(&mut self.solver)?;
-            self.search(monitor, off, off < 0.0, 1.0);
+        } else if target.finds_load() {
+            self.search_figure()?;
         } else if let Some(goal) = &target.displacement {
             let off = self.monitor_of(1.0)?(&mut self.solver)?;
             let largest = goal.value.abs().max(off.abs());
@@ -70,7 +67,7 @@ impl<'m> Run<'m, '_> {
     }
 
     /// The target at hand and its name.
-    fn target(&self) -> (&'m Target, String) {
+    pub(super) fn target(&self) -> (&'m Target, String) {
         let index = self.position.target;
         let target = &self.model().scene.program.targets[index];
         (target, self.labels[index].clone())
@@ -100,7 +97,9 @@ impl<'m> Run<'m, '_> {
             Ok::<_, Error>(figures)
         })?;
         figures.state.load_is_given = target.load_factor.is_some() && self.gives_load();
+        let passed = self.passed_in_a_jump()?;
         self.monitor = None;
+        let unloads_outside = std::mem::take(&mut self.unloads_outside).take();
         let missed = figures.beyond_yield_outside;
         let start = self.start.take();
         let first_yield = &self.position.first_yield;
@@ -108,7 +107,8 @@ impl<'m> Run<'m, '_> {
             true => Watched::GaussPoints,
             false => first_yield.watched,
         };
-        if missed.is_empty() && watched == first_yield.watched {
+        if missed.is_empty() && watched == first_yield.watched && !unloads_outside {
+            self.warn(passed);
             self.position.target += 1;
             self.position.attempt = 0;
             let (model, of) = (self.solver.structure.model, &mut self.position.deformation);
@@ -135,7 +135,10 @@ impl<'m> Run<'m, '_> {
                 "target `{label}`: the material keeps yielding outside the zone that was chosen"
             )));
         }
-        if !missed.is_empty() {
+        if unloads_outside {
+            let larger = zone_choice::grown(self.model(), &self.zone.choice);
+            self.set_zone(larger)?;
+        } else if !missed.is_empty() {
             let wider = zone_choice::including(self.model(), &self.zone.choice, &missed);
             self.set_zone(wider)?;
         }
@@ -197,116 +200,6 @@ impl<'m> Run<'m, '_> {
             (false, _) => 1.0,
             (true, Kind::Axisymmetric) => 1.0 / 3.0,
             (true, _) => 0.5,
-        }
-    }
-
-    /// What vanishes at the target at hand, of order 1 where it is measured against `scale`: so the
-    /// accuracy of the search does not depend on units.
-    ///
-    /// # Errors
-    /// A target that cannot be measured.
-    pub(super) fn monitor_of(&self, scale: f64) -> Result<Box<Monitor<'m>>> {
-        let (target, label) = self.target();
-        if let Some(multiple) = target.half_width {
-            let at_yield = self.position.first_yield.point;
-            let at_yield = at_yield.map(|y| y.half_width).filter(|b| *b > 0.0);
-            let goal = at_yield
-                .map(|at_yield| multiple * at_yield)
-                .ok_or_else(|| {
-                    Error::analysis(format!(
-                        "target `{label}`: the contact half width at yield is not known"
-                    ))
-                })?;
-            return Ok(Box::new(move |solver: &mut Solver| {
-                Ok(solver.contact_figures().half_width / goal - 1.0)
-            }));
-        }
-        let Some(goal) = &target.displacement else {
-            return Err(Error::internal("a target that is not searched for"));
-        };
-        let DisplacementTarget { on, value, .. } = goal;
-        let (value, direction) = (*value, usize::from(goal.direction == Direction::Y));
-        let nodes =
-            self.model().mesh.set_nodes(on).ok_or_else(|| {
-                Error::input(format!("target `{label}`: the mesh has no set `{on}`"))
-            })?;
-        Ok(Box::new(move |solver: &mut Solver| {
-            let u = solver.all_displacements()?;
-            let (freedoms, factors) = (&solver.structure.model.freedoms, &solver.at.factors);
-            let along = |&n: &usize| freedoms.displacement(n, &u, factors)[direction];
-            let mean = nodes.iter().map(along).sum::<f64>() / nodes.len() as f64;
-            Ok((mean - value) / scale)
-        }))
-    }
-
-    /// A monitored quantity at a load factor that is a little larger, nothing yielding on the way.
-    fn a_little_ahead(&mut self, monitor: &Monitor) -> Result<f64> {
-        let before = self.solver.state();
-        let alpha = before.at.alpha;
-        let nearby = alpha + 1e-3 * alpha.abs().max(1.0);
-        let point = self.solver.structure.point(nearby);
-        let initial = before.equilibrium.initial.clone();
-        self.solver.now = self.solver.respond(&point, initial);
-        self.solver.at = point;
-        let value = monitor(&mut self.solver);
-        self.solver.restore(&before);
-        value
-    }
-
-    /// From here on the load factor moves up (doubling) or down to zero until the monitored
-    /// quantity, `off` here, vanishes.
-    pub(super) fn search(&mut self, monitor: Box<Monitor<'m>>, off: f64, upward: bool, scale: f64) {
-        self.monitor = Some(monitor);
-        self.position.search = Some(Search {
-            end: self.solver.at.alpha,
-            rounds: 0,
-            upward,
-            scale,
-            at_first: off.abs(),
-        });
-    }
-
-    /// Sets out for the next load factor of a search.
-    pub(super) fn widen_search(&mut self) -> Result<()> {
-        let Some(mut search) = self.position.search else {
-            return Ok(());
-        };
-        let begun = 0.5 * self.position.first_yield.alpha.unwrap_or(1.0);
-        let next = match (search.upward, search.end > 0.0) {
-            _ if search.rounds == DOUBLINGS => None,
-            (true, _) => Some(2.0 * search.end.max(begun)),
-            (false, true) => Some(0.0),
-            (false, false) => None,
-        };
-        let Some(next) = next else {
-            return Err(self.never_reached());
-        };
-        search.end = next;
-        search.rounds += 1;
-        self.position.search = Some(search);
-        self.position.stops = self.stops(next);
-        Ok(())
-    }
-
-    /// The monitored quantity has vanished.
-    pub(super) fn end_search(&mut self) {
-        self.position.search = None;
-        self.position.stops.clear();
-    }
-
-    fn never_reached(&mut self) -> Error {
-        let off = match &self.monitor {
-            Some(monitor) => monitor(&mut self.solver),
-            None => Ok(f64::NAN),
-        };
-        match off {
-            Ok(off) => Error::analysis(format!(
-                "target `{}` was never reached: the load factor went to {:.6} and the target \
-                 quantity is still off by {off:.6e}",
-                self.target().1,
-                self.solver.at.alpha
-            )),
-            Err(error) => error,
         }
     }
 }

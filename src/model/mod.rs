@@ -303,12 +303,15 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
     solid.map_err(|error| scene.places.in_front(key, error.within(key)))
 }
 
-/// Sets that targets name are looked up before the way to them begins.
+/// Sets that targets and the history name are looked up before the way to them begins.
 fn check_targets(scene: &Scene, mesh: &Mesh) -> Result<()> {
     for (index, target) in scene.program.targets.iter().enumerate() {
         if let Some(goal) = &target.displacement {
             Entry::of_target(scene, index).nodes(mesh, &goal.on)?;
         }
+    }
+    for (index, name) in scene.program.history.iter().enumerate() {
+        Entry::of_history(scene, index).named(mesh, name)?;
     }
     Ok(())
 }

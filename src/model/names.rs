@@ -32,6 +32,21 @@ impl<'s> Entry<'s> {
         }
     }
 
+    /// Set `index` that the history follows.
+    pub(super) fn of_history(scene: &'s Scene, index: usize) -> Self {
+        Entry {
+            scene,
+            key: format!("program.history.{index}"),
+            what: format!("history {}", index + 1),
+        }
+    }
+
+    /// The nodes of the set that it is the name of.
+    pub(super) fn named(&self, mesh: &Mesh, name: &str) -> Result<Vec<usize>> {
+        let nodes = self.found(mesh, &self.what, name);
+        nodes.map_err(|error| self.refused(error))
+    }
+
     /// Puts the entry's place in front of what is wrong with it.
     pub(super) fn refused(&self, error: Error) -> Error {
         self.scene.places.in_front(&self.key, error)
@@ -44,14 +59,16 @@ impl<'s> Entry<'s> {
 
     /// The nodes of the set that its key `on` names.
     pub(super) fn nodes(&self, mesh: &Mesh, name: &str) -> Result<Vec<usize>> {
-        let what = format!("{} on", self.what);
+        let nodes = self.found(mesh, &format!("{} on", self.what), name);
+        nodes.map_err(|error| self.refused_at("on", error))
+    }
+
+    /// The nodes of a set, for messages about `what`.
+    fn found(&self, mesh: &Mesh, what: &str, name: &str) -> Result<Vec<usize>> {
         match mesh.set_nodes(name) {
             Some(nodes) if !nodes.is_empty() => Ok(nodes),
-            Some(_) => {
-                let error = Error::input(format!("{what} `{name}`: the set is empty"));
-                Err(self.refused_at("on", error))
-            }
-            None => Err(self.refused_at("on", unknown(&what, name, &mesh.set_names()))),
+            Some(_) => Err(Error::input(format!("{what} `{name}`: the set is empty"))),
+            None => Err(unknown(what, name, &mesh.set_names())),
         }
     }
 

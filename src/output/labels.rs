@@ -112,6 +112,8 @@ impl Labels {
             Unit::Length => length.clone(),
             Unit::Stress => names.stress.clone(),
             Unit::Load => names.load.clone(),
+            Unit::Area if self.is_plane => length.clone(),
+            Unit::Area => format!("{length}\u{b2}"),
             Unit::Size if self.is_plane => format!("{length}\u{b2}"),
             Unit::Size => format!("{length}\u{b3}"),
             // Per unit thickness.

@@ -228,10 +228,9 @@ fn write_tables_and_fields(
     mesh: &Mesh,
     results: &Results,
 ) -> Result<()> {
-    staging.file(HISTORY_FILE, |out| history::write(out, &results.history))?;
-    let path = &results.path;
-    if !path.is_empty() {
-        staging.file(PATH_FILE, |out| history::write_path(out, path))?;
+    staging.file(HISTORY_FILE, |out| history::write(out, results))?;
+    if !results.path.is_empty() {
+        staging.file(PATH_FILE, |out| history::write_path(out, results))?;
     }
     staging.file(CONTACT_FILE, |out| {
         contact::write(out, header.dimension(), &results.states)

@@ -7,7 +7,7 @@
 use super::contact::Row;
 use super::rows::{rows, summary};
 use super::{CONTACT_FILE, HISTORY_FILE, Labels, PATH_FILE, RunHeader, SUMMARY_FILE};
-use super::{record, vtu_read};
+use super::{history, record, vtu_read};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::results::Results;
@@ -77,7 +77,7 @@ pub fn read(dir: &Path) -> Result<Recorded> {
             )));
         }
     }
-    results.history = rows(&dir.join(HISTORY_FILE))?;
+    (results.history, results.history_columns) = history::read(&dir.join(HISTORY_FILE))?;
     let between = dir.join(PATH_FILE);
     if between.exists() {
         results.path = rows(&between)?;

@@ -12,7 +12,7 @@ use super::labels::{Labels, in_line, labelled};
 use super::{atomic, report, rows};
 use crate::error::{Error, Result};
 use crate::files;
-use crate::results::{QUANTITIES, Quantity, Results, State, value};
+use crate::results::{Effect, LOADS_FOUND, QUANTITIES, Quantity, Results, State, value};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use std::path::Path;
@@ -207,9 +207,9 @@ impl Outcome<'_> {
         paths
     }
 
-    /// The figures that tables and charts show where none are asked for: the yield load; pressure,
-    /// extent, approach and plastic strain under the largest load; the dent at the end. Those that
-    /// are 0 in all points are left out.
+    /// The figures that tables and charts show where none are asked for: the loads that were found
+    /// for targets by a figure; the yield load; pressure, extent, approach and plastic strain under
+    /// the largest load; the dent at the end. Those that are 0 in all points are left out.
     pub(crate) fn main_paths(&self) -> Vec<String> {
         let by_load = |a: &&State, b: &&State| a.load.total_cmp(&b.load);
         let with_states = |r: &&Results| !r.states.is_empty();
@@ -229,7 +229,18 @@ impl Outcome<'_> {
             "approach",
             "max_equivalent_plastic_strain",
         ];
-        let paths = std::iter::once("yield.load".to_string())
+        let is_found = |e: &Effect| e.on && e.name == LOADS_FOUND;
+        let finds_loads = results.effects.iter().any(is_found);
+        // A load that is the same in all points is given.
+        let differs = |path: &String| {
+            let mut loads = (0..self.results.len()).filter_map(|k| self.figure(k, path));
+            let first = loads.next();
+            loads.any(|load| Some(load) != first)
+        };
+        let loads = results.states.iter().filter(|_| finds_loads);
+        let loads = loads.map(|state| format!("states.{}.load", state.name));
+        let paths = (loads.filter(differs))
+            .chain(["yield.load".to_string()])
             .chain(pressed.map(|key| format!("states.{largest}.{key}")))
             .chain([format!("states.{last}.residual_depth")]);
         paths

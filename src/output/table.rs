@@ -17,12 +17,43 @@ pub(super) fn write<Row: Serialize>(
     sample: &Row,
     rows: impl IntoIterator<Item = Row>,
 ) -> io::Result<()> {
+    write_with(
+        out,
+        sample,
+        &[],
+        rows.into_iter().map(|row| (row, Vec::new())),
+    )
+}
+
+/// As [`write`], with columns of these names behind those of the rows, and their numbers beside
+/// each row.
+///
+/// # Errors
+/// Those of `out`.
+pub(super) fn write_with<Row: Serialize>(
+    out: &mut impl Write,
+    sample: &Row,
+    columns: &[String],
+    rows: impl IntoIterator<Item = (Row, Vec<f64>)>,
+) -> io::Result<()> {
     let mut csv = csv::Writer::from_writer(out);
-    csv.write_record(cells(sample)?.iter().map(|(key, _)| key))?;
-    for row in rows {
-        csv.write_record(cells(&row)?.iter().map(|(_, cell)| cell))?;
+    let own = keys(sample)?;
+    let names = columns.iter().map(|name| shown_in_line(name).into_owned());
+    csv.write_record(own.into_iter().chain(names))?;
+    for (row, numbers) in rows {
+        let own = cells(&row)?.into_iter().map(|(_, cell)| cell);
+        let numbers = numbers.into_iter().map(|number| cell(number.into()));
+        csv.write_record(own.chain(numbers))?;
     }
     csv.flush()
+}
+
+/// Names of the columns that the fields of a row make.
+///
+/// # Errors
+/// A row without named fields.
+pub(super) fn keys(sample: &impl Serialize) -> io::Result<Vec<String>> {
+    Ok(cells(sample)?.into_iter().map(|(key, _)| key).collect())
 }
 
 /// Keys and cells of a row. By way of JSON values, where numbers that are not finite are null.
@@ -30,15 +61,15 @@ fn cells(row: &impl Serialize) -> io::Result<Vec<(String, String)>> {
     let Value::Object(fields) = serde_json::to_value(row)? else {
         return Err(io::Error::other("a row of a table has no named columns"));
     };
-    Ok(fields
-        .into_iter()
-        .map(|(key, value)| {
-            let cell = match value {
-                Value::Null => String::new(),
-                Value::String(text) => shown_in_line(&text).into_owned(),
-                other => other.to_string(),
-            };
-            (key, cell)
-        })
-        .collect())
+    // Lists are columns of their own.
+    let fields = fields.into_iter().filter(|(_, value)| !value.is_array());
+    Ok(fields.map(|(key, value)| (key, cell(value))).collect())
+}
+
+fn cell(value: Value) -> String {
+    match value {
+        Value::Null => String::new(),
+        Value::String(text) => shown_in_line(&text).into_owned(),
+        other => other.to_string(),
+    }
 }

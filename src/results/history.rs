@@ -39,6 +39,10 @@ pub struct HistoryRow {
     pub residual: f64,
     /// What ended it: `closes: pair 12`, `opens: pair 3`, `target: NAME`, `step`, `yield`.
     pub event: String,
+    /// What the scene asks for besides ([`crate::scene::Program::history`]), in the order of
+    /// [`super::Results::history_columns`].
+    #[serde(default)]
+    pub measured: Vec<f64>,
 }
 
 /// A row of `path.csv`: a point of the path between two rows of the history. Contact forces are

@@ -16,6 +16,8 @@ pub enum Unit {
     Stress,
     /// What loads: a force, in the plane per length; where a stress loads, that.
     Load,
+    /// A length in the plane, else an area.
+    Area,
     /// An area in the plane, else a volume.
     Size,
     /// An energy, in the plane per length.
@@ -184,7 +186,7 @@ const fn error(short: &'static str, is_of_points: bool, in_all: bool) -> Option<
 
 /// All quantities, in the order of `summary.json`.
 #[rustfmt::skip] // a row for each
-pub static QUANTITIES: [Quantity; 16] = [
+pub static QUANTITIES: [Quantity; 17] = [
     entry!(alpha, One, Always, [at_yield in_history on_path], heading: "load\nfactor"),
     entry!(load, Load, Always, [at_yield in_history on_path],
         heading: "load", estimated: error("load", false, true)),
@@ -198,6 +200,8 @@ pub static QUANTITIES: [Quantity; 16] = [
         estimated: error("pole", false, false)),
     entry!(half_width, Length, Contact, [at_yield in_history on_path],
         heading: "half\nwidth", estimated: error("width", false, true)),
+    entry!(contact_area, Area, Contact, [],
+        heading: "contact\narea", is_detail: true, estimated: error("area", false, false)),
     entry!(residual_depth, Length, YieldingContact, [],
         heading: "residual\ndepth", estimated: error("dent", false, true)),
     entry!(rim_height, Length, YieldingContact, []),

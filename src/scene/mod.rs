@@ -28,6 +28,7 @@ mod read;
 mod reference;
 mod requests;
 mod schema;
+mod target;
 mod tensile_test;
 mod units;
 mod unsupported;
@@ -50,8 +51,7 @@ pub use key_places::KeyPlaces;
 pub use material::{Body, Material, Plastic};
 pub use over_temperature::MaterialRow;
 pub use program::{
-    DisplacementTarget, LEAST_PATH_ERROR, PlasticIteration, Program, Settings, Stepping, Target,
-    Unit, YieldMethod,
+    LEAST_PATH_ERROR, PlasticIteration, Program, Settings, Stepping, Unit, YieldMethod,
 };
 pub(crate) use read::closest;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
@@ -59,6 +59,7 @@ pub use requests::{
     ContactForce, FileRequest, Moment, NamedSet, Print, Requests, ResultItem, Totals,
 };
 pub use schema::schema;
+pub use target::{DisplacementTarget, Target, TargetFigure};
 pub(crate) use tensile_test::beyond_yield;
 pub use units::Units;
 

@@ -1,7 +1,6 @@
 //! The load program and how it is computed.
 
-use super::Direction;
-use crate::number::exact;
+use super::Target;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
@@ -32,6 +31,12 @@ pub struct Program {
     pub gamma: f64,
     /// The targets, reached one after the other; each leaves a state.
     pub targets: Vec<Target>,
+    /// Node sets or surfaces that every row of the history follows: mean displacement of the nodes
+    /// and the force that acts on them from outside (loads and supports, the modelled sum times
+    /// `symmetry`). The approach and each contact's force and area come with them. It takes a solve
+    /// for each increment.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub history: Vec<String>,
     /// The targets again and again, at most so often: until the next cycle would be like the last.
     /// The states are those of the last cycle.
     #[serde(default = "super::defaults::cycles", skip_serializing_if = "is_one")]
@@ -60,6 +65,7 @@ impl Default for Program {
             path_error: super::defaults::path_error(),
             gamma: super::defaults::gamma(),
             targets: Vec::new(),
+            history: Vec::new(),
             cycles: super::defaults::cycles(),
             steady: super::defaults::steady(),
         }
@@ -91,52 +97,6 @@ pub enum Stepping {
     Steps,
 }
 
-/// A target: exactly one of the conditions.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Target {
-    /// Name of the state.
-    pub name: Option<String>,
-    /// `yield = true`: first yield.
-    #[serde(default, rename = "yield")]
-    pub first_yield: bool,
-    /// A load factor.
-    pub load_factor: Option<f64>,
-    /// A contact half width, as a multiple of that at first yield.
-    pub half_width: Option<f64>,
-    /// A displacement.
-    pub displacement: Option<DisplacementTarget>,
-    /// Write fields (VTU) for this state?
-    #[serde(default = "super::defaults::yes")]
-    pub fields: bool,
-}
-
-impl Target {
-    /// Name of the state that this target leaves: as given, else made from the condition (`yield`,
-    /// `alpha 1.0515`, `half width 1.5`, `displacement of top y = -0.1`). `index` counts from 0
-    /// and names a target that has neither. [`Program::labels`] keeps repeated names apart.
-    pub fn label(&self, index: usize) -> String {
-        if let Some(name) = &self.name {
-            name.clone()
-        } else if self.first_yield {
-            "yield".to_string()
-        } else if let Some(alpha) = self.load_factor {
-            format!("alpha {}", exact(alpha))
-        } else if let Some(width) = self.half_width {
-            format!("half width {}", exact(width))
-        } else if let Some(target) = &self.displacement {
-            format!(
-                "displacement of {} {} = {}",
-                target.on,
-                target.direction.name(),
-                exact(target.value)
-            )
-        } else {
-            format!("target {}", index + 1)
-        }
-    }
-}
-
 impl Program {
     /// Names of the states of all targets, made unlike each other: a made-up name that was used
     /// before gets a number, as in `alpha 1.25 (2)`. A scene that was read holds these names
@@ -165,18 +125,6 @@ impl Program {
             })
             .collect()
     }
-}
-
-/// A target displacement: the mean over a set reaches a value.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct DisplacementTarget {
-    /// Node set or surface.
-    pub on: String,
-    /// Direction.
-    pub direction: Direction,
-    /// Value of the mean displacement.
-    pub value: f64,
 }
 
 /// How to compute.

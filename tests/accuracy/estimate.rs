@@ -193,4 +193,14 @@ fn a_half_width_as_target_says_what_it_adds() {
         "{note:?}"
     );
     assert_eq!(by_load.notes, Vec::<String>::new());
+    // The load that leaves a dent is an answer with an error, the dent is what was asked for.
+    let by_dent = estimated("residual_depth = 5e-5");
+    let of = |quantity: &str| {
+        let row = by_dent.quantities.iter().find(|q| q.quantity == quantity);
+        row.unwrap().relative_error.unwrap()
+    };
+    let (load, dent) = (of("states.wide.load"), of("states.alpha 0.residual_depth"));
+    assert!(load > 1e-4 && dent < 1e-6, "{load:e} {dent:e}");
+    let note = &by_dent.notes[0];
+    assert!(note.starts_with("residual_depth as target is reached at another load"));
 }

@@ -18,6 +18,7 @@ mod solids;
 mod solvers;
 mod sweep;
 mod sweep_points;
+mod targets;
 mod watching;
 
 use std::path::PathBuf;

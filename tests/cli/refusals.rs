@@ -8,7 +8,13 @@ fn patch(old: &str, new: &str) -> Folder {
 }
 
 /// The same with values put over, as `--set` does.
-fn refused_with(name: &str, sets: &[&str], more: &[&str], code: i32, fragments: &[&str]) {
+pub(super) fn refused_with(
+    name: &str,
+    sets: &[&str],
+    more: &[&str],
+    code: i32,
+    fragments: &[&str],
+) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let scene = scene(name);
@@ -367,22 +373,6 @@ fn a_support_along_a_contact_normal() {
             "node 46",
             "support 3 on `upper.left` acts along its contact normal",
         ],
-    );
-}
-
-#[test]
-fn targets_that_are_never_reached() {
-    refused_with(
-        "thick_cylinder",
-        &[
-            "mesh.parts.0.ring.elements=[2,2]",
-            "materials.steel.plastic_modulus=1000.0",
-            "program.targets=[{name=\"far\",\
-             displacement={on=\"tube.inner\",direction=\"x\",value=-5.0}}]",
-        ],
-        &[],
-        5,
-        &["target `far` was never reached"],
     );
 }
 

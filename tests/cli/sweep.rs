@@ -22,6 +22,33 @@ fn sweep(scene: &str, more: &[&str]) -> Output {
     brinell(&[&["sweep", scene, "--vary", modulus], more].concat())
 }
 
+/// The load that answers is what a sweep shows first, with a chart: twice as stiff it is twice as
+/// large for the same approach.
+#[test]
+fn a_sweep_shows_the_loads_that_are_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = patch(folder.path());
+    let target = "program.targets=[{ name = \"hit\", approach = 1e-4 }]";
+    let output = sweep(&scene, &["--no-estimate", "--set", target, "--json"]);
+    assert!(output.status.success(), "{}", told(&output));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let load = |k: usize| {
+        found["points"][k]["figures"]["states.hit.load"]
+            .as_f64()
+            .unwrap()
+    };
+    assert!((load(1) / load(0) - 2.0).abs() < 1e-7);
+    let dir = folder.path().join("patch.sweep");
+    assert!(dir.join("sweep_states_hit_load.svg").exists());
+    let printed = sweep(&scene, &["--no-estimate", "--set", target]).stdout;
+    let printed = String::from_utf8_lossy(&printed).into_owned();
+    let first_figure = printed.lines().find(|line| line.contains("youngs_modulus"));
+    assert!(
+        first_figure.is_some_and(|line| line.contains("load")),
+        "{printed}"
+    );
+}
+
 #[test]
 fn a_sweep_has_a_row_per_point_and_goes_on_where_it_was() {
     let folder = tempfile::tempdir().unwrap();

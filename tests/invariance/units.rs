@@ -84,6 +84,7 @@ fn equivariant_of(base: &Results, scaled: &Results, [l, s, f]: [f64; 3], toleran
                 Unit::Length => (l, depth),
                 Unit::Stress => (s, 0.0),
                 Unit::Load => (f, 0.0),
+                Unit::Area => (f / s, 0.0),
                 Unit::Size => (l * f / s, 0.0),
                 Unit::Work => (l * f, 0.0),
             };
@@ -189,5 +190,28 @@ fn powers_of_two_change_no_bit() {
         (2f64.powi(30), 2f64.powi(-30)),
     ] {
         equivariant(&base, &cylinder(l, s, PLASTIC), l, s, 0.0);
+    }
+}
+
+/// Neither is one in the search for the load of a target by a figure of the state.
+#[test]
+fn targets_by_figures_change_no_bit() {
+    let direct = cylinder(1.0, 1.0, PLASTIC);
+    let (pressed, off) = (&direct.states[1], &direct.states[3]);
+    let targets = |l: f64, s: f64| {
+        let figures = [
+            ("residual_depth", 0.5 * off.residual_depth * l),
+            ("contact_area", 0.9 * pressed.contact_area * l),
+            ("max_pressure", 0.95 * pressed.max_pressure * s),
+            ("approach", 0.97 * pressed.approach * l),
+            ("contact_force", pressed.contact_force * l * s),
+        ];
+        let figures = figures.map(|(key, value)| format!("{{ {key} = {value:e} }}"));
+        format!("program.targets=[{}]", figures.join(", "))
+    };
+    let base = cylinder(1.0, 1.0, &targets(1.0, 1.0));
+    assert_eq!(base.states.len(), 5);
+    for (l, s) in [(1.0, 2f64.powi(40)), (2f64.powi(-20), 2f64.powi(30))] {
+        equivariant(&base, &cylinder(l, s, &targets(l, s)), l, s, 0.0);
     }
 }

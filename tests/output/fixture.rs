@@ -93,6 +93,7 @@ pub fn results(mesh: &Mesh) -> Results {
         pole_pressure: 299.0,
         half_width: 1.5,
         half_width_reading: Default::default(),
+        contact_area: 3.0,
         contact_arc: Some([-19.625, 19.625]),
         residual_depth: 0.01,
         residual_depth_by_body: vec![0.006, 0.004],
@@ -161,6 +162,7 @@ pub fn results(mesh: &Mesh) -> Results {
             body: 1,
         }),
         states: vec![pressed, without_fields, released],
+        history_columns: Vec::new(),
         path: vec![PathPoint {
             increment: 2,
             alpha: 0.2,

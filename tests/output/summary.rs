@@ -48,7 +48,7 @@ fn a_full_summary_obeys_the_schema_and_has_every_value() {
     let pressed = json!({
         "name": "b = 1.5 b*", "alpha": 2.0635, "load": 123.456, "contact_force": 123.4,
         "closed_pairs": 1, "max_pressure": 300.0, "pole_pressure": 299.0, "half_width": 1.5,
-        "contact_arc": {"from": -19.625, "to": 19.625}, "residual_depth": 0.01,
+        "contact_arc": {"from": -19.625, "to": 19.625}, "contact_area": 3.0, "residual_depth": 0.01,
         "residual_depth_by_body": {"cylinder": 0.006, "half_plane": 0.004}, "rim_height": 0.001,
         "approach": 0.3,
         "plastic_points": 7, "plastic_points_by_body": {"cylinder": 3, "half_plane": 4},

@@ -71,6 +71,7 @@ fn history_reads_back_into_its_type() {
         trailing_solves: 7,
         residual: 1e-10,
         event: "step".into(),
+        measured: Vec::new(),
     };
     let results = Results {
         history: vec![row.clone()],
@@ -98,6 +99,7 @@ fn history_reads_back_into_its_type() {
         trailing_solves: count("trailing_solves"),
         residual: number("residual"),
         event: cell("event").into(),
+        measured: Vec::new(),
     };
     assert_eq!(read, row);
     // What is a quantity stands under its key.

@@ -4,3 +4,4 @@
 mod complementarity;
 mod path;
 mod steps;
+mod targets;

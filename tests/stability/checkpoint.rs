@@ -130,6 +130,22 @@ fn the_paper_s_cylinder_goes_on_from_every_increment() {
     assert!(same_from_everywhere(&scene, either(5, 2)) >= either(4, 10));
 }
 
+/// The search for the load that leaves a dent: looks at what unloading leaves are no part of the
+/// run's state.
+#[test]
+fn the_search_for_a_dent_goes_on_from_every_increment() {
+    let scene = load(
+        "cylinder_on_half_plane",
+        &[
+            "mesh.cylinder_on_half_plane.resolution=6",
+            "program.targets=[{ residual_depth = 5e-5 }, { load_factor = 0.0 }, \
+             { approach = 0.02 }]",
+            "program.history=[\"cylinder.top\"]",
+        ],
+    );
+    assert!(same_from_everywhere(&scene, either(5, 2)) >= either(4, 10));
+}
+
 /// Solids, interference (a preload that yields), fixed steps, the other iterations, separation and
 /// contact found again, cycles, collapse, bodies without contact, a target displacement: the number
 /// is every how many increments a run goes on from.

@@ -15,6 +15,7 @@ mod driving_force;
 mod equations;
 mod figures;
 mod flat_punch;
+mod followed;
 mod gap_load;
 mod heat;
 mod hertz_line;

@@ -415,8 +415,9 @@ impl Model {
     }
 
     /// Adds a target of the load program, which leaves a state: one of load_factor=...,
-    /// half_width=..., displacement={"on", "direction", "value"}, first_yield=True; name=...,
-    /// fields=False. A model without one has load factor 1 as its target.
+    /// half_width=..., displacement={"on", "direction", "value"}, first_yield=True, residual_depth=...
+    /// (body=...), contact_force=..., contact_area=... or max_pressure=... (contact=...), approach=...,
+    /// max_equivalent_plastic_strain=...; name=..., fields=False. A model without one has load factor 1 as its target.
     #[pyo3(signature = (*, first_yield = false, **values))]
     fn target(
         &mut self,

@@ -23,6 +23,10 @@ pub fn history<'py>(py: Python<'py>, results: &Arc<Results>) -> PyResult<Bound<'
         max_equivalent_plastic_strain, iterations, trailing_solves, residual);
     let events = results.history.iter().map(|row| row.event.as_str());
     table.set_item("event", events.collect::<Vec<&str>>())?;
+    for (place, name) in results.history_columns.iter().enumerate() {
+        let values = results.history.iter().map(|row| row.measured[place]);
+        table.set_item(name, read_only(PyArray1::from_iter(py, values).into_any())?)?;
+    }
     Ok(table)
 }
 

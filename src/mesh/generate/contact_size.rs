@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::root;
 use crate::scene::{
     CylinderOnHalfPlane, Direction, Displacement, DisplacementTarget, Field, History, Load,
-    Plastic, Scene, Unit, VectorField,
+    Plastic, Scene, TargetFigure, Unit, VectorField,
 };
 use std::f64::consts::PI;
 
@@ -20,14 +20,14 @@ const ROOM: f64 = 1.15;
 ///
 /// # Source
 /// D. Tabor, The Hardness of Metals (1951), chapter 4.
-const FULLY_PLASTIC: f64 = 3.0;
+pub(super) const FULLY_PLASTIC: f64 = 3.0;
 /// Largest square of the contact radius over `2 R h` with the depth `h`: the pile-up of a material
 /// without hardening.
 ///
 /// # Source
 /// R. Hill, B. Storakers, A. B. Zdunek, A theoretical study of the Brinell hardness test, Proc. R.
 /// Soc. A 423 (1989) 301, doi:10.1098/rspa.1989.0056.
-const PILE_UP: f64 = 1.45;
+pub(super) const PILE_UP: f64 = 1.45;
 
 /// The size of the contact: at first yield, and the largest of the load program.
 ///
@@ -203,7 +203,8 @@ fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64>
         .hertz
         .widest(most.force, most.first)
         .max(ROOM * most.asked);
-    Some(by_load.max((2.0 * PILE_UP * p.radius * most.depth).sqrt()))
+    let by_depth = (2.0 * PILE_UP * p.radius * most.depth).sqrt();
+    Some(by_load.max(by_depth).max(most.dented(p.radius)))
 }
 
 /// What the user should know before a run whose contact may become wider than its candidates, if
@@ -254,6 +255,8 @@ struct Largest {
     asked: f64,
     /// Displacement of the bodies towards each other.
     depth: f64,
+    /// Dent that is to stay.
+    dent: f64,
 }
 
 impl Largest {
@@ -263,12 +266,14 @@ impl Largest {
         let first = weaker(scene, p, |plastic| plastic != Plastic::No).ok()?;
         let program = &scene.program;
         let targets = || program.targets.iter();
+        let figures = |figure| targets().filter_map(move |t| t.value_of(figure));
         let largest =
             |values: &mut dyn Iterator<Item = f64>| values.fold(0.0f64, |m, v| m.max(v.abs()));
         let factor = largest(&mut targets().filter_map(|t| t.load_factor));
         let size = far_size(scene, p) * half_width;
-        let mut force = 0.0;
         let mut depth = largest(&mut targets().map(|t| asked_for(t.displacement.as_ref())));
+        depth = depth.max(largest(&mut figures(TargetFigure::Approach)));
+        let mut force = 0.0;
         for load in &scene.load {
             let times = match &load.history {
                 History::Proportional if program.unit == Unit::Yield => {
@@ -291,13 +296,38 @@ impl Largest {
         );
         let at_yield = first.map_or(half_width, |first| first.half_width);
         let asked = largest(&mut targets().filter_map(|t| t.half_width)) * at_yield;
+        let area = largest(&mut figures(TargetFigure::ContactArea));
+        let by_area = match hertz {
+            Hertz::Line(_) => 0.5 * area,
+            Hertz::Point(_) => (area / PI).sqrt(),
+        };
         Some(Largest {
             hertz,
             first,
-            force,
-            asked,
+            force: force.max(largest(&mut figures(TargetFigure::ContactForce))),
+            asked: asked.max(by_area),
             depth,
+            dent: largest(&mut figures(TargetFigure::ResidualDepth)),
         })
+    }
+
+    /// How wide the contact may be when the dent asked for is left behind: with the depth `d` of
+    /// the dent and the elastic sinking `P/(2 a E*)` of a fully plastic contact of radius `a` and
+    /// load `P = 3 Y pi a^2` the square of the radius is at most `2 R (d + P/(2 a E*))` times the
+    /// pile-up. `Y/E*` follows from the mean pressure at first yield, `4 E* a_1/(3 pi R)` under a
+    /// ball, which is no less than the yield stress.
+    ///
+    /// # Source
+    /// I. Sneddon, Int. J. Engng Sci. 3 (1965) 47: a flat punch sinks by `P/(2 a E*)`.
+    fn dented(&self, radius: f64) -> f64 {
+        let Some(first) = self.first.filter(|_| self.dent > 0.0) else {
+            return 0.0;
+        };
+        let yield_strain = 4.0 * first.half_width / (3.0 * PI * radius);
+        let elastic = 0.5 * FULLY_PLASTIC * PI * yield_strain;
+        // a^2 = c (d + e a)
+        let c = 2.0 * PILE_UP * radius;
+        0.5 * (c * elastic + ((c * elastic).powi(2) + 4.0 * c * self.dent).sqrt())
     }
 }
 

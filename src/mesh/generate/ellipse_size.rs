@@ -2,9 +2,13 @@
 //! the size that the mesh is made to, and nothing else.
 
 use super::EllipseSize;
+use super::contact_size::{FULLY_PLASTIC, PILE_UP};
 use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::{Error, Result};
-use crate::scene::{CurvedBodies, Direction, Field, History, Load, Scene, Unit, VectorField};
+use crate::scene::{
+    CurvedBodies, Direction, Field, History, Load, Scene, TargetFigure, Unit, VectorField,
+};
+use std::f64::consts::PI;
 
 /// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off
 /// beside their edge.
@@ -81,7 +85,16 @@ fn reach(
         .clone()
         .filter_map(|t| t.load_factor)
         .fold(0.0, largest);
-    let asked = targets.filter_map(|t| t.half_width).fold(0.0, largest);
+    let asked = targets
+        .clone()
+        .filter_map(|t| t.half_width)
+        .fold(0.0, largest);
+    let figure = |figure| {
+        let values = targets.clone().filter_map(move |t| t.value_of(figure));
+        values.fold(0.0, largest)
+    };
+    let area = figure(TargetFigure::ContactArea) / (PI * semi_axes[0] * semi_axes[1]);
+    let asked = asked.max(area.sqrt());
     let mut force = 0.0;
     for load in &scene.load {
         force += match &load.history {
@@ -94,11 +107,34 @@ fn reach(
             }
         };
     }
+    let force = force.max(figure(TargetFigure::ContactForce));
+    let dent = figure(TargetFigure::ResidualDepth);
+    let depth = figure(TargetFigure::Approach).max(match yielding {
+        Some(load) if dent > 0.0 => depth_with_dent(hertz, load, dent),
+        _ => dent,
+    });
+    let pressed = (0..2).map(|i| (2.0 * PILE_UP * hertz.radii[i] * depth).sqrt() / semi_axes[i]);
+    let asked = pressed.fold(asked, f64::max);
     let elastic = ROOM * hertz.semi_axes(force)[0] / semi_axes[0];
     let plastic = yielding.filter(|at| force > *at).map_or(0.0, |at| {
         (force / at).sqrt() * hertz.semi_axes(at)[0] / semi_axes[0]
     });
     Some(elastic.max(plastic).max(ROOM * asked))
+}
+
+/// How deep bodies are pressed together where a dent is left: the dent and the elastic sinking
+/// `P/(2 a E*)` of a fully plastic contact of radius `a` and load `3 Y pi a^2` (I. Sneddon, Int. J.
+/// Engng Sci. 3 (1965) 47), where `a^2` is at most `2 R` times the depth and the pile-up. The mean
+/// pressure at first yield is no less than `Y`.
+fn depth_with_dent(hertz: &HertzEllipse, at_yield: f64, dent: f64) -> f64 {
+    let [a, b] = hertz.semi_axes(at_yield);
+    let yield_strain = at_yield / (PI * a * b * hertz.contact_modulus);
+    let slope = 0.5 * FULLY_PLASTIC * PI * yield_strain;
+    let radius = hertz.radii.into_iter().fold(0.0, f64::max);
+    // d = dent + slope a and a^2 = c d.
+    let c = 2.0 * PILE_UP * radius;
+    let a = 0.5 * (c * slope + ((c * slope).powi(2) + 4.0 * c * dent).sqrt());
+    dent + slope * a
 }
 
 /// Total force along z of a load on a cut of the whole.

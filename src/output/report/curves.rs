@@ -3,6 +3,7 @@
 use super::along_contact::{dent_profile, pressure_profiles};
 use super::chart::{Chart, Curve, Pen};
 use super::contact_frame::ContactFrame;
+use super::followed;
 use super::profile;
 use crate::model::Model;
 use crate::output::labels::{Labels, capitalised, labelled};
@@ -76,11 +77,12 @@ pub(super) fn charts(
         out.extend(profile::chart(model, results, labels, frame));
     }
     out.extend(displacement(results, labels, !model.pairs.is_empty()));
+    out.extend(followed::charts(results, labels));
     out.extend(plastic_strain(results, labels));
     out
 }
 
-fn load_label(labels: &Labels) -> String {
+pub(super) fn load_label(labels: &Labels) -> String {
     labelled("load", labels.load())
 }
 

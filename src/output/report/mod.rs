@@ -29,6 +29,7 @@ mod cycles;
 mod drawing;
 mod fields;
 mod film;
+mod followed;
 mod magnified;
 mod outer;
 mod page;

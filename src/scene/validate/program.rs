@@ -2,8 +2,8 @@
 
 use super::Checks;
 use crate::number::exact;
-use crate::scene::{Field, History, LEAST_PATH_ERROR, Scene, Target, Unit};
-use std::collections::BTreeSet;
+use crate::scene::{Field, History, LEAST_PATH_ERROR, Scene, Target, TargetFigure, Unit};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Each increment leaves a row of the history, and each target a state with all its contact pairs.
 const MOST_STEPS: usize = 10_000_000;
@@ -74,6 +74,18 @@ impl Checks {
                 );
             }
         }
+        self.growing(&program.targets);
+        let mut followed = BTreeSet::new();
+        for (index, name) in program.history.iter().enumerate() {
+            let key = format!("program.history.{index}");
+            self.require(
+                !name.is_empty(),
+                key.as_str(),
+                "is empty; name a set of the mesh",
+            );
+            let is_new = followed.insert(name.as_str());
+            self.require(is_new, key, format!("\"{name}\" is there twice"));
+        }
         let mut names = BTreeSet::new();
         for (index, target) in program.targets.iter().enumerate() {
             let key = format!("program.targets.{index}");
@@ -98,16 +110,15 @@ impl Checks {
     }
 
     fn target(&mut self, key: &str, target: &Target, scene: &Scene) {
-        self.exactly_one(
-            key,
-            "target condition",
-            &[
-                ("yield", target.first_yield),
-                ("load_factor", target.load_factor.is_some()),
-                ("half_width", target.half_width.is_some()),
-                ("displacement", target.displacement.is_some()),
-            ],
-        );
+        let mut conditions = vec![
+            ("yield", target.first_yield),
+            ("load_factor", target.load_factor.is_some()),
+            ("half_width", target.half_width.is_some()),
+            ("displacement", target.displacement.is_some()),
+        ];
+        let asked = |figure: TargetFigure| (figure.key(), target.value_of(figure).is_some());
+        conditions.extend(TargetFigure::ALL.map(asked));
+        self.exactly_one(key, "target condition", &conditions);
         if target.first_yield {
             self.needs_yield(&format!("{key}.yield"), "true", scene);
         }
@@ -121,6 +132,7 @@ impl Checks {
             );
             self.needs_yield(&key, "a multiple of the half width at first yield", scene);
         }
+        self.target_figure(key, target, scene);
         if let Some(displacement) = &target.displacement {
             self.require(
                 !displacement.on.is_empty(),
@@ -132,6 +144,84 @@ impl Checks {
                 format!("{key}.displacement"),
                 "no load changes with the load factor, so nothing moves",
             );
+        }
+    }
+
+    /// What a target by a figure needs.
+    fn target_figure(&mut self, key: &str, target: &Target, scene: &Scene) {
+        let given: Vec<_> = target.figures().collect();
+        for &(figure, value) in &given {
+            let key = format!("{key}.{}", figure.key());
+            self.positive(key.as_str(), value);
+            self.require(
+                !scene.contact.is_empty() || !figure.needs_contact(),
+                key.as_str(),
+                "the scene has no contact; add a [[contact]] or choose another target",
+            );
+            if figure.stays() {
+                self.needs_yield(&key, "what yielding leaves", scene);
+            }
+            self.require(
+                scene.any_load_varies(),
+                key.as_str(),
+                "no load changes with the load factor, so it stays as it is",
+            );
+        }
+        let any = |holds: fn(TargetFigure) -> bool| given.iter().any(|(figure, _)| holds(*figure));
+        if let Some(body) = &target.body {
+            let key = format!("{key}.body");
+            self.require(
+                any(|figure| figure == TargetFigure::ResidualDepth),
+                key.as_str(),
+                "belongs to `residual_depth`, which is not given",
+            );
+            let known: Vec<&str> = scene.bodies.keys().map(String::as_str).collect();
+            self.require(
+                known.contains(&body.as_str()),
+                key.as_str(),
+                format!(
+                    "the scene has no body \"{body}\"; it has {}",
+                    known.join(", ")
+                ),
+            );
+        }
+        if let Some(number) = target.contact {
+            let key = format!("{key}.contact");
+            self.require(
+                any(TargetFigure::is_of_contact),
+                key.as_str(),
+                "belongs to `contact_force`, `contact_area` or `max_pressure`, none of which is \
+                 given",
+            );
+            self.require(
+                (1..=scene.contact.len()).contains(&number),
+                key.as_str(),
+                format!(
+                    "{number}: contacts count from 1, and the scene has {}",
+                    scene.contact.len()
+                ),
+            );
+        }
+    }
+
+    /// What yielding leaves does not go back: a target by it must be more than those before.
+    fn growing(&mut self, targets: &[Target]) {
+        let mut largest: BTreeMap<(&str, Option<&str>), f64> = BTreeMap::new();
+        for (index, target) in targets.iter().enumerate() {
+            for (figure, value) in target.figures().filter(|(figure, _)| figure.stays()) {
+                let of = (figure.key(), target.body.as_deref());
+                let before = largest.entry(of).or_insert(value);
+                self.require(
+                    value >= *before,
+                    format!("program.targets.{index}.{}", figure.key()),
+                    format!(
+                        "{} is less than the {} of an earlier target, and no load takes it back",
+                        exact(value),
+                        exact(*before)
+                    ),
+                );
+                *before = before.max(value);
+            }
         }
     }
 

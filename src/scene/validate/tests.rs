@@ -50,6 +50,12 @@ fn refused(make: fn() -> Scene, cases: &[(Spoil, &str)]) {
     }
 }
 
+fn by_figure(set: impl Fn(&mut Target)) -> Target {
+    let mut target = Target::default();
+    set(&mut target);
+    target
+}
+
 fn target(scene: &mut Scene, target: Target) {
     scene.program.targets = vec![target];
 }
@@ -320,6 +326,75 @@ fn programs_settings_and_references() {
             (
                 |s| s.program.targets[4].half_width = Some(0.0),
                 "program.targets.4.half_width: 0 must be greater",
+            ),
+            (
+                |s| {
+                    let both = Target {
+                        residual_depth: Some(1e-3),
+                        approach: Some(1.0),
+                        ..Target::default()
+                    };
+                    target(s, both);
+                },
+                "2 of target condition given (residual_depth, approach)",
+            ),
+            (
+                |s| target(s, by_figure(|t| t.contact_force = Some(-5.0))),
+                "program.targets.0.contact_force: -5 must be greater",
+            ),
+            (
+                |s| {
+                    let named = |t: &mut Target| {
+                        (t.residual_depth, t.body) = (Some(1.0), Some("roller".into()));
+                    };
+                    target(s, by_figure(named));
+                },
+                "targets.0.body: the scene has no body \"roller\"; it has cylinder, half_plane",
+            ),
+            (
+                |s| {
+                    let numbered = |t: &mut Target| {
+                        (t.max_pressure, t.contact) = (Some(1.0), Some(2));
+                    };
+                    target(s, by_figure(numbered));
+                },
+                "program.targets.0.contact: 2: contacts count from 1, and the scene has 1",
+            ),
+            (
+                |s| {
+                    let of_contact = |t: &mut Target| {
+                        (t.approach, t.contact) = (Some(1.0), Some(1));
+                    };
+                    target(s, by_figure(of_contact));
+                },
+                "program.targets.0.contact: belongs to `contact_force`",
+            ),
+            (
+                |s| {
+                    let of_body = |t: &mut Target| {
+                        (t.approach, t.body) = (Some(1.0), Some("cylinder".into()));
+                    };
+                    target(s, by_figure(of_body));
+                },
+                "program.targets.0.body: belongs to `residual_depth`",
+            ),
+            (
+                |s| {
+                    target(s, by_figure(|t| t.residual_depth = Some(2.0)));
+                    let less = by_figure(|t| t.residual_depth = Some(1.0));
+                    s.program.targets.push(less);
+                },
+                "program.targets.1.residual_depth: 1 is less than the 2 of an earlier target",
+            ),
+            (
+                |s| {
+                    target(
+                        s,
+                        by_figure(|t| t.max_equivalent_plastic_strain = Some(0.1)),
+                    );
+                    s.bodies.values_mut().for_each(|b| b.plastic = Plastic::No);
+                },
+                "max_equivalent_plastic_strain: what yielding leaves, but no body",
             ),
             (
                 |s| s.contact.clear(),

@@ -1,0 +1,122 @@
+//! Charts of what the history follows: the load against the approach in every increment, with the
+//! stiffness with which unloading begins, and the force on each set against its displacement.
+
+use super::chart::{Chart, Pen};
+use super::curves::{Titled, curve, load_label};
+use crate::number::significant;
+use crate::output::labels::{Labels, labelled};
+use crate::results::Results;
+use plotters::prelude::SeriesLabelPosition;
+
+/// Share of the largest load below which a force is round-off, or what keeps a body in place.
+const ROUND_OFF: f64 = 1e-6;
+
+/// The charts of a run; none where its history follows nothing.
+pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
+    let columns = &results.history_columns;
+    let column = |name: &str| columns.iter().position(|column| column == name);
+    let mut out = Vec::new();
+    if let Some(approach) = column("approach") {
+        let rows = results.history.iter();
+        let points: Vec<[f64; 2]> = rows.map(|row| [row.measured[approach], row.load]).collect();
+        let stiffness = unloading_stiffness(&points).map_or(String::new(), |stiffness| {
+            let unit = match (labels.load(), labels.length()) {
+                ("", _) | (_, "") => String::new(),
+                (load, length) => format!(" {load}/{length}"),
+            };
+            let stiffness = significant(stiffness, 6);
+            format!(" Unloading begins with a stiffness of {stiffness}{unit}.")
+        });
+        out.push(titled(
+            "load_against_approach".to_string(),
+            "Load against approach, increment by increment".to_string(),
+            format!("How far the loads move the bodies towards each other.{stiffness}"),
+            [labelled("approach", labels.length()), load_label(labels)],
+            points,
+        ));
+    }
+    let loads = results.history.iter().map(|row| row.load.abs());
+    let largest = loads.fold(0.0, f64::max);
+    for (number, name) in sets(columns).into_iter().enumerate() {
+        for axis in ["x", "y", "z"] {
+            let both = ["displacement", "force"].map(|key| column(&format!("{name}.{key}_{axis}")));
+            let [Some(moved), Some(force)] = both else {
+                continue;
+            };
+            let rows = results.history.iter();
+            let points: Vec<[f64; 2]> = rows
+                .map(|row| [row.measured[moved], row.measured[force]])
+                .collect();
+            // What is held or free along an axis shows nothing there, but round-off.
+            let size = |k: usize| points.iter().fold(0.0f64, |m, p| m.max(p[k].abs()));
+            if size(0) == 0.0 || size(1) <= ROUND_OFF * largest {
+                continue;
+            }
+            out.push(titled(
+                format!("followed_{}_{axis}", number + 1),
+                format!("Force on {name} against its displacement along {axis}"),
+                "Sum over the nodes of the set, and their mean, increment by increment."
+                    .to_string(),
+                [
+                    labelled("mean displacement", labels.length()),
+                    labelled("force", labels.load()),
+                ],
+                points,
+            ));
+        }
+    }
+    out
+}
+
+/// Names of the sets among the columns, in their order.
+fn sets(columns: &[String]) -> Vec<&str> {
+    let names = columns.iter();
+    names
+        .filter_map(|column| column.strip_suffix(".displacement_x"))
+        .collect()
+}
+
+/// Slope with which a curve of force over depth comes down from its largest force: that of the
+/// first increment after it, up to whose end contact is as it was. `None` where it does not come
+/// down.
+fn unloading_stiffness(points: &[[f64; 2]]) -> Option<f64> {
+    let top = (0..points.len()).max_by(|&a, &b| points[a][1].total_cmp(&points[b][1]))?;
+    let [from, to] = [points[top], *points.get(top + 1)?];
+    let slope = (from[1] - to[1]) / (from[0] - to[0]);
+    (slope.is_finite() && slope > 0.0).then_some(slope)
+}
+
+fn titled(
+    name: String,
+    title: String,
+    caption: String,
+    labels: [String; 2],
+    points: Vec<[f64; 2]>,
+) -> Titled {
+    Titled {
+        name,
+        title,
+        caption,
+        chart: Chart {
+            labels,
+            curves: vec![curve("", 0, Pen::Line, points)],
+            from_zero: [true; 2],
+            widened: 0.0,
+            legend: SeriesLabelPosition::LowerRight,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stiffness_is_that_of_the_first_increment_after_the_largest_force() {
+        let there_and_back = [[0.0, 0.0], [1.0, 4.0], [2.0, 10.0], [1.9, 9.0], [1.5, 0.0]];
+        let stiffness = unloading_stiffness(&there_and_back).unwrap();
+        assert!((stiffness - 10.0).abs() < 1e-12);
+        assert_eq!(unloading_stiffness(&there_and_back[..3]), None);
+        assert_eq!(unloading_stiffness(&[]), None);
+    }
+}
