@@ -4,7 +4,7 @@ use super::plastic::increments_of_a_leg;
 use crate::linalg::{Backend, Prediction};
 use crate::model::{Model, Pair};
 use crate::results::Sizes;
-use crate::scene::{Program, Stepping};
+use crate::scene::{Program, Stepping, Target};
 use crate::substructure::ContactCost;
 
 /// Floating point operations per second of large supernodes on one thread, and the same of faer:
@@ -67,7 +67,8 @@ fn solves(model: &Model) -> f64 {
     };
     let [growing, alike] = [pairs_of(false), pairs_of(true)];
     let changes = CHANGES[0] * growing + CHANGES[1] * alike;
-    let ways = ways(program);
+    let goals = goals(program);
+    let ways = ways(&goals);
     let mut yielding = model.materials.iter().zip(&model.may_yield);
     let soft = yielding.any(|(material, may)| {
         let slope = material
@@ -86,9 +87,9 @@ fn solves(model: &Model) -> f64 {
         Stepping::Steps => SOLVES_OF_LONG[kind] * program.steps as f64 * n_targets,
         // Every other way unloads, elastically for the most part: from change to change.
         Stepping::Auto => {
-            let loading = (0.5 * ways).ceil();
-            let each = increments_of_a_leg(program.path_error);
-            SOLVES_OF_LONG[kind] * (loading * each + 0.5 * n_targets) + (ways - loading) * changes
+            let loading = loading_increments(&goals, increments_of_a_leg(program.path_error));
+            let back = ways - (0.5 * ways).ceil();
+            SOLVES_OF_LONG[kind] * loading + back * changes
         }
     }
 }
@@ -107,12 +108,13 @@ pub(super) fn gaps_are_alike(pairs: &[Pair]) -> bool {
     span(|pair| pair.gap) <= 1e-9 * span(|pair| pair.arc)
 }
 
-/// How often the load turns round on its way from zero to the last target, and once.
-fn ways(program: &Program) -> f64 {
-    let (mut at, mut upward, mut count) = (0.0f64, true, 1.0);
-    for target in &program.targets {
+/// What the load comes to target by target, in the unit of the program or of whatever the targets
+/// ask for.
+fn goals(program: &Program) -> Vec<f64> {
+    let mut at = 0.0f64;
+    let goal = |target: &Target| {
         let displaced = target.displacement.as_ref().map(|d| d.value.abs());
-        let to = match (target.load_factor, target.half_width) {
+        at = match (target.load_factor, target.half_width) {
             (Some(factor), _) => factor,
             // The load of a line contact depends on the square of its width.
             (_, Some(width)) => width * width,
@@ -120,10 +122,33 @@ fn ways(program: &Program) -> f64 {
             _ if target.finds_load() => at.max(1.0),
             _ => displaced.unwrap_or(1.0),
         };
+        at
+    };
+    program.targets.iter().map(goal).collect()
+}
+
+/// How often the load turns round on its way from zero to the last goal, and once.
+fn ways(goals: &[f64]) -> f64 {
+    let (mut at, mut upward, mut count) = (0.0, true, 1.0);
+    for &to in goals {
         if to != at && (to > at) != upward {
             (upward, count) = (!upward, count + 1.0);
         }
         at = to;
+    }
+    count
+}
+
+/// Increments with more load than ever before in its direction, where the way from zero has `each`:
+/// they are of equal length in the square root of the load, and those up to a goal begin anew.
+fn loading_increments(goals: &[f64], each: f64) -> f64 {
+    let (mut reached, mut count) = ([0.0f64; 2], 0.0);
+    for to in goals {
+        let reached = &mut reached[usize::from(*to < 0.0)];
+        if to.abs() > *reached {
+            count += ((1.0 - (*reached / to.abs()).sqrt()) * each).ceil();
+            *reached = to.abs();
+        }
     }
     count
 }
@@ -151,4 +176,24 @@ pub(super) fn of_run(
             * (SOLVE[0]
                 + SOLVE[1] * prediction.trailing_nonzeros
                 + SOLVE[2] * sizes.zone_freedoms as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Only load beyond what was there before makes increments, the fewer the less it adds.
+    #[test]
+    fn increments_are_of_equal_length_in_the_root_of_the_load() {
+        for (goals, count) in [
+            (&[1.0][..], 16.0),
+            (&[0.25, 1.0], 24.0),
+            (&[1.0, 0.0, 1.0], 16.0),
+            (&[1.0, -1.0], 32.0),
+            (&[0.0], 0.0),
+        ] {
+            assert_eq!(loading_increments(goals, 16.0), count, "{goals:?}");
+        }
+        assert_eq!(ways(&[1.0, 0.5, 2.0, 0.0]), 4.0);
+    }
 }
