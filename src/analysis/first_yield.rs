@@ -1,7 +1,8 @@
 //! First yield of the program: where it lies, and that the zone did not miss it.
 
 use super::drive::{Arrival, stopped};
-use super::program::{DOUBLINGS, Purpose, Run, ZONE_ATTEMPTS};
+use super::position::Purpose;
+use super::program::{DOUBLINGS, Run, ZONE_ATTEMPTS};
 use super::recovery::Peak;
 use super::state::State;
 use super::zone_choice::{self, Choice};

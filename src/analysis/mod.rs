@@ -113,7 +113,8 @@ use crate::linalg::Backend;
 use crate::model::Model;
 use crate::progress::Observer;
 use crate::results::Results;
-use program::{Purpose, Run};
+use position::Purpose;
+use program::Run;
 use std::time::Instant;
 
 /// A model with its assembled system, ready to run.

@@ -40,6 +40,17 @@ pub(super) struct Position {
     pub(super) deformation: Deformation,
 }
 
+/// What is asked of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// The whole program.
+    Program,
+    /// The load at first yield.
+    YieldLoad,
+    /// The stress by which a finer mesh chooses its zone: it ends at first yield, too.
+    Zone,
+}
+
 /// A part of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) enum Stage {

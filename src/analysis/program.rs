@@ -10,7 +10,7 @@ use super::gauges::Gauges;
 use super::load_point::LoadPoint;
 use super::path::PathSampler;
 use super::plastic::PlasticDrive;
-use super::position::{Position, Stage};
+use super::position::{Position, Purpose, Stage};
 use super::restart::CheckpointWriter;
 use super::solver::Solver;
 use super::stopwatch::Row;
@@ -72,17 +72,6 @@ pub(super) struct Run<'m, 'o> {
     pub(super) purpose: Purpose,
     /// Quality of the state at first yield, where that is all that is asked for.
     pub(super) at_yield: Option<Quality>,
-}
-
-/// What is asked of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Purpose {
-    /// The whole program.
-    Program,
-    /// The load at first yield.
-    YieldLoad,
-    /// The stress by which a finer mesh chooses its zone: it ends at first yield, too.
-    Zone,
 }
 
 /// What a step of the program came to.

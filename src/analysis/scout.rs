@@ -7,7 +7,8 @@
 //! of the zone covers, and a zone that proves too small is grown as any other.
 
 use super::Analysis;
-use super::program::{Purpose, Run};
+use super::position::Purpose;
+use super::program::Run;
 use super::zone_choice::place_of_first_yield;
 use super::zone_fit::Expected;
 use crate::balls::Balls;

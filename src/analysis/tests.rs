@@ -2,7 +2,8 @@
 //! asks for first yield, loads that fall or turn, yielding far from the contact.
 
 use super::Analysis;
-use super::program::{Purpose, Run};
+use super::position::Purpose;
+use super::program::Run;
 use super::solver::Solver;
 use super::targets::Start;
 use crate::error::{Error, ErrorKind};

@@ -5,6 +5,7 @@
 //! cargo run --release --example paper_figures -- figures   # data/figures/*.svg alone
 //! cargo run --release --example paper_figures -- readings  # hardening_readings.csv alone
 //! cargo run --release --example paper_figures -- verification  # data/verification.md alone
+//! cargo run --release --example paper_figures -- validation  # data/validation.md alone
 //! ```
 
 mod chart;
@@ -12,6 +13,7 @@ mod cylinder;
 mod disc;
 mod readings;
 mod runs;
+mod validation;
 mod verification;
 mod zone;
 
@@ -22,11 +24,12 @@ fn main() -> Outcome<()> {
     let asked = |name: &str| what.is_empty() || what.iter().any(|w| w == name);
     if let Some(unknown) = what
         .iter()
-        .find(|w| !["figures", "readings", "verification"].contains(&w.as_str()))
+        .find(|w| !["figures", "readings", "verification", "validation"].contains(&w.as_str()))
     {
-        return Err(
-            format!("`{unknown}`: there are `figures`, `readings` and `verification`").into(),
-        );
+        return Err(format!(
+            "`{unknown}`: there are `figures`, `readings`, `verification` and `validation`"
+        )
+        .into());
     }
     if asked("figures") {
         std::fs::create_dir_all(runs::data("figures"))?;
@@ -38,6 +41,9 @@ fn main() -> Outcome<()> {
     }
     if asked("verification") {
         verification::write()?;
+    }
+    if asked("validation") {
+        validation::write()?;
     }
     Ok(())
 }

@@ -26,6 +26,7 @@ mod nafems_cb1;
 mod over_temperature;
 mod pin_in_hole;
 mod planes_of_symmetry;
+mod published;
 mod quality;
 mod run;
 mod shakedown;

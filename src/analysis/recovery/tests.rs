@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::analysis::Analysis;
-use crate::analysis::program::{Purpose, Run};
+use crate::analysis::position::Purpose;
+use crate::analysis::program::Run;
 use crate::linalg::Backend;
 use crate::progress::Silent;
 use crate::scene::Scene;
