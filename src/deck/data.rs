@@ -2,6 +2,7 @@
 //! place.
 
 use super::element_type::ElementType;
+use super::expansion::Expansion;
 use super::source::{Files, Place};
 use crate::scene::{ResultItem, Totals};
 use std::collections::BTreeMap;
@@ -149,8 +150,7 @@ pub(super) struct MaterialData {
     /// Whether hardening moves the yield surface: linear.
     pub(super) is_kinematic: bool,
     pub(super) density: Option<f64>,
-    /// Strain per change of temperature.
-    pub(super) expansion: Option<f64>,
+    pub(super) expansion: Option<Expansion>,
 }
 
 /// Plastic strain and yield stress, by row.

@@ -361,6 +361,19 @@ impl Keyword {
             })
     }
 
+    /// The value of a parameter that is a number, if it is given.
+    ///
+    /// # Errors
+    /// That it is none.
+    pub(super) fn number(&self, files: &Files, key: &str) -> Result<Option<f64>> {
+        let Some(value) = self.get(key) else {
+            return Ok(None);
+        };
+        let number = value.parse::<f64>().ok().filter(|value| value.is_finite());
+        let wrong = || self.error(files, format!("{key}={value} is not a number; give one"));
+        number.ok_or_else(wrong).map(Some)
+    }
+
     /// The value of a parameter in capitals, which must be one of some words; the first of them
     /// where it is not given.
     ///

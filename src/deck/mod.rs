@@ -27,6 +27,7 @@ mod constraints;
 mod conversion;
 mod data;
 mod element_type;
+mod expansion;
 mod facets;
 mod fields;
 mod history;

@@ -55,6 +55,7 @@ use crate::material::Material;
 use crate::mesh::{self, Mesh};
 use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
+use crate::shape::Integration;
 use crate::space::Vector;
 use given::Given;
 pub(crate) use mirror::Mirror;
@@ -159,6 +160,7 @@ impl Model {
             Origin::Scene => &none,
             Origin::Arrays(given) => given,
         };
+        mesh.integration = integration(scene, &mesh);
         mesh::validate(&mesh).map_err(|error| match (&origin, &scene.mesh.file) {
             (Origin::Scene, Some(file)) => error.within(file.display()),
             _ => error,
@@ -339,6 +341,17 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
         materials.push(material);
     }
     Ok((materials, may_yield))
+}
+
+/// How each body is integrated; empty where all are reduced.
+fn integration(scene: &Scene, mesh: &Mesh) -> Vec<Integration> {
+    let of = |name: &String| scene.bodies.get(name).map(|body| body.integration);
+    let of_bodies = mesh.bodies.iter().map(|name| of(name).unwrap_or_default());
+    let all: Vec<Integration> = of_bodies.collect();
+    match all.contains(&Integration::Full) {
+        true => all,
+        false => Vec::new(),
+    }
 }
 
 fn warn_of_locking(mesh: &Mesh, may_yield: &[bool], warnings: &mut Vec<String>) {

@@ -14,12 +14,14 @@ pub(crate) use geometry::Geometry;
 use super::Deck;
 use super::bodies::{Bodies, unsupported};
 use super::data::{Account, Note, Section};
+use super::element_type::has_two_rules;
 use super::series::are_alike;
 use super::temperature::OfBody;
 use crate::error::{Error, ErrorKind, Result};
 use crate::interpolation::interpolate;
 use crate::number::exact;
 use crate::scene::{Body, History, Scene, Stepping, Target};
+use crate::shape::Integration;
 use crate::space::Space;
 use draft::Draft;
 use std::collections::BTreeMap;
@@ -83,6 +85,7 @@ impl Deck {
         let temperatures = self.temperatures_of_bodies(&bodies)?;
         let mut scene = self.empty_scene(space);
         self.add_bodies(&bodies, &temperatures, &mut scene, &mut draft.places)?;
+        self.add_integration(&bodies, &mut scene, &mut account);
         draft.temperatures(&bodies, temperatures);
         scene.requests = self.requests((space, draft.thickness), options, &mut account)?;
         self.add_loads(&mut draft, &mut scene);
@@ -213,6 +216,36 @@ impl Deck {
             scene.bodies.insert(name.clone(), body);
         }
         Ok(())
+    }
+
+    /// A body with elements that are fully integrated is so as a whole.
+    fn add_integration(&self, bodies: &Bodies, scene: &mut Scene, account: &mut Account) {
+        let types = &self.elements.types;
+        let is_full = |element: usize| types[element].integration == Integration::Full;
+        for (element, &body) in bodies.of_element.iter().enumerate() {
+            if let Some(body) = scene.bodies.get_mut(&bodies.names[body as usize])
+                && is_full(element)
+            {
+                body.integration = Integration::Full;
+            }
+        }
+        // The first element of another kind in each of these.
+        let mut is_said = vec![false; bodies.names.len()];
+        for (element, &body) in bodies.of_element.iter().enumerate() {
+            let name = &bodies.names[body as usize];
+            let is_mixed = has_two_rules(types[element].shape)
+                && !is_full(element)
+                && (scene.bodies.get(name)).is_some_and(|body| !body.integration.is_reduced());
+            if is_mixed && !std::mem::replace(&mut is_said[body as usize], true) {
+                let label = self.element_name(element);
+                let text = format!(
+                    "element {label}: reduced integration there; here full, as of others in body \
+                     {name}: give it a section of its own"
+                );
+                let place = self.elements.places[element];
+                Account::add(&mut account.taken, &self.files, place, "ELEMENT", &text);
+            }
+        }
     }
 
     /// Without contact there is no event to step to: steps then take equal increments, at least as

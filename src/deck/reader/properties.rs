@@ -368,13 +368,10 @@ impl Reader<'_> {
     pub(super) fn clearance(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
         keyword.allow(files, &["MASTER", "SLAVE", "VALUE"])?;
-        let [master, slave, value] =
-            ["MASTER", "SLAVE", "VALUE"].map(|key| keyword.require(files, key));
-        let (master, slave, value) = (master?.to_string(), slave?.to_string(), value?);
-        let number = value.parse::<f64>().ok().filter(|value| value.is_finite());
-        let value = number.ok_or_else(|| {
-            keyword.error(files, format!("VALUE={value} is not a number; give one"))
-        })?;
+        let [master, slave] = ["MASTER", "SLAVE"].map(|key| keyword.require(files, key));
+        let (master, slave) = (master?.to_string(), slave?.to_string());
+        keyword.require(files, "VALUE")?;
+        let value = keyword.number(files, "VALUE")?.unwrap_or(0.0);
         self.deck.properties.clearances.push(Clearance {
             slave,
             master,
@@ -460,7 +457,7 @@ impl Reader<'_> {
 }
 
 /// Temperatures of a table are ascending.
-fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> Result<()> {
+pub(super) fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> Result<()> {
     match last.filter(|last| temperature <= *last) {
         None => Ok(()),
         Some(last) => Err(place.error(format!(

@@ -171,7 +171,8 @@ impl<'a> Tables<'a> {
         let (mesh, space) = (&self.model.mesh, self.model.kind);
         let nodes = mesh.nodes(element).iter();
         let nodes: Vec<_> = nodes.map(|&node| mesh.point(node as usize)).collect();
-        let points = volume_points(space, mesh.shapes[element], &nodes);
+        let kind = (mesh.shapes[element], mesh.integration_of(element));
+        let points = volume_points(space, kind, &nodes);
         let volume: f64 = points.map(|point| point.weight).sum();
         match space {
             Space::Axisymmetric => volume / 180.0,
