@@ -16,7 +16,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 25] = [
+const CASES: [Case; 31] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     // Flow turns, and CalculiX takes each of its increments in one step of the implicit rule; with
@@ -45,6 +45,12 @@ const CASES: [Case; 25] = [
     case("full_slice", &[], 2e-4),
     case("full_plastic", &[], 2e-4),
     case("secant", FULL, PRINTED),
+    case("equations", FULL, PRINTED),
+    case("rigid", FULL, PRINTED),
+    case("rigid_moved", FULL, PRINTED),
+    case("coupled", FULL, PRINTED),
+    case("fixed", FULL, PRINTED),
+    case("adjusted", FULL, PRINTED),
 ];
 
 const fn case(name: &'static str, overrides: &'static [&'static str], bound: f64) -> Case {

@@ -113,7 +113,7 @@ fn damage_is_told_by_line_and_keyword() {
         ),
         (
             "1, 2\n*MAT",
-            "1, 9\n*MAT",
+            "9\n*MAT",
             "line 11: *NSET: there is no node 9",
         ),
         (
@@ -343,8 +343,8 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         ),
         (
             before,
-            "*RIGID BODY, NSET=ALL, REF NODE=1\n*SOLID SECTION, ELSET=BODY",
-            "*RIGID BODY: bodies deform",
+            "*DISTRIBUTING\n1, 2\n*SOLID SECTION, ELSET=BODY",
+            "*DISTRIBUTING: nodes are tied by",
         ),
         (
             before,
@@ -358,8 +358,8 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         ),
         (
             before,
-            "*ORIENTATION, NAME=O\n1.,0.,0.,0.,1.,0.\n*SOLID SECTION, ELSET=BODY",
-            "*ORIENTATION",
+            "*COUPLING, REF NODE=1, SURFACE=S, CONSTRAINT NAME=C, ORIENTATION=O\n*SOLID SECTION, ELSET=BODY",
+            "*COUPLING: ORIENTATION",
         ),
         (
             before,

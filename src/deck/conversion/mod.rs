@@ -7,6 +7,7 @@ mod draft;
 mod equations;
 mod geometry;
 mod outputs;
+mod system;
 mod volume_loads;
 
 pub(crate) use geometry::Geometry;
@@ -76,7 +77,12 @@ impl Deck {
             let message = format!("body {} has no section", bodies.names[section]);
             return Err(self.error(self.end, "SOLID SECTION", message));
         }
-        let mut draft = Draft::new(self, self.geometry()?, self.thickness(space, &mut account)?);
+        let geometry = self.geometry()?;
+        for (name, place) in &geometry.left_out {
+            let text = format!("{name} looks both ways, and is there for results alone");
+            Account::add(&mut account.ignored, &self.files, *place, "SURFACE", &text);
+        }
+        let mut draft = Draft::new(self, geometry, self.thickness(space, &mut account)?);
         draft.conditions()?;
         draft.contacts(&mut account)?;
         draft.contact_changes(&mut account)?;

@@ -206,13 +206,6 @@ impl Reader<'_> {
             }
             _ => {}
         }
-        if keyword.has("FIXED") {
-            self.refuse(
-                keyword,
-                keyword.place,
-                "FIXED: give the displacement as a value",
-            );
-        }
         Ok(amplitude)
     }
 
@@ -241,6 +234,7 @@ impl Reader<'_> {
                     range,
                     value,
                     amplitude: amplitude.clone(),
+                    is_fixed: keyword.has("FIXED"),
                     place: line.place,
                 });
             }
@@ -256,10 +250,10 @@ impl Reader<'_> {
             let freedom = row.label("the degree of freedom")? as usize;
             let value = row.number("the force")?;
             row.end()?;
-            if !(1..=3).contains(&freedom) {
+            if !(1..=6).contains(&freedom) {
                 return Err(row.place.error(format!(
-                    "degree of freedom {freedom}: forces act along 1, 2 and 3; moments and heat \
-                     are not"
+                    "degree of freedom {freedom}: forces act along 1, 2 and 3, moments about 4, 5 \
+                     and 6 of a reference node; heat flows do not"
                 )));
             }
             self.add(Condition {
@@ -268,6 +262,7 @@ impl Reader<'_> {
                 range: [freedom; 2],
                 value,
                 amplitude: amplitude.clone(),
+                is_fixed: false,
                 place: line.place,
             });
         }
@@ -302,6 +297,7 @@ impl Reader<'_> {
                         range: [index; 2],
                         value,
                         amplitude: amplitude.clone(),
+                        is_fixed: false,
                         place: line.place,
                     });
                     continue;
@@ -386,6 +382,7 @@ impl Reader<'_> {
             range: [face; 2],
             value,
             amplitude: amplitude.clone(),
+            is_fixed: false,
             place: line.place,
         });
     }

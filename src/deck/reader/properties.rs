@@ -3,8 +3,8 @@
 use super::mesh::target;
 use super::{Reader, fields};
 use crate::deck::data::{
-    Clearance, ContactPair, Equation, Hardening, Interaction, MaterialData, Section, TiedPair,
-    Transform,
+    Adjust, Clearance, ContactPair, Equation, Hardening, Interaction, MaterialData, Section,
+    Target, TiedPair, Transform,
 };
 use crate::deck::fields::Where;
 use crate::deck::keyword::Keyword;
@@ -129,15 +129,17 @@ impl Reader<'_> {
 
     pub(super) fn section(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
-        keyword.allow(files, &["ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"])?;
+        let known = ["ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET"];
+        keyword.allow(files, &known)?;
         let elements = keyword.require(files, "ELSET")?.to_string();
         let material = keyword.require(files, "MATERIAL")?.to_string();
         if keyword.has("ORIENTATION") {
-            self.refuse(
-                keyword,
-                keyword.place,
-                "materials are isotropic: take ORIENTATION out",
-            );
+            let how = "ORIENTATION: materials are isotropic, stresses are along x, y, z";
+            self.take(keyword, keyword.place, how);
+        }
+        if keyword.has("OFFSET") {
+            let why = "OFFSET: sections of solids and of the plane have none";
+            self.ignore(keyword, keyword.place, why);
         }
         let mut thickness = None;
         if let Some(line) = self.source.next_data()? {
@@ -271,14 +273,17 @@ impl Reader<'_> {
         let interaction = keyword.require(files, "INTERACTION")?.to_string();
         let adjust = match keyword.get("ADJUST") {
             Some(text) => match text.parse::<f64>() {
-                Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(distance),
-                _ => {
+                Ok(distance) if distance >= 0.0 && distance.is_finite() => {
+                    Some(Adjust::Within(distance))
+                }
+                Ok(_) => {
                     let why = format!(
-                        "ADJUST={text}: only a distance, 0 or more, is read; give one or take it \
+                        "ADJUST={text}: give a distance, 0 or more, or a set of nodes, or take it \
                          out"
                     );
                     return Err(keyword.error(files, why));
                 }
+                Err(_) => Some(Adjust::Nodes(Target::Set(text.to_string()))),
             },
             None => None,
         };
@@ -292,7 +297,8 @@ impl Reader<'_> {
                 slave,
                 master,
                 interaction: interaction.clone(),
-                adjust,
+                adjust: adjust.clone(),
+                is_closed: false,
                 place: line.place,
             });
             is_first = false;
@@ -387,9 +393,9 @@ impl Reader<'_> {
         while let Some(first) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, first);
             let n = row.label("the number of terms")?;
-            if !(2..=MOST_TERMS).contains(&n) {
+            if !(1..=MOST_TERMS).contains(&n) {
                 return Err(row.place.error(format!(
-                    "{n} terms; give at least 2 and at most {MOST_TERMS}"
+                    "{n} terms; give at least 1 and at most {MOST_TERMS}"
                 )));
             }
             row.end()?;

@@ -81,6 +81,7 @@ impl Reader<'_> {
                 range: [1; 2],
                 value,
                 amplitude: amplitude.clone(),
+                is_fixed: false,
                 place: line.place,
             });
         }
