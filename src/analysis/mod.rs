@@ -103,6 +103,7 @@ pub(crate) use recovery::left_of_search;
 
 use crate::assembly::{System, assemble};
 use crate::checkpoint::{Checkpoints, Identity, Store};
+use crate::deck::words;
 use crate::error::Result;
 use crate::linalg::Backend;
 use crate::model::Model;
@@ -127,7 +128,8 @@ impl Analysis {
     pub fn new(mut model: Model, backend: Backend) -> Result<Self> {
         let start = Instant::now();
         model.start = starting::read(&model)?;
-        let system = assemble(&model, backend)?;
+        let system = assemble(&model, backend);
+        let system = system.map_err(|error| words::of_deck(&model.scene, error))?;
         let timings = vec![("assembly".to_string(), start.elapsed().as_secs_f64())];
         Ok(Analysis {
             model,
@@ -175,7 +177,8 @@ impl Analysis {
     /// # Errors
     /// Failures before the first state: factorisation, yield load, a body that is not held.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        program::complete(program::Run::new(self, observer)?)
+        let results = program::Run::new(self, observer).and_then(program::complete);
+        results.map_err(|error| words::of_deck(&self.model.scene, error))
     }
 
     /// As [`Analysis::run`], and writes checkpoints on the way: should the process be killed,

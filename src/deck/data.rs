@@ -354,6 +354,8 @@ pub(super) struct OutputRequest {
     /// Slave and master surface of a contact.
     pub(super) contact: Option<[String; 2]>,
     pub(super) totals: Totals,
+    /// Whether vectors are along x, y, z at nodes with axes of their own, too.
+    pub(super) is_global: bool,
     pub(super) place: Place,
 }
 

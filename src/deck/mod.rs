@@ -44,6 +44,7 @@ mod source;
 mod temperature;
 #[cfg(test)]
 mod tests;
+pub(crate) mod words;
 
 pub use conversion::{Conversion, Options};
 pub use data::{Account, Note};

@@ -50,6 +50,7 @@ pub use springs::Spring;
 pub use sums::Sums;
 pub use yield_depth::YieldByDepth;
 
+use crate::deck::words;
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh};
@@ -123,8 +124,8 @@ impl Model {
     /// Input errors naming the scene entry and the node, body or set; [`crate::ErrorKind::Unheld`]
     /// where a body can move freely and the loads do work on that motion.
     pub fn new(scene: &Scene) -> Result<Self> {
-        let mesh = build_mesh(scene)?;
-        Self::resolve(scene, mesh, Origin::Scene)
+        let made = build_mesh(scene).and_then(|mesh| Self::resolve(scene, mesh, Origin::Scene));
+        made.map_err(|error| words::of_deck(scene, error))
     }
 
     /// The model of a scene on a given mesh (its `mesh` entry is ignored).
@@ -188,10 +189,16 @@ impl Model {
             &normals,
             (&ties, &equations),
         )?;
-        if freedoms.settle(&mut mesh, &followers)? {
-            mesh::validate(&mesh).map_err(|e| {
-                e.within("the mesh whose tied nodes are moved onto what they follow")
-            })?;
+        let before = mesh.coordinates.clone();
+        if freedoms.settle(&mut mesh, &followers)?
+            && let Err(error) = mesh::validate(&mesh)
+        {
+            mesh.coordinates = before;
+            warnings.push(format!(
+                "tied nodes stay where they are, and bodies that turn together strain a little: \
+                 moved onto what they follow, {}",
+                error.message()
+            ));
         }
         freedoms.basis.restate(&mut pairs, &contacts);
         let mut loads = loads::resolve(scene, &mesh, given, &freedoms)?;

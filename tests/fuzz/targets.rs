@@ -143,11 +143,14 @@ impl Seeds {
         let meshes = [
             texts("data/meshes", "msh"),
             texts("tests/fuzz/seeds", "msh"),
+            // Binary ones of Gmsh.
+            texts("tests/decks/programs", "msh"),
         ]
         .concat();
         let decks = [
             texts("tests/decks", "inp"),
             texts("tests/fuzz/seeds", "inp"),
+            texts("tests/decks/programs", "inp"),
         ]
         .concat();
         assert!(scenes.len() > 20 && meshes.len() > 2 && decks.len() > 12);

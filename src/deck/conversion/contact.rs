@@ -31,6 +31,7 @@ impl Draft<'_> {
                 self.deck.indices(What::Nodes, set, at)?;
             }
             contact.gap = pair.is_closed.then_some(0.0);
+            contact.held = true;
             self.clear(pair, &mut contact, account);
             contact.overlap = contact.gap.is_none();
             let key = format!("contact.{}", self.contacts.len());

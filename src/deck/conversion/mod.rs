@@ -59,7 +59,7 @@ impl Deck {
     /// and keyword for what does not fit together.
     pub fn convert(&self, options: Options) -> Result<Conversion> {
         let mut account = self.account.clone();
-        self.judge_nlgeom(options, &mut account);
+        let large = self.judge_nlgeom(options, &mut account);
         if !account.refused.is_empty() {
             let lines: Vec<String> = account.refused.iter().map(Note::to_string).collect();
             return Err(Error::new(ErrorKind::Unsupported, lines.join("\n")));
@@ -94,6 +94,7 @@ impl Deck {
         self.add_integration(&bodies, &mut scene, &mut account);
         draft.temperatures(&bodies, temperatures);
         scene.requests = self.requests((space, draft.thickness), options, &mut account)?;
+        scene.requests.large = large;
         self.add_loads(&mut draft, &mut scene);
         self.choose_stepping(&draft, &mut scene);
         scene.support = std::mem::take(&mut draft.supports);
@@ -108,20 +109,18 @@ impl Deck {
         })
     }
 
-    fn judge_nlgeom(&self, options: Options, account: &mut Account) {
-        let Some(place) = self.nlgeom else { return };
-        let (list, text) = match options.small_strain {
-            true => (
-                &mut account.taken,
-                "NLGEOM: strains and displacements are taken to be small all the same",
-            ),
-            false => (
-                &mut account.refused,
-                "NLGEOM: strains and displacements are small here; take it out, or compute with \
-                 --small-strain",
-            ),
+    /// Where large displacements are asked for, small ones are computed: whether they are is
+    /// measured at the end, unless the user has said that they are to be taken so.
+    fn judge_nlgeom(&self, options: Options, account: &mut Account) -> Option<String> {
+        let place = self.nlgeom?;
+        let text = match options.small_strain {
+            true => "NLGEOM: strains and displacements are taken to be small all the same",
+            false => {
+                "NLGEOM: strains and displacements are taken to be small; the run measures them"
+            }
         };
-        Account::add(list, &self.files, place, "STEP", text);
+        Account::add(&mut account.taken, &self.files, place, "STEP", text);
+        (!options.small_strain).then(|| self.files.show(place))
     }
 
     /// The one thickness of a plane model: forces are per unit of it.

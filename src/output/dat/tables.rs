@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::output::slaves::Slaves;
 use crate::results::{Fields, State};
 use crate::scene::{Print, ResultItem, Totals};
-use crate::space::Space;
+use crate::space::{Space, dot};
 use std::io::{self, Write};
 
 /// Writes tables of a model.
@@ -104,7 +104,15 @@ impl<'a> Tables<'a> {
         writeln!(out, "\n {head}\n")?;
         for (label, node) in self.nodes(print) {
             let vector = self.vector(node, values).map(|v| factor * v);
-            writeln!(out, "{label:10}{}", row(&vector))?;
+            // Marked as CalculiX marks it.
+            let own = self.model.scene.requests.axes.get(&label);
+            match own.filter(|_| !print.is_global) {
+                Some(axes) => {
+                    let vector = axes.map(|axis| dot(axis, vector));
+                    writeln!(out, "{label:10}{} L", row(&vector))?;
+                }
+                None => writeln!(out, "{label:10}{}", row(&vector))?,
+            }
         }
         Ok(())
     }

@@ -1,0 +1,40 @@
+//! Slaves that supports hold against contact.
+
+use super::{Found, Pair, list};
+use crate::error::{Error, Result};
+use crate::mesh::Mesh;
+
+/// Takes out the pairs of slaves that supports hold along their normals: what presses there goes
+/// into the supports.
+///
+/// # Errors
+/// Supports hold all slaves.
+pub(super) fn leave_to_supports(
+    found: &mut Found,
+    is_held: impl Fn(&Pair) -> bool,
+    (mesh, what): (&Mesh, &str),
+    notes: &mut Vec<String>,
+) -> Result<()> {
+    let held: Vec<usize> = (found.pairs.iter().filter(|pair| is_held(pair)))
+        .map(|pair| pair.slave)
+        .collect();
+    let Some(&node) = held.first() else {
+        return Ok(());
+    };
+    let of_held = found.pairs.iter().filter(|pair| is_held(pair));
+    found.held = of_held.flat_map(Pair::nodes).collect();
+    found.pairs.retain(|pair| !is_held(pair));
+    if found.pairs.is_empty() {
+        return Err(Error::input(format!(
+            "supports hold all nodes of both surfaces along the contact normal, such as node {}: \
+             nothing can touch",
+            mesh.node_label(node)
+        )));
+    }
+    notes.push(format!(
+        "{what}: supports hold {} along the contact normal: they bear what presses there, and no \
+         contact force is counted",
+        list(mesh, &held)
+    ));
+    Ok(())
+}
