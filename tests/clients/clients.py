@@ -17,7 +17,7 @@ import time
 import FreeCAD
 from femtools import ccxtools
 
-# Example of FreeCAD, what it shows, and whether elements of the plane or shells are in it.
+# Example of FreeCAD, what it shows, and what explains a difference.
 EXAMPLES = [
     ("ccx_cantilever_faceload", "face load"),
     ("ccx_cantilever_nodeload", "forces on nodes"),
@@ -25,11 +25,13 @@ EXAMPLES = [
     ("ccx_cantilever_ele_tetra4", "linear tetrahedra"),
     ("ccx_cantilever_ele_hexa20", "C3D20"),
     ("boxanalysis_static", "pressure, forces"),
-    ("constraint_contact_solid_solid", "contact"),
-    ("constraint_tie", "tie"),
+    ("constraint_contact_solid_solid", "contact", "ccx' contact is a spring, here it is hard "
+     "up to the slope of the deck; nodes at the edge are held"),
+    ("constraint_tie", "tie", "three nodes in a line are fixed, about which it turns freely: "
+     "the displacements are anybody's, the stresses count; the tie holds in the mean"),
     ("constraint_section_print", "section print"),
     ("constraint_selfweight_cantilever", "own weight"),
-    ("constraint_centrif", "rotation"),
+    ("constraint_centrif", "rotation", "nothing holds the disc along x: ccx moves it by kilometres"),
     ("constraint_transform_torque", "transform"),
     ("material_nl_platewithhole", "plasticity"),
     ("material_multiple_bendingbeam_fiveboxes", "several materials"),
@@ -107,7 +109,7 @@ def main():
     out = os.environ["CLIENTS_OUT"]
     chosen = os.environ.get("CLIENTS_ONLY", "").split()
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-    for name, what in EXAMPLES:
+    for name, what, *why in EXAMPLES:
         if chosen and name not in chosen:
             continue
         try:
@@ -121,6 +123,9 @@ def main():
             FreeCAD.closeDocument(doc.Name)
         except Exception as error:
             line = "| %s | %s | | | | %s: %s |" % (name, what, type(error).__name__, error)
+        line = " ".join(line.split())
+        if why:
+            line = line[:-1].rstrip() + " " + why[0] + " |"
         with open(os.path.join(out, "freecad.md"), "a") as table:
             table.write(line + "\n")
 
