@@ -232,13 +232,13 @@ pub(super) fn resolve(
         entries.check_normal().map_err(refused)?;
         let mut own_notes = Vec::new();
         let (mut found, mut shared) = find(&entries, &mut own_notes).map_err(refused)?;
-        // Nodes of an edge that two contacts share are slaves of one; a face that they share they
-        // would both hold.
-        let nodes: BTreeSet<usize> = shared.iter().map(|(node, _)| *node).collect();
-        let mut facets = entries.surfaces[found.slave].facets.iter();
-        let is_edge = !shared.is_empty()
-            && !facets.any(|&facet| mesh.facet_nodes(facet).all(|node| nodes.contains(&node)));
-        if is_edge && contact.slave == SlaveSide::Auto {
+        // Nodes that two contacts share are slaves of one; faces that both have on either side
+        // they would both hold.
+        let is_twice = |(_, other): &(usize, usize)| {
+            held::are_same(mesh, entries.surfaces, &scene.contact[*other])
+        };
+        let may_swap = contact.slave == SlaveSide::Auto && !shared.iter().any(is_twice);
+        if may_swap && !shared.is_empty() {
             entries.contact.slave = [SlaveSide::Second, SlaveSide::First][found.slave];
             let mut other_notes = Vec::new();
             match find(&entries, &mut other_notes) {

@@ -3,6 +3,7 @@
 use super::mesh::{face, target};
 use super::volume::{OnVolume, volume_load};
 use super::{Reader, fields};
+use crate::deck::bodies::unsupported;
 use crate::deck::data::{Condition, ContactChange, Kind, Step, Target};
 use crate::deck::fields::Fields;
 use crate::deck::keyword::Keyword;
@@ -422,6 +423,11 @@ fn freedoms(row: &mut Fields) -> Result<(Vec<[usize; 2]>, f64)> {
         true => 0.0,
         false => row.number_or("the value", 0.0)?,
     };
+    if first == 11 {
+        let message = "degree of freedom 11 is the temperature, and there is no heat flow here: \
+                       compute the temperatures elsewhere, and give them by *TEMPERATURE";
+        return Err(unsupported(row.place.error(message)));
+    }
     if first == 0 || last < first || last > 6 {
         return Err(row.place.error(format!(
             "degrees of freedom {first} to {last}: displacements are 1, 2 and 3, the last must not \

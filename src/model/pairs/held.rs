@@ -1,8 +1,10 @@
-//! Slaves that supports hold against contact.
+//! Slaves that supports hold against contact, and contacts that are one.
 
 use super::{Found, Pair, list};
 use crate::error::{Error, Result};
-use crate::mesh::Mesh;
+use crate::mesh::{Facet, Mesh, Surface};
+use crate::scene::Contact;
+use std::collections::BTreeSet;
 
 /// Takes out the pairs of slaves that supports hold along their normals: what presses there goes
 /// into the supports.
@@ -37,4 +39,19 @@ pub(super) fn leave_to_supports(
         list(mesh, &held)
     ));
     Ok(())
+}
+
+/// Whether two contacts have facets in common on both of their sides.
+pub(super) fn are_same(mesh: &Mesh, own: [&Surface; 2], other: &Contact) -> bool {
+    let facets = own.map(|surface| surface.facets.iter().collect::<BTreeSet<&Facet>>());
+    let shares = |side: usize, other: Option<&Surface>| {
+        other.is_some_and(|other| {
+            other
+                .facets
+                .iter()
+                .any(|facet| facets[side].contains(facet))
+        })
+    };
+    let [first, second] = [&other.first, &other.second].map(|name| mesh.surfaces.get(name));
+    (shares(0, first) && shares(1, second)) || (shares(0, second) && shares(1, first))
 }
