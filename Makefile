@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .ONESHELL:
 .DEFAULT_GOAL := help
 .PHONY: help setup setup-mpi setup-tools cargo build run format lint unit check test test-all test-border test-mpi \
-    test-long strength release-check bench bench-peers install uninstall wheel deb packages package python python-tests clean
+    test-long test-clients strength release-check bench bench-peers install uninstall wheel deb packages package python python-tests clean
 
 # What the CHOLMOD backend is built on: SuiteSparse, a fast BLAS, and libclang for bindgen.
 PACKAGES := libsuitesparse-dev libopenblas-dev libclang-dev
@@ -109,6 +109,12 @@ test-long: setup-mpi ## What takes an hour
 	$(TEST) --features $(TESTED_MPI) --test mpi --test all -- --ignored
 	cargo test --no-default-features --features faer,cli --test all -- cli:: cost:: stability::
 	cargo test --no-default-features --features cli --test all -- cli::
+
+# Not part of continuous integration: half a gigabyte of packages.
+test-clients: PACKAGES += calculix-ccx gmsh freecad freecad-python3
+test-clients: setup ## FreeCAD and Gmsh beside brinell (installs them): data/peers/clients.md
+	@[[ -n "$(PROGRAM)" ]] || cargo build --release
+	tests/clients/run "$(or $(PROGRAM),$(BUILT)/release/brinell)"
 
 # MUMPS, MPI, and what starts several ranks.
 setup-mpi: PACKAGES += libmumps-dev libopenmpi-dev openmpi-bin procps

@@ -78,4 +78,28 @@ impl Deformation {
             )
         })
     }
+
+    /// What a deck is told that asks for large displacements at a place, and whether small ones
+    /// will do.
+    pub(super) fn taken_small(&self, place: &str) -> (String, bool) {
+        let is_small = self.largest <= LARGE;
+        let text = format!(
+            "{place}: *STEP: NLGEOM: displacements are taken for small{}: neighbouring nodes move \
+             against each other by {:.2} % of their distance at most (state `{}`, body {}), of \
+             which half is left out of the strains there{}",
+            if is_small {
+                ", and are"
+            } else {
+                ", and are not"
+            },
+            100.0 * self.largest,
+            self.state,
+            self.body,
+            match is_small {
+                true => "",
+                false => "; take NLGEOM out, or compute with --small-strain, to have it so",
+            }
+        );
+        (text, is_small)
+    }
 }

@@ -52,6 +52,14 @@ impl Run<'_, '_> {
             self.observer.warning(&text);
             results.warnings.push(text);
         }
+        if let Some(place) = &model.scene.requests.large {
+            let (text, is_small) = self.position.deformation.taken_small(place);
+            self.observer.warning(&text);
+            results.warnings.push(text.clone());
+            if !is_small {
+                results.inaccurate.push(text);
+            }
+        }
         for text in never_closed(model, &results.states) {
             self.observer.warning(&text);
             results.warnings.push(text);

@@ -24,11 +24,13 @@ mod rules;
 use super::neighbours::Neighbours;
 use super::patch_fit::{Frame, PatchFit, Terms};
 use super::stress_field::{ElementStress, StressField};
+use crate::element::Lanes;
 use crate::material::Material;
 use crate::model::Continuum;
+use crate::shape::Integration;
 use crate::space::{cross, dot, unit};
 use rayon::prelude::*;
-use rules::COMPARED;
+use rules::{COMPARED, FROM_FULL};
 use serde::{Deserialize, Serialize};
 
 /// Smallest pivot of the scaled normal equations that counts as determined: the square root of what
@@ -153,7 +155,7 @@ impl<const D: usize, const S: usize> Samples<D, S> {
         for (e, shape) in mesh.shapes.iter().enumerate() {
             let own = match degree(continuum, e) {
                 1 => 1,
-                _ => shape.n_gauss_points(),
+                _ => shape.n_points(Integration::Reduced),
             };
             first.push(first[e] + own as u32);
         }
@@ -183,8 +185,28 @@ impl<const D: usize, const S: usize> Samples<D, S> {
     }
 }
 
-/// The centre of a linear element carries its mean, the Gauss points of a quadratic one are
-/// superconvergent themselves.
+/// Values at the superconvergent points of a quadratic element, for those at its Gauss points: the
+/// same ones, but of full integration.
+fn superconvergent<const P: usize, const C: usize>(
+    continuum: &Continuum,
+    e: usize,
+    values: &[Lanes<P>; C],
+) -> [Lanes<P>; C] {
+    let mesh = &continuum.mesh;
+    if mesh.integration_of(e) == Integration::Reduced {
+        return *values;
+    }
+    let of_points = &FROM_FULL[mesh.shapes[e] as usize];
+    values.each_ref().map(|lanes| {
+        let mut out = [0.0; P];
+        for (out, shares) in out.iter_mut().zip(of_points) {
+            *out = shares.iter().zip(lanes).map(|(share, v)| share * v).sum();
+        }
+        out
+    })
+}
+
+/// The centre of a linear element carries its mean, a quadratic one its superconvergent points.
 fn sample<const D: usize, const S: usize, const P: usize, const N: usize>(
     continuum: &Continuum,
     e: usize,
@@ -200,6 +222,8 @@ fn sample<const D: usize, const S: usize, const P: usize, const N: usize>(
         };
         return;
     }
+    let position = superconvergent(continuum, e, &position);
+    let stress = superconvergent(continuum, e, stress);
     for (g, sample) in out.iter_mut().enumerate() {
         *sample = Sample {
             position: position.each_ref().map(|lanes| lanes[g]),
@@ -236,6 +260,7 @@ fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
         return;
     }
     let shape = continuum.mesh.shapes[e];
+    let stress = superconvergent(continuum, e, stress);
     for point in &COMPARED[shape as usize] {
         let at = &point.functions;
         let mut x = [0.0; D];

@@ -84,7 +84,7 @@ impl Layers {
 mod tests {
     use super::*;
     use crate::element::Kernel;
-    use crate::shape::Shape;
+    use crate::shape::{Integration, Shape};
     use crate::space::Space;
 
     /// Three squares in a row and two on top of one of them: a layer across the row where it is
@@ -109,7 +109,8 @@ mod tests {
         let neighbours = Neighbours::new(&mesh, list.iter().copied());
         let layers = |element: usize| {
             let nodes = mesh.element_coordinates(element);
-            let gauss = Kernel::plane(Space::PlaneStrain).at_gauss_points(Shape::Quad4, &nodes);
+            let kind = (Shape::Quad4, Integration::Reduced);
+            let gauss = Kernel::plane(Space::PlaneStrain).at_gauss_points(kind, &nodes);
             let [x, y] = gauss.positions(&nodes);
             let points = || (0..4).map(|g| [x[g], y[g], 0.0]).collect();
             let layers = Layers::of((&mesh, &list, &neighbours), element, points)?;

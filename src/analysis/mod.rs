@@ -108,6 +108,7 @@ pub(crate) use recovery::left_of_search;
 
 use crate::assembly::{System, assemble};
 use crate::checkpoint::{Checkpoints, Identity, Store};
+use crate::deck::words;
 use crate::error::Result;
 use crate::linalg::Backend;
 use crate::model::Model;
@@ -134,7 +135,8 @@ impl Analysis {
     pub fn new(mut model: Model, backend: Backend) -> Result<Self> {
         let start = Instant::now();
         model.start = starting::read(&model)?;
-        let system = assemble(&model, backend)?;
+        let system = assemble(&model, backend);
+        let system = system.map_err(|error| words::of_deck(&model.scene, error))?;
         let timings = vec![("assembly".to_string(), start.elapsed().as_secs_f64())];
         Ok(Analysis {
             model,
@@ -183,7 +185,9 @@ impl Analysis {
     /// Failures before the first state: factorisation, yield load, a body that is not held.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<Results> {
         let expected = scout::expect(self, observer);
-        program::complete(Run::new(self, Purpose::Program, expected, observer)?)
+        let results =
+            Run::new(self, Purpose::Program, expected, observer).and_then(program::complete);
+        results.map_err(|error| words::of_deck(&self.model.scene, error))
     }
 
     /// As [`Analysis::run`], and writes checkpoints on the way: should the process be killed,

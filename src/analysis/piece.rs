@@ -69,7 +69,7 @@ pub(super) fn element_stresses(
     let shown = whole.with_fields.then_some(2 * mesh.dimension);
     let mut sum = ElementStresses::zeros(mesh.n_nodes(), mesh.n_elements(), shown);
     if let Some(shown) = sum.shown.as_mut().filter(|_| whole.model.point_values) {
-        let n_points = mesh.shapes.iter().map(|shape| shape.n_gauss_points());
+        let n_points = (0..mesh.n_elements()).map(|e| mesh.n_points(e));
         shown.points = Some(PointValues::zeros(n_points, 2 * mesh.dimension));
     }
     parts.sort_by_key(|(rank, ..)| *rank);
@@ -115,9 +115,12 @@ impl Whole<'_> {
 pub fn evaluate(piece: &[u8]) -> Result<Vec<u8>> {
     let piece: Piece = from_bytes(piece)?;
     let Continuum {
-        kind, formulation, ..
+        kind,
+        formulation,
+        ref mesh,
+        ..
     } = piece.continuum;
-    let stresses = with_kernel!(kind, formulation, kernel => piece.stresses(kernel));
+    let stresses = with_kernel!(kind, formulation, mesh, kernel => piece.stresses(kernel));
     postcard::to_stdvec(&stresses)
         .map_err(|cause| Error::internal("stresses as bytes").because(cause))
 }
@@ -231,12 +234,7 @@ mod tests {
             let model = Model::new(&scene).unwrap();
             let (mesh, displacements) = (&model.mesh, displacements(&model));
             let in_zone: Vec<usize> = (0..mesh.n_elements()).step_by(3).collect();
-            let stride = mesh
-                .shapes
-                .iter()
-                .map(|s| s.n_gauss_points())
-                .max()
-                .unwrap();
+            let stride = mesh.most_points();
             let points = (0..stride * in_zone.len()).map(|k| {
                 let strain = 1e-4 * (k % 7) as f64;
                 let shear = if mesh.is_solid() { 0.3 * strain } else { 0.0 };
@@ -270,8 +268,10 @@ mod tests {
                 })
                 .unwrap()
             };
-            let (expected, largest_force) =
-                with_kernel!(model.kind, model.formulation, kernel => at_once(kernel, &whole));
+            let kind = (model.kind, model.formulation);
+            let (expected, largest_force) = with_kernel!(kind.0, kind.1, mesh, kernel => {
+                at_once(kernel, &whole)
+            });
             let n_beyond = expected.beyond_yield_outside.len();
             let may_yield = model.may_yield.contains(&true);
             assert_eq!(n_beyond > 0, may_yield, "{name}");

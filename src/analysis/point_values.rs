@@ -13,8 +13,8 @@ pub(super) fn of<const D: usize, const S: usize, const P: usize, const N: usize>
     field: &StressField<D, S, P, N>,
     elements: &[usize],
 ) -> PointValues {
-    let shapes = &field.continuum.mesh.shapes;
-    let n_points = elements.iter().map(|&e| shapes[e].n_gauss_points());
+    let mesh = &field.continuum.mesh;
+    let n_points = elements.iter().map(|&e| mesh.n_points(e));
     let mut out = PointValues::zeros(n_points, S);
     let evaluated = |e: &usize| {
         let element = field.at(*e);

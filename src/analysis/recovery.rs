@@ -23,12 +23,12 @@ use super::neighbours::Neighbours;
 use super::patch::{Patch, Sample, reach};
 use super::patch_fit::Frame;
 use super::solver::Solver;
-use crate::element::Kernel;
+use crate::element::{Kernel, with_kernel};
 use crate::material::{Lame, Material, von_mises};
 use crate::model::Model;
 use crate::model::images::Images;
 use crate::model::mirror::{Conditions, mirrors};
-use crate::space::{Space, Vector};
+use crate::space::Vector;
 use crate::substructure::Trailing;
 use cell::Cell;
 use rayon::prelude::*;
@@ -96,6 +96,22 @@ pub enum Recovery {
     Plane(Box<RecoveryOf<2, 4, 4, 8>>),
     /// Of a solid one.
     Solid(Box<RecoveryOf<3, 6, 8, 20>>),
+    /// Of a plane or axisymmetric model with a fully integrated body.
+    FullPlane(Box<RecoveryOf<2, 4, 9, 8>>),
+    /// Of a solid one.
+    FullSolid(Box<RecoveryOf<3, 6, 27, 20>>),
+}
+
+/// Evaluates an expression for the recovery of any kernel.
+macro_rules! of_recovery {
+    ($self:expr, $recovery:ident => $body:expr) => {
+        match $self {
+            Recovery::Plane($recovery) => $body,
+            Recovery::Solid($recovery) => $body,
+            Recovery::FullPlane($recovery) => $body,
+            Recovery::FullSolid($recovery) => $body,
+        }
+    };
 }
 
 /// What [`RecoveryOf`] does, whichever the dimension.
@@ -103,26 +119,14 @@ impl Recovery {
     /// Recovery over the given elements (ascending).
     pub fn new(model: &Model, elements: &[usize], places: &Places, watched: Watched) -> Self {
         let formulation = model.formulation;
-        match model.kind {
-            Space::Solid => {
-                let kernel = Kernel::solid().integrated(formulation);
-                let list = (elements, places);
-                Recovery::Solid(Box::new(RecoveryOf::new(kernel, model, list, watched)))
-            }
-            space => {
-                let kernel = Kernel::plane(space).integrated(formulation);
-                let list = (elements, places);
-                Recovery::Plane(Box::new(RecoveryOf::new(kernel, model, list, watched)))
-            }
-        }
+        with_kernel!(model.kind, formulation, model.mesh, kernel => {
+            RecoveryOf::new(kernel, model, (elements, places), watched).into()
+        })
     }
 
     /// Where the stress is watched.
     pub fn watched(&self) -> Watched {
-        match self {
-            Recovery::Plane(recovery) => recovery.watched,
-            Recovery::Solid(recovery) => recovery.watched,
-        }
+        of_recovery!(self, recovery => recovery.watched)
     }
 
     /// Elastic stresses at the sampling points in the current state.
@@ -133,22 +137,40 @@ impl Recovery {
 
     /// [`RecoveryOf::sample`]
     pub fn sample(&mut self, u: &Trailing, factors: &[f64]) -> Samples {
-        match self {
-            Recovery::Plane(recovery) => recovery.sample(u, factors),
-            Recovery::Solid(recovery) => recovery.sample(u, factors),
-        }
+        of_recovery!(self, recovery => recovery.sample(u, factors))
     }
 
     /// [`RecoveryOf::peak`]
     pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
-        match self {
-            Recovery::Plane(recovery) => recovery.peak(model, samples),
-            Recovery::Solid(recovery) => recovery.peak(model, samples),
-        }
+        of_recovery!(self, recovery => recovery.peak(model, samples))
     }
 }
 
-/// Recovery with the constants of a dimension.
+impl From<RecoveryOf<2, 4, 4, 8>> for Recovery {
+    fn from(recovery: RecoveryOf<2, 4, 4, 8>) -> Self {
+        Recovery::Plane(Box::new(recovery))
+    }
+}
+
+impl From<RecoveryOf<3, 6, 8, 20>> for Recovery {
+    fn from(recovery: RecoveryOf<3, 6, 8, 20>) -> Self {
+        Recovery::Solid(Box::new(recovery))
+    }
+}
+
+impl From<RecoveryOf<2, 4, 9, 8>> for Recovery {
+    fn from(recovery: RecoveryOf<2, 4, 9, 8>) -> Self {
+        Recovery::FullPlane(Box::new(recovery))
+    }
+}
+
+impl From<RecoveryOf<3, 6, 27, 20>> for Recovery {
+    fn from(recovery: RecoveryOf<3, 6, 27, 20>) -> Self {
+        Recovery::FullSolid(Box::new(recovery))
+    }
+}
+
+/// Recovery with the constants of a kernel.
 pub struct RecoveryOf<const D: usize, const S: usize, const P: usize, const N: usize> {
     elements: GatheredElements,
     sampling: Vec<Sampled<D, S, P, N>>,

@@ -87,7 +87,7 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         } = self.state;
         self.place_in_zone(e).map_or(&[], |place| {
             let stride = history.len() / in_zone.len();
-            let n_points = self.continuum.mesh.shapes[e].n_gauss_points();
+            let n_points = self.continuum.mesh.n_points(e);
             &history[place * stride..][..n_points]
         })
     }

@@ -37,6 +37,10 @@ pub enum Zone {
     Plane(Box<ZoneOf<2, 4, 4, 8>>),
     /// Of a solid one.
     Solid(Box<ZoneOf<3, 6, 8, 20>>),
+    /// Of a plane or axisymmetric model with a fully integrated body.
+    FullPlane(Box<ZoneOf<2, 4, 9, 8>>),
+    /// Of a solid one.
+    FullSolid(Box<ZoneOf<3, 6, 27, 20>>),
 }
 
 impl From<ZoneOf<2, 4, 4, 8>> for Zone {
@@ -51,12 +55,26 @@ impl From<ZoneOf<3, 6, 8, 20>> for Zone {
     }
 }
 
+impl From<ZoneOf<2, 4, 9, 8>> for Zone {
+    fn from(zone: ZoneOf<2, 4, 9, 8>) -> Self {
+        Zone::FullPlane(Box::new(zone))
+    }
+}
+
+impl From<ZoneOf<3, 6, 27, 20>> for Zone {
+    fn from(zone: ZoneOf<3, 6, 27, 20>) -> Self {
+        Zone::FullSolid(Box::new(zone))
+    }
+}
+
 /// Evaluates an expression for the zone of either dimension.
 macro_rules! of_zone {
     ($self:expr, $zone:ident => $body:expr) => {
         match $self {
             Zone::Plane($zone) => $body,
             Zone::Solid($zone) => $body,
+            Zone::FullPlane($zone) => $body,
+            Zone::FullSolid($zone) => $body,
         }
     };
 }
@@ -68,7 +86,7 @@ impl Zone {
     /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch.
     /// The free freedoms of the elements must be zone or contact freedoms.
     pub fn new(model: &Model, elements: &[usize], guard: &[bool], places: &Places) -> Self {
-        with_kernel!(model.kind, model.formulation, kernel => {
+        with_kernel!(model.kind, model.formulation, model.mesh, kernel => {
             ZoneOf::new(&kernel, model, elements, guard, places).into()
         })
     }

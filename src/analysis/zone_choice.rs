@@ -197,7 +197,7 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
     let displacements = model.nodal(u, factors);
     let formulation = model.formulation;
-    with_kernel!(model.kind, formulation, kernel => {
+    with_kernel!(model.kind, formulation, model.mesh, kernel => {
         ratios_of(&kernel, model, (&displacements, factors))
     })
 }

@@ -194,17 +194,19 @@ impl Matrices {
             rest = tail;
         }
         let blocks = blocks.into_par_iter().enumerate().with_min_len(256);
-        with_kernel!(continuum.kind, continuum.formulation, kernel => blocks.for_each(|(e, block)| {
-            let elastic = &elastic[mesh.element_body[e] as usize];
-            let gradients = kernel.gauss(mesh.shapes[e], &mesh.element_coordinates(e));
-            let Some(sums) = elements.sums.get(&e) else {
-                return gradients.stiffness_into(elastic, block);
-            };
-            let n = mesh.dimension * mesh.shapes[e].n_nodes();
-            let mut own = vec![0.0; n * (n + 1) / 2];
-            gradients.stiffness_into(elastic, &mut own);
-            sums.stiffness(n, &own, block);
-        }));
+        with_kernel!(continuum.kind, continuum.formulation, mesh, kernel => {
+            blocks.for_each(|(e, block)| {
+                let elastic = &elastic[mesh.element_body[e] as usize];
+                let gradients = continuum.gradients(&kernel, e);
+                let Some(sums) = elements.sums.get(&e) else {
+                    return gradients.stiffness_into(elastic, block);
+                };
+                let n = mesh.dimension * mesh.shapes[e].n_nodes();
+                let mut own = vec![0.0; n * (n + 1) / 2];
+                gradients.stiffness_into(elastic, &mut own);
+                sums.stiffness(n, &own, block);
+            })
+        });
         Matrices { offsets, values }
     }
 

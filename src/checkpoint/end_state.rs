@@ -47,9 +47,7 @@ pub(crate) fn read(dir: &Path, mesh: &Mesh) -> Result<EndState> {
              largest load of the program unless a contact_width is given)",
         ));
     }
-    let shapes = mesh.shapes.iter();
-    let stride = shapes.map(|s| s.n_gauss_points()).max().unwrap_or(1);
-    if !state.is_of(mesh.n_elements(), stride) {
+    if !state.is_of(mesh.n_elements(), mesh.most_points()) {
         return Err(refused("its end state does not fit its mesh: run it again"));
     }
     Ok(state)

@@ -145,6 +145,7 @@ pub(super) fn hash(mesh: &Mesh) -> u128 {
     mesh.connectivity.iter().for_each(|&n| number(u64::from(n)));
     mesh.element_body.iter().for_each(|&b| number(u64::from(b)));
     mesh.shapes.iter().for_each(|&s| number(s as u64));
+    mesh.integration.iter().for_each(|&i| number(i as u64));
     for (name, nodes) in &mesh.node_sets {
         name.bytes().for_each(|b| number(u64::from(b)));
         number(nodes.len() as u64);

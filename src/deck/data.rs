@@ -2,6 +2,7 @@
 //! place.
 
 use super::element_type::ElementType;
+use super::expansion::Expansion;
 use super::source::{Files, Place};
 use crate::scene::{ResultItem, Totals};
 use std::collections::BTreeMap;
@@ -149,8 +150,7 @@ pub(super) struct MaterialData {
     /// Whether hardening moves the yield surface: linear.
     pub(super) is_kinematic: bool,
     pub(super) density: Option<f64>,
-    /// Strain per change of temperature.
-    pub(super) expansion: Option<f64>,
+    pub(super) expansion: Option<Expansion>,
 }
 
 /// Plastic strain and yield stress, by row.
@@ -174,14 +174,24 @@ pub(super) struct Interaction {
     pub(super) stiffness: Option<f64>,
 }
 
+/// Which nodes of a slave surface are moved onto the master surface.
+#[derive(Debug, Clone)]
+pub(super) enum Adjust {
+    /// Those within a distance.
+    Within(f64),
+    /// Those of a set.
+    Nodes(Target),
+}
+
 /// Two surfaces that may touch.
 #[derive(Debug, Clone)]
 pub(super) struct ContactPair {
     pub(super) slave: String,
     pub(super) master: String,
     pub(super) interaction: String,
-    /// Distance within which nodes of the slave surface are moved onto the master surface.
-    pub(super) adjust: Option<f64>,
+    pub(super) adjust: Option<Adjust>,
+    /// Whether all nodes of the slave surface were moved onto the master surface.
+    pub(super) is_closed: bool,
     pub(super) place: Place,
 }
 
@@ -221,6 +231,32 @@ pub(super) struct Equation {
     pub(super) place: Place,
 }
 
+/// Nodes that move as a rigid body does: a displacement and a rotation.
+#[derive(Debug, Clone)]
+pub(super) struct Rigid {
+    pub(super) nodes: RigidNodes,
+    /// The node whose displacement is the body's there, and whose degrees of freedom from 4 on are
+    /// its rotations.
+    pub(super) reference: Target,
+    /// The node whose displacement is the rotation.
+    pub(super) rotation: Option<Target>,
+    /// Degrees of freedom that follow.
+    pub(super) follows: [bool; 3],
+    pub(super) place: Place,
+    pub(super) keyword: &'static str,
+}
+
+/// Which nodes belong to a rigid body.
+#[derive(Debug, Clone)]
+pub(super) enum RigidNodes {
+    /// Of a set.
+    Set(String),
+    /// Of a set of elements.
+    Elements(String),
+    /// Of a surface.
+    Surface(String),
+}
+
 /// Local axes of the nodes of a set.
 #[derive(Debug, Clone)]
 pub(super) struct Transform {
@@ -242,6 +278,7 @@ pub(super) struct Properties {
     pub(super) clearances: Vec<Clearance>,
     pub(super) equations: Vec<Equation>,
     pub(super) transforms: Vec<Transform>,
+    pub(super) rigid: Vec<Rigid>,
 }
 
 /// What a condition does.
@@ -283,6 +320,8 @@ pub(super) struct Condition {
     pub(super) range: [usize; 2],
     pub(super) value: f64,
     pub(super) amplitude: Option<String>,
+    /// Whether the value is the one that the step before ended with.
+    pub(super) is_fixed: bool,
     pub(super) place: Place,
 }
 
@@ -315,6 +354,8 @@ pub(super) struct OutputRequest {
     /// Slave and master surface of a contact.
     pub(super) contact: Option<[String; 2]>,
     pub(super) totals: Totals,
+    /// Whether vectors are along x, y, z at nodes with axes of their own, too.
+    pub(super) is_global: bool,
     pub(super) place: Place,
 }
 

@@ -1,7 +1,7 @@
 //! The element types of a deck.
 
 use super::keyword::plain;
-use crate::shape::Shape;
+use crate::shape::{Integration, Shape};
 use crate::space::Space;
 
 /// What an element type is to brinell.
@@ -9,6 +9,8 @@ use crate::space::Space;
 pub(super) struct ElementType {
     pub(super) shape: Shape,
     pub(super) space: Space,
+    /// Reduced of shapes that have one rule.
+    pub(super) integration: Integration,
     /// How its formulation differs from what it is computed with.
     pub(super) note: Option<&'static str>,
 }
@@ -16,9 +18,8 @@ pub(super) struct ElementType {
 /// How formulations differ from the element that takes their place.
 const REDUCED: &str =
     "one point with hourglass control there; here full integration with mean dilatation (B-bar)";
-const FULL: &str = "full integration there; here reduced integration";
 const MODES: &str = "incompatible modes there; here mean dilatation (B-bar), without them";
-const HYBRID: &str = "pressure unknowns there; here none: mean dilatation or reduced integration";
+const HYBRID: &str = "pressure unknowns there; here none: mean dilatation, or the same points";
 const MODIFIED: &str = "modified there; here the plain quadratic element";
 
 /// Families of the plane, by the beginning of their names.
@@ -60,8 +61,23 @@ impl ElementType {
                  3, 4, 6 and 8 nodes and C3D4, C3D6, C3D8, C3D10, C3D15, C3D20"
             )
         })?;
-        Ok(ElementType { shape, space, note })
+        let is_reduced = name.ends_with('R') || name.ends_with("RH");
+        let integration = match has_two_rules(shape) && !is_reduced {
+            true => Integration::Full,
+            false => Integration::Reduced,
+        };
+        Ok(ElementType {
+            shape,
+            space,
+            integration,
+            note,
+        })
     }
+}
+
+/// Whether full and reduced integration differ.
+pub(super) fn has_two_rules(shape: Shape) -> bool {
+    shape.n_points(Integration::Full) > shape.n_points(Integration::Reduced)
 }
 
 type Found = Option<(Shape, Option<&'static str>)>;
@@ -77,7 +93,7 @@ fn in_plane(rest: &str) -> Found {
         "6" => (Shape::Tri6, None),
         "6H" => (Shape::Tri6, Some(HYBRID)),
         "6M" | "6MH" => (Shape::Tri6, Some(MODIFIED)),
-        "8" => (Shape::Quad8, Some(FULL)),
+        "8" => (Shape::Quad8, None),
         "8R" => (Shape::Quad8, None),
         "8H" | "8RH" => (Shape::Quad8, Some(HYBRID)),
         _ => return None,
@@ -97,9 +113,9 @@ fn in_space(rest: &str) -> Found {
         "10" => (Shape::Tet10, None),
         "10T" | "10M" | "10MH" | "10I" => (Shape::Tet10, Some(MODIFIED)),
         "10H" => (Shape::Tet10, Some(HYBRID)),
-        "15" => (Shape::Prism15, Some(FULL)),
+        "15" => (Shape::Prism15, None),
         "15H" => (Shape::Prism15, Some(HYBRID)),
-        "20" => (Shape::Hex20, Some(FULL)),
+        "20" => (Shape::Hex20, None),
         "20R" => (Shape::Hex20, None),
         "20H" | "20RH" => (Shape::Hex20, Some(HYBRID)),
         _ => return None,

@@ -32,6 +32,17 @@ pub(super) struct Entry {
     runs_on: Vec<(f64, String)>,
 }
 
+impl Entry {
+    /// Values that a line makes follow from others.
+    pub(super) fn new(series: Series, place: Place) -> Self {
+        Entry {
+            series,
+            place,
+            runs_on: Vec::new(),
+        }
+    }
+}
+
 /// Values by key.
 pub(super) type Map = BTreeMap<Key, Entry>;
 
@@ -44,6 +55,8 @@ struct Interval {
 /// What a step gives for a key: values with their amplitudes.
 struct Given<'d> {
     values: Vec<(f64, Option<&'d str>)>,
+    /// Whether the last value stays.
+    is_fixed: bool,
     place: Place,
 }
 
@@ -178,12 +191,14 @@ impl Deck {
             for key in self.keys(condition)? {
                 let given = out.entry(key).or_insert(Given {
                     values: Vec::new(),
+                    is_fixed: false,
                     place: condition.place,
                 });
                 if matches!(kind, Kind::Boundary | Kind::Temperature) {
                     given.values.clear();
                 }
                 given.values.push(value);
+                given.is_fixed = condition.is_fixed;
                 given.place = condition.place;
             }
         }
@@ -205,8 +220,17 @@ impl Deck {
             let dimension = self.dimension();
             let nodes = self.indices(What::Nodes, &condition.on, at)?;
             let freedoms = first - 1..last.min(dimension);
-            let of_node = |node| freedoms.clone().map(move |freedom| (node, freedom as u8));
-            return Ok(nodes.into_iter().flat_map(of_node).collect());
+            let of_node = |&node: &u32| freedoms.clone().map(move |freedom| (node, freedom as u8));
+            let mut keys: Vec<Key> = nodes.iter().flat_map(of_node).collect();
+            keys.extend(self.rotations_among(&nodes, [first, last])?);
+            if condition.kind == Kind::Force && first > 3 && keys.is_empty() {
+                let message = format!(
+                    "degree of freedom {first}: moments act on the reference node of a *RIGID \
+                     BODY or *COUPLING alone; press with forces along 1, 2 and 3"
+                );
+                return Err(self.error(at.0, at.1, message));
+            }
+            return Ok(keys);
         }
         match &condition.on {
             Target::Set(name) if first == 0 => self.surface(name, (condition.place, "DSLOAD")),
@@ -264,6 +288,10 @@ impl Deck {
     ) -> Result<()> {
         entry.place = given.place;
         entry.runs_on.clear();
+        if given.is_fixed {
+            entry.series.push(time.end, entry.series.last());
+            return Ok(());
+        }
         if given
             .values
             .iter()

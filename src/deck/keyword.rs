@@ -118,16 +118,13 @@ const KEYWORDS: &[(&str, Use)] = &[
         Use::Refused("contact is the same in all steps"),
     ),
     ("MPC", CONSTRAINTS),
-    ("COUPLING", CONSTRAINTS),
-    ("KINEMATIC", CONSTRAINTS),
+    ("COUPLING", Use::Read),
+    ("KINEMATIC", Use::Read),
     ("DISTRIBUTING", CONSTRAINTS),
     ("DISTRIBUTING COUPLING", CONSTRAINTS),
     ("KINEMATIC COUPLING", CONSTRAINTS),
     ("EMBEDDED ELEMENT", CONSTRAINTS),
-    (
-        "RIGID BODY",
-        Use::Refused("bodies deform: mesh it, with a stiff elastic material"),
-    ),
+    ("RIGID BODY", Use::Read),
     (
         "RIGID SURFACE",
         Use::Refused("bodies deform: mesh it, with a stiff elastic material"),
@@ -144,7 +141,10 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("DASHPOT", POINTS),
     ("GAP", POINTS),
     ("CYCLIC SYMMETRY MODEL", CONSTRAINTS),
-    ("ORIENTATION", LAWS),
+    (
+        "ORIENTATION",
+        Use::Ignored("materials are isotropic: axes of their own change nothing"),
+    ),
     ("CREEP", LAWS),
     ("CYCLIC HARDENING", LAWS),
     ("DEFORMATION PLASTICITY", LAWS),
@@ -359,6 +359,19 @@ impl Keyword {
                 let message = format!("the parameter {key} is missing; write {key}=...");
                 self.error(files, message)
             })
+    }
+
+    /// The value of a parameter that is a number, if it is given.
+    ///
+    /// # Errors
+    /// That it is none.
+    pub(super) fn number(&self, files: &Files, key: &str) -> Result<Option<f64>> {
+        let Some(value) = self.get(key) else {
+            return Ok(None);
+        };
+        let number = value.parse::<f64>().ok().filter(|value| value.is_finite());
+        let wrong = || self.error(files, format!("{key}={value} is not a number; give one"));
+        number.ok_or_else(wrong).map(Some)
     }
 
     /// The value of a parameter in capitals, which must be one of some words; the first of them

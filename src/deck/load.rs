@@ -1,6 +1,6 @@
 //! A scene from a file that may be a scene or a deck.
 
-use super::{Deck, Options};
+use super::{Deck, Options, words};
 use crate::error::Result;
 use crate::scene::Scene;
 use std::path::Path;
@@ -43,7 +43,8 @@ impl super::Conversion {
     /// Those of [`Scene::parse_with`], at the lines of the deck.
     pub fn finish(&self, name: &str, overrides: &[String]) -> Result<Scene> {
         let text = self.scene.to_toml()?;
-        let mut scene = Scene::parse_placed(&text, name, overrides, &self.places)?;
+        let parsed = Scene::parse_placed(&text, name, overrides, &self.places);
+        let mut scene = parsed.map_err(|error| error.reworded(words::reworded))?;
         scene.requests = self.scene.requests.clone();
         let taken = self.account.taken.iter().map(ToString::to_string);
         scene.warnings.splice(0..0, taken);

@@ -20,6 +20,7 @@
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, chapters 6 (elements, loads) and 7
 //! (keywords); *Abaqus Keywords Reference Guide*.
 
+mod adjust;
 mod assembly;
 mod bodies;
 mod boundary;
@@ -27,19 +28,23 @@ mod constraints;
 mod conversion;
 mod data;
 mod element_type;
+mod expansion;
 mod facets;
 mod fields;
 mod history;
 mod instances;
 mod keyword;
+mod linear;
 mod load;
 mod reader;
+mod rigid;
 mod series;
 mod sets;
 mod source;
 mod temperature;
 #[cfg(test)]
 mod tests;
+pub(crate) mod words;
 
 pub use conversion::{Conversion, Options};
 pub use data::{Account, Note};
@@ -176,7 +181,10 @@ impl Deck {
 
     /// The number of a node for messages: in an instance, that of its part.
     fn node_name(&self, node: usize) -> String {
-        self.instances.shown(self.nodes.labels[node])
+        match self.nodes.labels.get(node) {
+            Some(label) => self.instances.shown(*label),
+            None => "of a rotation".to_string(),
+        }
     }
 
     /// The number of an element for messages: in an instance, that of its part.

@@ -4,10 +4,11 @@ mod history;
 mod mesh;
 mod output;
 mod properties;
+mod rigid;
 mod volume;
 
 use super::assembly::{self, Assembled};
-use super::data::{Account, Condition};
+use super::data::{Account, Condition, Rigid};
 use super::fields::Fields;
 use super::keyword::{Keyword, Use};
 use super::source::{Line, Source};
@@ -22,6 +23,8 @@ pub(super) struct Reader<'t> {
     material: Option<String>,
     /// The surface interaction that what is read belongs to.
     interaction: Option<String>,
+    /// A coupling whose axes have not been read yet.
+    coupling: Option<Rigid>,
     is_in_step: bool,
     /// Whether results that are asked for are those of histories.
     is_history: bool,
@@ -36,6 +39,7 @@ impl<'t> Reader<'t> {
             deck: Deck::default(),
             material: None,
             interaction: None,
+            coupling: None,
             is_in_step: false,
             is_history: false,
             of_first_step: Vec::new(),
@@ -72,6 +76,8 @@ impl<'t> Reader<'t> {
             Account::add(list, &self.deck.files, place, "ELEMENT", &how);
         }
         self.deck.index()?;
+        self.deck.leave_out_absent()?;
+        self.deck.adjust();
         Ok(self.deck)
     }
 
@@ -143,6 +149,9 @@ impl<'t> Reader<'t> {
             "CONTACT PAIR" => self.contact_pair(keyword),
             "CLEARANCE" => self.clearance(keyword),
             "TIE" => self.tie(keyword),
+            "RIGID BODY" => self.rigid_body(keyword),
+            "COUPLING" => self.coupling(keyword),
+            "KINEMATIC" => self.kinematic(keyword),
             "EQUATION" => self.equation(keyword),
             "TRANSFORM" => self.transform(keyword),
             "INITIAL CONDITIONS" => self.initial_conditions(keyword),

@@ -53,6 +53,11 @@ impl Series {
         self.largest() == 0.0
     }
 
+    /// The times of its rows.
+    pub(super) fn times(&self) -> impl Iterator<Item = f64> {
+        self.0.iter().map(|row| row[0])
+    }
+
     /// Its value at a time.
     pub(super) fn at(&self, time: f64) -> f64 {
         interpolate(&self.0, time)

@@ -1,6 +1,6 @@
 //! From names and numbers to indices of nodes, elements and faces.
 
-use super::data::{Member, Members, Named, SurfacePart, Target};
+use super::data::{Account, Member, Members, Named, SurfacePart, Target};
 use super::facets::Face;
 use super::keyword::no_such;
 use super::source::Place;
@@ -65,6 +65,10 @@ impl Deck {
         let (sets, index, _) = self.table(what);
         let name = match target {
             Target::Label(label) if what == What::Elements && self.boundary.has(*label) => {
+                return Ok(());
+            }
+            // What a set names and there is not was said before.
+            Target::Label(label) if !seen.is_empty() && index.get(*label).is_none() => {
                 return Ok(());
             }
             Target::Label(label) => {
@@ -138,6 +142,47 @@ impl Deck {
         Ok(())
     }
 
+    /// Remarks on numbers in sets that there are not, as CalculiX makes them.
+    ///
+    /// # Errors
+    /// A set of nothing else.
+    pub(super) fn leave_out_absent(&mut self) -> Result<()> {
+        let mut notes = Vec::new();
+        for what in [What::Nodes, What::Elements] {
+            let (sets, index, _) = self.table(what);
+            let [thing, key] = what.words();
+            let is_absent = |label: u64| {
+                let is_line = what == What::Elements && self.boundary.has(label);
+                !is_line && index.get(label).is_none()
+            };
+            for (name, members) in sets.iter() {
+                let absent = members.iter().filter_map(|(member, place)| match member {
+                    Member::Of(Target::Label(label)) if is_absent(*label) => Some((*label, *place)),
+                    _ => None,
+                });
+                let absent: Vec<(u64, Place)> = absent.collect();
+                let Some(&(label, place)) = absent.first() else {
+                    continue;
+                };
+                let (shown, hint) = (self.instances.shown(label), self.instances.hint(label));
+                if absent.len() == members.len() {
+                    let message = format!("there is no {thing} {shown}{hint}");
+                    return Err(self.error(place, key, message));
+                }
+                let more = match absent.len() {
+                    1 => String::new(),
+                    n => format!(", nor {} more", n - 1),
+                };
+                let text = format!("{name}: there is no {thing} {shown}{more}: left out");
+                notes.push((place, key, text));
+            }
+        }
+        for (place, key, text) in notes {
+            Account::add(&mut self.account.taken, &self.files, place, key, &text);
+        }
+        Ok(())
+    }
+
     fn unknown(&self, what: &str, name: &str, known: Vec<String>, at: At) -> crate::error::Error {
         let known = known.iter().map(String::as_str);
         let message = no_such(what, name, known, "name one that there is");
@@ -148,6 +193,19 @@ impl Deck {
     pub(crate) fn element_nodes(&self, element: usize) -> &[u32] {
         let offsets = &self.elements.offsets;
         &self.connectivity[offsets[element]..offsets[element + 1]]
+    }
+
+    /// The nodes of faces: ascending, each once.
+    pub(super) fn nodes_of(&self, faces: &[Face]) -> Vec<u32> {
+        let of_face = |&(element, local): &Face| {
+            let nodes = self.element_nodes(element as usize);
+            let shape = self.elements.types[element as usize].shape;
+            shape.facet(local as usize).iter().map(|&k| nodes[k])
+        };
+        let mut nodes: Vec<u32> = faces.iter().flat_map(of_face).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
     }
 
     /// The local facet of a face number of an element.

@@ -145,12 +145,23 @@ impl<'t> Source<'t> {
         if let Some(anew) = &mut self.anew {
             return Ok(anew.next());
         }
+        while let Some(line) = self.written() {
+            match self.bytes(line) {
+                [b'*', ..] if is_include(self.bytes(line)) => self.include(line)?,
+                _ => return Ok(Some(line)),
+            }
+        }
+        Ok(None)
+    }
+
+    /// The next line as it is written, neither blank nor a comment; `None` at the end of the deck.
+    fn written(&mut self) -> Option<Line> {
         while let Some(open) = self.open.last_mut() {
             let text = &self.texts[open.file as usize];
             let rest = &text[open.at..];
             if rest.is_empty() {
                 if self.open.len() == 1 {
-                    return Ok(None);
+                    return None;
                 }
                 self.open.pop();
                 continue;
@@ -170,13 +181,11 @@ impl<'t> Source<'t> {
             };
             open.at += (length + 1).min(rest.len());
             open.line += 1;
-            match trimmed {
-                [] | [b'*', b'*', ..] => {}
-                [b'*', ..] if is_include(trimmed) => self.include(line)?,
-                _ => return Ok(Some(line)),
+            if !matches!(trimmed, [] | [b'*', b'*', ..]) {
+                return Some(line);
             }
         }
-        Ok(None)
+        None
     }
 
     /// The next data line; `None` where a keyword comes next, or the end.
@@ -223,24 +232,27 @@ impl<'t> Source<'t> {
     fn include(&mut self, line: Line) -> Result<()> {
         let place = self.files.show(line.place);
         let refused = |why: String| Err(Error::input(format!("{place}: *INCLUDE: {why}")));
-        let text = String::from_utf8_lossy(self.bytes(line)).into_owned();
-        let given = text.split(',').skip(1).find_map(|parameter| {
-            let (key, value) = parameter.split_once('=')?;
-            let value = value.trim().trim_matches('"');
-            key.trim().eq_ignore_ascii_case("input").then_some(value)
-        });
-        let Some(given) = given.filter(|given| !given.is_empty()) else {
+        let mut text = String::from_utf8_lossy(self.bytes(line)).into_owned();
+        if text.ends_with(',')
+            && let Some(next) = self.written()
+        {
+            text.push_str(&String::from_utf8_lossy(self.bytes(next)));
+        }
+        let names = names_of_included(&text);
+        let Some(&given) = names.first() else {
             return refused("no file is named; write *INCLUDE, INPUT=FILE".to_string());
         };
         let beside = |given: &str| match &self.folder {
             Some(folder) => folder.join(given),
             None => PathBuf::from(given),
         };
-        let mut path = beside(given);
-        // Folders as Windows writes them.
-        if given.contains('\\') && !path.exists() {
-            path = beside(&given.replace('\\', "/"));
-        }
+        // Folders as Windows writes them, too.
+        let mut paths = names.iter().flat_map(|name| {
+            let slashes = name.contains('\\').then(|| name.replace('\\', "/"));
+            [Some(beside(name)), slashes.map(|name| beside(&name))]
+        });
+        let there = paths.by_ref().flatten().find(|path| path.exists());
+        let path = there.unwrap_or_else(|| beside(given));
         let name = path.display().to_string();
         let is_open = |open: &Open| self.files.0[open.file as usize] == name;
         if self.open.iter().any(is_open) {
@@ -258,8 +270,53 @@ impl<'t> Source<'t> {
     }
 }
 
+/// Names that an `*INCLUDE` may mean, the likeliest first: what is in quotes behind `INPUT=`, or
+/// all up to a comma, or all there is. No other parameter follows it.
+fn names_of_included(line: &str) -> Vec<&str> {
+    let behind = |(at, _): (usize, char)| {
+        let (key, value) = line[at + 1..].split_once('=')?;
+        key.trim().eq_ignore_ascii_case("input").then_some(value)
+    };
+    let Some(value) = line
+        .char_indices()
+        .filter(|(_, c)| *c == ',')
+        .find_map(behind)
+    else {
+        return Vec::new();
+    };
+    let value = value.trim();
+    let quote = value.chars().next().filter(|c| matches!(c, '"' | '\''));
+    let mut names = match quote {
+        Some(quote) => vec![value[1..].split(quote).next().unwrap_or_default()],
+        None => vec![value.split(',').next().unwrap_or_default().trim(), value],
+    };
+    names.retain(|name| !name.is_empty());
+    names
+}
+
 /// Whether a line that begins with a star is an `*INCLUDE`.
 fn is_include(line: &[u8]) -> bool {
     let word = line.split(|&b| b == b',').next().unwrap_or_default();
     word[1..].trim_ascii().eq_ignore_ascii_case(b"include")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_included_files_may_have_quotes_blanks_and_commas() {
+        for (line, expected) in [
+            ("*INCLUDE, INPUT=a.inp", &["a.inp", "a.inp"][..]),
+            ("*include,input = \"a, b.inp\"", &["a, b.inp"]),
+            ("*INCLUDE, INPUT='it is.inp' , x", &["it is.inp"]),
+            ("*INCLUDE,INPUT=a,b.inp", &["a", "a,b.inp"]),
+            ("*INCLUDE, X=1, Input=c.inp", &["c.inp", "c.inp"]),
+            ("*INCLUDE, INPUT=", &[]),
+            ("*INCLUDE, INPUT=\"", &[]),
+            ("*INCLUDE", &[]),
+        ] {
+            assert_eq!(names_of_included(line), expected, "{line}");
+        }
+    }
 }

@@ -3,11 +3,16 @@
 use super::Deck;
 use super::bodies::{Bodies, unsupported};
 use super::data::{Kind, MaterialData};
+use super::expansion::Expansion;
 use super::series::{Series, are_alike};
 use super::source::Place;
 use crate::error::Result;
 use crate::scene::{Material, MaterialRow};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Increments of a step at most at whose ends strains by temperature are exact.
+const MOST_INCREMENTS: usize = 100;
 
 /// What a body begins with and how that changes.
 pub(super) struct OfBody {
@@ -33,10 +38,18 @@ impl OfBody {
 }
 
 /// What a node begins with and goes through.
+#[derive(Clone)]
 struct OfNode {
     initial: f64,
     change: Series,
     place: Option<Place>,
+}
+
+impl OfNode {
+    /// The changes of temperature that strain as an expansion by temperature does.
+    fn expanded(&self, expansion: &Expansion, times: &[f64]) -> Series {
+        expansion.equivalents(self.initial, &self.change, times)
+    }
 }
 
 impl Deck {
@@ -46,12 +59,57 @@ impl Deck {
     /// Sets and nodes that there are not.
     pub(crate) fn node_temperatures(&self) -> Result<Vec<(u64, f64)>> {
         let nodes = self.temperatures_of_nodes()?;
-        let used: BTreeSet<u32> = self.connectivity.iter().copied().collect();
-        let value = |node: u32| {
-            let node = node as usize;
-            (self.nodes.labels[node], nodes[node].change.largest())
-        };
-        Ok(used.into_iter().map(value).collect())
+        let bodies = self.bodies()?;
+        let mut out = BTreeMap::new();
+        for (element, &body) in bodies.of_element.iter().enumerate() {
+            let expansion = self.varying_expansion(&bodies, body as usize);
+            for &node in self.element_nodes(element) {
+                let of_node = &nodes[node as usize];
+                let value = match expansion {
+                    Some(expansion) => of_node.expanded(expansion, &self.step_ends()).largest(),
+                    None => of_node.change.largest(),
+                };
+                if *out.entry(node).or_insert(value) != value {
+                    let message = format!(
+                        "node {} belongs to two materials whose *EXPANSION differs by temperature, \
+                         and its body has several temperatures: give one *EXPANSION to both, or \
+                         each body its own nodes and a *TIE",
+                        self.node_name(node as usize)
+                    );
+                    let place = of_node.place.unwrap_or(self.end);
+                    return Err(unsupported(self.error(place, "TEMPERATURE", message)));
+                }
+            }
+        }
+        let value = |(node, value): (u32, f64)| (self.nodes.labels[node as usize], value);
+        Ok(out.into_iter().map(value).collect())
+    }
+
+    /// The expansion of a body's material, where it differs by temperature.
+    fn varying_expansion(&self, bodies: &Bodies, body: usize) -> Option<&Expansion> {
+        let section = bodies.sections.get(body).copied().flatten()?;
+        let material = &self.properties.sections.get(section)?.material;
+        let expansion = self
+            .properties
+            .materials
+            .get(material)?
+            .expansion
+            .as_ref()?;
+        (!expansion.is_constant()).then_some(expansion)
+    }
+
+    /// The ends of steps and of their increments.
+    fn increment_ends(&self) -> Vec<f64> {
+        let mut out = Vec::new();
+        let mut begin = 0.0;
+        for (end, step) in self.step_ends().into_iter().zip(&self.program.steps) {
+            let n = step.increments.clamp(1, MOST_INCREMENTS);
+            let at = |k: usize| begin + (end - begin) * k as f64 / n as f64;
+            out.extend((1..n).map(at));
+            out.push(end);
+            begin = end;
+        }
+        out
     }
 
     fn temperatures_of_nodes(&self) -> Result<Vec<OfNode>> {
@@ -98,18 +156,50 @@ impl Deck {
             of_body[body as usize].extend(self.element_nodes(element));
         }
         let names = bodies.names.iter().zip(&of_body);
+        let expansions = (0..).map(|body| self.varying_expansion(bodies, body));
         names
-            .map(|(name, of_body)| self.temperature_of_body(name, of_body, &nodes))
+            .zip(expansions)
+            .map(|((name, of_body), expansion)| {
+                self.temperature_of_body(name, &self.expanded(of_body, &nodes, expansion))
+            })
             .collect()
     }
 
-    fn temperature_of_body(
+    /// The nodes of a body, with changes of temperature that are those of its expansion.
+    fn expanded<'a>(
         &self,
-        name: &str,
         of_body: &BTreeSet<u32>,
-        nodes: &[OfNode],
-    ) -> Result<OfBody> {
+        nodes: &'a [OfNode],
+        expansion: Option<&Expansion>,
+    ) -> Vec<(u32, Cow<'a, OfNode>)> {
         let members = || of_body.iter().map(|&node| (node, &nodes[node as usize]));
+        let Some(expansion) = expansion else {
+            let as_they_are = |(node, of_node)| (node, Cow::Borrowed(of_node));
+            return members().map(as_they_are).collect();
+        };
+        // Several temperatures stay in proportion at most where nothing is put between.
+        let mut all = members().map(|(_, of_node)| (of_node.initial, of_node.change.bits()));
+        let first = all.next();
+        let times = match all.all(|other| Some(&other) == first.as_ref()) {
+            true => self.increment_ends(),
+            false => self.step_ends(),
+        };
+        let of = |(node, of_node): (u32, &OfNode)| {
+            let change = of_node.expanded(expansion, &times);
+            let place = of_node.place;
+            let initial = of_node.initial;
+            let of_node = OfNode {
+                initial,
+                change,
+                place,
+            };
+            (node, Cow::Owned(of_node))
+        };
+        members().map(of).collect()
+    }
+
+    fn temperature_of_body(&self, name: &str, nodes: &[(u32, Cow<OfNode>)]) -> Result<OfBody> {
+        let members = || nodes.iter().map(|(node, of_node)| (*node, &**of_node));
         let size = |of_node: &OfNode| of_node.change.largest().abs();
         let most = members().reduce(|a, b| if size(b.1) > size(a.1) { b } else { a });
         let Some((first, most)) = most else {
@@ -169,7 +259,7 @@ impl MaterialData {
             youngs_modulus,
             poissons_ratio,
             density: self.density,
-            thermal_expansion: self.expansion,
+            thermal_expansion: self.expansion.as_ref().map(Expansion::coefficient),
             over_temperature: temperatures.into_iter().map(row).collect(),
             ..law.unwrap_or_default()
         })

@@ -155,8 +155,9 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
                 *weight *= space.measure(*r);
             }
             if has_mean {
-                let (inverse, _) = inverted(&jacobian.map(|row| row.map(|j| [plain_mean(&j)])));
-                let of_center = plain_mean(&radius);
+                let mean = |lanes: &Lanes<P>| plain_mean(lanes, table.n_points);
+                let (inverse, _) = inverted(&jacobian.map(|row| row.map(|j| [mean(&j)])));
+                let of_center = mean(&radius);
                 out.shear = Some(ShearFromCenter {
                     factors: radius.map(|r| (r / of_center).sqrt()),
                     inverse: inverse[1].map(|[dxi]| dxi),
@@ -249,7 +250,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         }
         if let Some(shear) = &self.shear {
             let terms = shear.inverse.iter().zip(&along[0]);
-            let at_center: f64 = terms.map(|(dxi, along)| dxi * plain_mean(along)).sum();
+            let n = self.n_points();
+            let at_center: f64 = terms.map(|(dxi, along)| dxi * plain_mean(along, n)).sum();
             let at_point = slope(1, 0);
             for g in 0..P {
                 out[3][g] = shear.factors[g] * (at_center + at_point[g]);
@@ -283,7 +285,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
             for (d, inverse) in self.inverse.iter().enumerate() {
                 if let (Some(shear), 0, 1) = (&self.shear, i, d) {
                     // The gradient at the centre is the mean of those at the points.
-                    let share = plain_mean(&weighted[3]);
+                    let share = plain_mean(&weighted[3], self.n_points());
                     for (flux, dxi) in fluxes.iter_mut().zip(shear.inverse) {
                         flux.iter_mut().for_each(|flux| *flux += dxi * share);
                     }
@@ -339,7 +341,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         std::array::from_fn(|k| {
             let terms = shear.inverse.iter().zip(&self.table.gradients[k]);
             terms
-                .map(|(dxi, gradient)| dxi * plain_mean(gradient))
+                .map(|(dxi, gradient)| dxi * plain_mean(gradient, self.n_points()))
                 .sum()
         })
     }
@@ -424,21 +426,28 @@ pub(super) fn dot<const P: usize>(a: &Lanes<P>, b: &Lanes<P>) -> f64 {
     sum::<P>(&std::array::from_fn(|g| a[g] * b[g]))
 }
 
-/// The sum of a power of two of numbers, by pairs.
+/// The sum of numbers, by pairs.
 #[inline]
 pub(super) fn sum<const P: usize>(lanes: &Lanes<P>) -> f64 {
     let (mut lanes, mut n) = (*lanes, P);
     while n > 1 {
-        n /= 2;
-        for g in 0..n {
+        let pairs = n / 2;
+        for g in 0..pairs {
             lanes[g] = lanes[2 * g] + lanes[2 * g + 1];
         }
+        if n % 2 == 1 {
+            lanes[pairs] = lanes[n - 1];
+        }
+        n = n.div_ceil(2);
     }
     lanes[0]
 }
 
-/// Mean over the points, unweighted.
+/// Mean over the `n` points, unweighted.
 #[inline]
-fn plain_mean<const P: usize>(lanes: &Lanes<P>) -> f64 {
-    sum(lanes) / P as f64
+fn plain_mean<const P: usize>(lanes: &Lanes<P>, n: usize) -> f64 {
+    match n == P {
+        true => sum(lanes) / P as f64,
+        false => lanes[..n].iter().sum::<f64>() / n as f64,
+    }
 }

@@ -47,7 +47,7 @@ pub use stiffness::packed;
 pub use volume::{VolumePoint, volume_points};
 
 use crate::scene::Formulation;
-use crate::shape::{Rule, Shape};
+use crate::shape::{Integration, Rule, Shape};
 use crate::space::Space;
 use gradients::{Table, set_trace};
 use std::sync::LazyLock;
@@ -56,26 +56,39 @@ use std::sync::LazyLock;
 pub type PlaneKernel = Kernel<2, 4, 4, 8>;
 /// The kernel of space: 3 coordinates, 6 components, up to 8 points and 20 nodes.
 pub type SolidKernel = Kernel<3, 6, 8, 20>;
+/// The kernel of the plane where a body is fully integrated ([`Integration::Full`]).
+pub type FullPlaneKernel = Kernel<2, 4, 9, 8>;
+/// The kernel of space where a body is fully integrated.
+pub type FullSolidKernel = Kernel<3, 6, 27, 20>;
 
 /// The shape functions of all shapes of a dimension.
 type Tables<const D: usize, const P: usize, const N: usize> =
     LazyLock<[Option<Table<D, P, N>>; Shape::ALL.len()]>;
 
-static PLANE: [Tables<2, 4, 8>; 2] = [
-    LazyLock::new(|| tables(|s| s.reference().gauss)),
-    LazyLock::new(|| tables(|s| s.reference().sampling)),
-];
-static SOLID: [Tables<3, 8, 20>; 2] = [
-    LazyLock::new(|| tables(|s| s.reference().gauss)),
-    LazyLock::new(|| tables(|s| s.reference().sampling)),
-];
+/// The tables of a kernel: at the points of either integration, and at the sampling points.
+type AllTables<const D: usize, const P: usize, const N: usize> = [Tables<D, P, N>; 3];
 
+const fn all_tables<const D: usize, const P: usize, const N: usize>() -> AllTables<D, P, N> {
+    [
+        LazyLock::new(|| tables(|shape| shape.rule(Integration::Reduced))),
+        LazyLock::new(|| tables(|shape| shape.rule(Integration::Full))),
+        LazyLock::new(|| tables(|shape| shape.reference().sampling)),
+    ]
+}
+
+static PLANE: AllTables<2, 4, 8> = all_tables();
+static SOLID: AllTables<3, 8, 20> = all_tables();
+static FULL_PLANE: AllTables<2, 9, 8> = all_tables();
+static FULL_SOLID: AllTables<3, 27, 20> = all_tables();
+
+/// Of shapes of another dimension, or with a rule of more points, there is none.
 fn tables<const D: usize, const P: usize, const N: usize>(
     rule: fn(Shape) -> &'static Rule,
 ) -> [Option<Table<D, P, N>>; Shape::ALL.len()] {
     Shape::ALL.map(|shape| {
         let row = shape.reference();
-        (row.dimension == D).then(|| Table::new(row, rule(shape)))
+        let fits = row.dimension == D && rule(shape).len() <= P;
+        fits.then(|| Table::new(row, rule(shape)))
     })
 }
 
@@ -86,48 +99,59 @@ fn tables<const D: usize, const P: usize, const N: usize>(
 pub struct Kernel<const D: usize, const S: usize, const P: usize, const N: usize> {
     space: Space,
     formulation: Formulation,
-    gauss: &'static Tables<D, P, N>,
-    sampling: &'static Tables<D, P, N>,
+    tables: &'static AllTables<D, P, N>,
 }
 
 impl PlaneKernel {
     /// The kernel of a space of two dimensions.
     pub fn plane(space: Space) -> Self {
-        let [gauss, sampling] = &PLANE;
-        Kernel {
-            space,
-            formulation: Formulation::Mean,
-            gauss,
-            sampling,
-        }
+        Kernel::of(space, &PLANE)
     }
 }
 
 impl SolidKernel {
     /// The kernel of three dimensions.
     pub fn solid() -> Self {
-        let [gauss, sampling] = &SOLID;
-        Kernel {
-            space: Space::Solid,
-            formulation: Formulation::Mean,
-            gauss,
-            sampling,
-        }
+        Kernel::of(Space::Solid, &SOLID)
     }
 }
 
-/// Evaluates an expression with the kernel of a model: the one place where the dimension becomes
-/// constants.
+impl FullPlaneKernel {
+    /// The kernel of a space of two dimensions where a body is fully integrated.
+    pub fn full_plane(space: Space) -> Self {
+        Kernel::of(space, &FULL_PLANE)
+    }
+}
+
+impl FullSolidKernel {
+    /// The kernel of three dimensions where a body is fully integrated.
+    pub fn full_solid() -> Self {
+        Kernel::of(Space::Solid, &FULL_SOLID)
+    }
+}
+
+/// Evaluates an expression with the kernel of a model (its space, its formulation, its mesh): the
+/// one place where the dimension and the most points of an element become constants.
 macro_rules! with_kernel {
-    ($space:expr, $formulation:expr, $kernel:ident => $body:expr) => {
-        match $space {
-            $crate::space::Space::Solid => {
+    ($space:expr, $formulation:expr, $mesh:expr, $kernel:ident => $body:expr) => {
+        match ($space, $mesh.has_full_integration()) {
+            ($crate::space::Space::Solid, false) => {
                 let $kernel = $crate::element::Kernel::solid();
                 let $kernel = $kernel.integrated($formulation);
                 $body
             }
-            space => {
+            (space, false) => {
                 let $kernel = $crate::element::Kernel::plane(space);
+                let $kernel = $kernel.integrated($formulation);
+                $body
+            }
+            ($crate::space::Space::Solid, true) => {
+                let $kernel = $crate::element::Kernel::full_solid();
+                let $kernel = $kernel.integrated($formulation);
+                $body
+            }
+            (space, true) => {
+                let $kernel = $crate::element::Kernel::full_plane(space);
                 let $kernel = $kernel.integrated($formulation);
                 $body
             }
@@ -137,6 +161,14 @@ macro_rules! with_kernel {
 pub(crate) use with_kernel;
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S, P, N> {
+    fn of(space: Space, tables: &'static AllTables<D, P, N>) -> Self {
+        Kernel {
+            space,
+            formulation: Formulation::Mean,
+            tables,
+        }
+    }
+
     /// The kernel of a formulation.
     pub fn integrated(self, formulation: Formulation) -> Self {
         Kernel {
@@ -147,22 +179,26 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
 
     /// The gradients at the Gauss points, for the coordinates of the element's nodes.
     #[inline]
-    pub fn gauss(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Gradients<D, S, P, N> {
-        self.at(self.gauss, shape, nodes)
+    pub fn gauss(
+        &self,
+        (shape, integration): (Shape, Integration),
+        nodes: &[[f64; D]; N],
+    ) -> Gradients<D, S, P, N> {
+        self.at(&self.tables[integration as usize], shape, nodes)
     }
 
     /// An element at its sampling points, for the coordinates of its nodes.
     pub(crate) fn sampling(&self, shape: Shape, nodes: &[[f64; D]; N]) -> Sampling<D, S, P, N> {
-        self.sampled(self.sampling, shape, nodes)
+        self.sampled(&self.tables[2], shape, nodes)
     }
 
     /// An element sampled at its Gauss points, for the coordinates of its nodes.
     pub(crate) fn at_gauss_points(
         &self,
-        shape: Shape,
+        (shape, integration): (Shape, Integration),
         nodes: &[[f64; D]; N],
     ) -> Sampling<D, S, P, N> {
-        self.sampled(self.gauss, shape, nodes)
+        self.sampled(&self.tables[integration as usize], shape, nodes)
     }
 
     fn sampled(
@@ -173,9 +209,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
     ) -> Sampling<D, S, P, N> {
         Sampling {
             at: self.at(points, shape, nodes),
-            mean: self
-                .has_mean(shape)
-                .then(|| self.gauss(shape, nodes).mean_dilatation()),
+            // Of linear elements, which have one rule.
+            mean: self.has_mean(shape).then(|| {
+                let gauss = self.gauss((shape, Integration::Reduced), nodes);
+                gauss.mean_dilatation()
+            }),
         }
     }
 
@@ -186,7 +224,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
         shape: Shape,
         nodes: &[[f64; D]; N],
     ) -> Gradients<D, S, P, N> {
-        // A mesh has shapes of its own dimension only.
+        // A mesh has shapes of its own dimension only, and full integration the kernel for it.
         let table = tables[shape as usize]
             .as_ref()
             .expect("a shape of this dimension");

@@ -11,7 +11,7 @@ type PlaneGradients = Gradients<2, 4, 4, 8>;
 type PlaneSampling = Sampling<2, 4, 4, 8>;
 
 fn gauss(space: Space, shape: Shape, x: &[[f64; 2]; MAX_NODES]) -> PlaneGradients {
-    Kernel::plane(space).gauss(shape, x)
+    Kernel::plane(space).gauss((shape, Integration::Reduced), x)
 }
 
 fn sampling(space: Space, shape: Shape, x: &[[f64; 2]; MAX_NODES]) -> PlaneSampling {
@@ -416,6 +416,44 @@ fn sampled_strains_are_those_of_the_textbooks_b_there() {
                     let at: f64 = values.iter().zip(&x).map(|(n, x)| n * x[d]).sum();
                     assert!((positions[d][g] - at).abs() < 1e-15);
                 }
+            }
+        }
+    }
+}
+
+/// Elements with fewer points than the kernel has lanes come to the same, the mean dilatation and
+/// the shear of an axisymmetric `quad4` included.
+#[test]
+fn the_kernel_of_full_integration_has_the_same_elements() {
+    let law = steel(Space::PlaneStrain);
+    for shape in Shape::PLANE {
+        for space in Space::PLANE {
+            let x = coordinates(shape);
+            let kind = (shape, Integration::Reduced);
+            let n = 2 * shape.n_nodes();
+            let [mut own, mut other] = [0, 1].map(|_| vec![0.0; n * (n + 1) / 2]);
+            gauss(space, shape, &x).stiffness_into(&law, &mut own);
+            let full = Kernel::full_plane(space).gauss(kind, &x);
+            full.stiffness_into(&law, &mut other);
+            let size = own.iter().fold(0.0f64, |m, k| m.max(k.abs()));
+            for (a, b) in own.iter().zip(&other) {
+                assert!((a - b).abs() < 1e-14 * size, "{shape:?} {space:?}");
+            }
+            let u = x.map(|p| [0.3 * p[0] * p[1], 0.2 * p[0] * p[0]]);
+            let strains = [0, 1].map(|i| match i {
+                0 => strains_at(false, space, shape, &x, &u),
+                _ => {
+                    let all = full.strains(&u);
+                    let at = |g: usize| all.each_ref().map(|lanes| lanes[g]);
+                    (0..full.n_points()).map(at).collect()
+                }
+            });
+            for (a, b) in strains[0]
+                .as_flattened()
+                .iter()
+                .zip(strains[1].as_flattened())
+            {
+                assert!((a - b).abs() < 1e-14, "{shape:?} {space:?}");
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Integration over the volume of elements: body forces.
 
-use crate::shape::{MAX_NODES, Shape};
+use crate::shape::{Integration, MAX_NODES, Shape};
 use crate::space::{Space, Vector};
 use nalgebra::Matrix3;
 
@@ -15,13 +15,13 @@ pub struct VolumePoint {
     pub position: Vector,
 }
 
-/// The Gauss points of an element with these nodes.
+/// The Gauss points of an integrated element with these nodes.
 pub fn volume_points(
     space: Space,
-    shape: Shape,
+    (shape, integration): (Shape, Integration),
     nodes: &[Vector],
 ) -> impl Iterator<Item = VolumePoint> {
-    shape.reference().gauss.iter().map(move |&(place, weight)| {
+    shape.rule(integration).iter().map(move |&(place, weight)| {
         let at = shape.functions(place);
         let mut position = [0.0; 3];
         let mut jacobian = Matrix3::<f64>::zeros();

@@ -1,13 +1,17 @@
 //! The Jacobian of the map from the reference element, where an element is checked.
 
-use super::Shape;
+use super::{Integration, Shape};
 use crate::shape::Functions;
 use crate::space::{Vector, cross, dot, unit};
 
-/// The shape functions where an element is checked.
-pub(super) fn check_points(shape: Shape) -> Vec<Functions> {
-    let places = shape.reference().checked.iter();
-    places.map(|&place| shape.functions(place)).collect()
+/// The shape functions where an element is checked: beyond the usual places at the points that it
+/// is integrated with.
+pub(super) fn check_points(shape: Shape, integration: Integration) -> Vec<Functions> {
+    let mut places = shape.reference().checked.to_vec();
+    if integration == Integration::Full && shape.is_quadratic() {
+        places.extend(shape.rule(integration).iter().map(|(place, _)| *place));
+    }
+    places.iter().map(|&place| shape.functions(place)).collect()
 }
 
 /// Determinant of the Jacobian of an element with these node positions.

@@ -18,8 +18,8 @@ pub mod surface;
 mod sweep;
 mod validate;
 
-use crate::shape::FacetReference;
-pub use crate::shape::Shape;
+use crate::shape::{FacetReference, Rule};
+pub use crate::shape::{Integration, Shape};
 use crate::space::{Vector, in_words};
 pub use curve::Curve;
 pub use round::{declared, lay_on};
@@ -73,6 +73,8 @@ pub struct Mesh {
     pub node_labels: Vec<u64>,
     /// Element numbers as the mesh file had them; empty where generated (then 1-based).
     pub element_labels: Vec<u64>,
+    /// How each body's elements are integrated; empty where all are reduced.
+    pub integration: Vec<Integration>,
 }
 
 impl Mesh {
@@ -87,6 +89,35 @@ impl Mesh {
     /// Number of elements.
     pub fn n_elements(&self) -> usize {
         self.shapes.len()
+    }
+
+    /// How an element is integrated.
+    #[inline]
+    pub fn integration_of(&self, element: usize) -> Integration {
+        let body = self.element_body[element] as usize;
+        self.integration.get(body).copied().unwrap_or_default()
+    }
+
+    /// The rule that integrates an element.
+    pub fn rule(&self, element: usize) -> &'static Rule {
+        self.shapes[element].rule(self.integration_of(element))
+    }
+
+    /// Number of integration points of an element.
+    #[inline]
+    pub(crate) fn n_points(&self, element: usize) -> usize {
+        self.rule(element).len()
+    }
+
+    /// Most integration points of an element, at least 1.
+    pub(crate) fn most_points(&self) -> usize {
+        let each = (0..self.n_elements()).map(|e| self.n_points(e));
+        each.max().unwrap_or(1)
+    }
+
+    /// Whether a body is fully integrated.
+    pub(crate) fn has_full_integration(&self) -> bool {
+        self.integration.contains(&Integration::Full)
     }
 
     /// Lowest polynomial degree of the elements, 1 or 2.

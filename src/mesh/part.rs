@@ -75,6 +75,7 @@ impl Mesh {
         let mut part = Mesh {
             dimension: self.dimension,
             offsets: vec![0],
+            integration: self.integration.clone(),
             ..Mesh::default()
         };
         for (own, &node) in (0..).zip(&nodes) {

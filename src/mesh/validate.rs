@@ -1,6 +1,6 @@
 //! Checks that a mesh can be computed with.
 
-use super::{Facet, Mesh, Shape, conformity, jacobian, pieces};
+use super::{Facet, Integration, Mesh, Shape, conformity, jacobian, pieces};
 use crate::shape::MAX_NODES;
 use crate::space::{difference, length};
 use crate::{Error, Result};
@@ -197,7 +197,8 @@ fn check_sets(mesh: &Mesh) -> Result<()> {
 
 /// Distinct nodes and a positive Jacobian, element by element.
 fn check_elements(mesh: &Mesh) -> Result<()> {
-    let checks = Shape::ALL.map(jacobian::check_points);
+    let checks = Integration::ALL
+        .map(|integration| Shape::ALL.map(|shape| jacobian::check_points(shape, integration)));
     let fault = |element: usize| -> Option<String> {
         let nodes = mesh.nodes(element);
         for (k, node) in nodes.iter().enumerate() {
@@ -225,7 +226,7 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
             .map(|&[a, b]| length(difference(points[b], points[a])))
             .fold(0.0, f64::max);
         let scale = row.unit_jacobian * longest.powi(row.dimension as i32);
-        let worst = checks[shape as usize]
+        let worst = checks[mesh.integration_of(element) as usize][shape as usize]
             .iter()
             .map(|at| jacobian::determinant(row.dimension, at, &points[..nodes.len()]) / scale)
             .fold(f64::INFINITY, |worst, j| {

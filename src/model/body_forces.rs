@@ -31,7 +31,8 @@ pub(super) fn on_body(
     for element in (0..mesh.n_elements()).filter(|&e| mesh.element_body[e] as usize == body) {
         let nodes = mesh.nodes(element);
         let x: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n as usize)).collect();
-        for point in volume_points(space, mesh.shapes[element], &x) {
+        let kind = (mesh.shapes[element], mesh.integration_of(element));
+        for point in volume_points(space, kind, &x) {
             let force = field(point.position).map(|b| density * b);
             for (&node, value) in nodes.iter().zip(point.values) {
                 let share = point.weight * value;

@@ -49,7 +49,8 @@ impl Continuum {
         element: usize,
     ) -> Gradients<D, S, P, N> {
         let nodes = self.mesh.element_coordinates(element);
-        kernel.gauss(self.mesh.shapes[element], &nodes)
+        let integration = self.mesh.integration_of(element);
+        kernel.gauss((self.mesh.shapes[element], integration), &nodes)
     }
 
     /// Initial yield stress of a body at a place, infinite for an elastic material.

@@ -42,7 +42,7 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
         .filter_map(|name| mesh.surfaces.get(name))
         .flat_map(|surface| surface.facets.iter().copied())
         .collect();
-    let may_touch: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
+    let may_touch = may_touch(pairs, contacts);
     for end in ends {
         let inner = end.inner.map(|k| &pairs[k]);
         let slave = boundary.beyond(pairs[end.last].slave, inner.map(|pair| pair.slave));
@@ -74,6 +74,14 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
             contacts[end.contact].goes_on.push(end.last);
         }
     }
+}
+
+/// Nodes of pairs, and those whose supports bear what would press there.
+fn may_touch(pairs: &[Pair], contacts: &[ContactSurface]) -> BTreeSet<usize> {
+    let held = contacts
+        .iter()
+        .flat_map(|contact| contact.held.iter().copied());
+    pairs.iter().flat_map(Pair::nodes).chain(held).collect()
 }
 
 /// Ends of all contacts but those on the axis of revolution. At a plane of symmetry the boundary

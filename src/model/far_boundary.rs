@@ -126,7 +126,8 @@ pub(super) fn volumes_of_nodes(space: Space, mesh: &Mesh) -> Vec<f64> {
     for (element, &shape) in mesh.shapes.iter().enumerate() {
         let nodes = mesh.nodes(element);
         let points: Vec<Vector> = nodes.iter().map(|&n| mesh.point(n as usize)).collect();
-        let weights = volume_points(space, shape, &points).map(|point| point.weight);
+        let kind = (shape, mesh.integration_of(element));
+        let weights = volume_points(space, kind, &points).map(|point| point.weight);
         let share = weights.sum::<f64>() / nodes.len() as f64;
         nodes.iter().for_each(|&node| out[node as usize] += share);
     }

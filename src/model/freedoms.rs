@@ -85,7 +85,14 @@ impl Freedoms {
         turn_normals_into_supports(pairs, &supports);
         let mut normal_of = vec![None; n_nodes];
         for pair in pairs.iter() {
-            for node in pair.faced().into_iter().chain([pair.slave]) {
+            // A master that a support holds is an obstacle: its displacement is none.
+            let faced = pair.faced();
+            let may_hold = scene
+                .contact
+                .get(pair.contact)
+                .is_some_and(|contact| contact.held);
+            let faced = faced.filter(|n| !may_hold || !supports.hold_along(*n, pair.normal));
+            for node in faced.into_iter().chain([pair.slave]) {
                 normal_of[node] = Some(pair.normal);
             }
         }

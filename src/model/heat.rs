@@ -11,7 +11,7 @@
 //! their stress can follow no more than that.
 
 use super::Model;
-use crate::element::{Gradients, Kernel};
+use crate::element::{Gradients, Kernel, with_kernel};
 use crate::material::Lame;
 use crate::mesh::Mesh;
 use crate::scene::Formulation;
@@ -58,16 +58,7 @@ pub(super) fn forces(
     (body, law): (usize, Lame),
     free: &[FreeStrain],
 ) -> Vec<(usize, Vector)> {
-    match space {
-        Space::Solid => {
-            let kernel = Kernel::solid().integrated(formulation);
-            forces_of(&kernel, mesh, (body, law), free)
-        }
-        space => {
-            let kernel = Kernel::plane(space).integrated(formulation);
-            forces_of(&kernel, mesh, (body, law), free)
-        }
-    }
+    with_kernel!(space, formulation, mesh, kernel => forces_of(&kernel, mesh, (body, law), free))
 }
 
 fn forces_of<const D: usize, const S: usize, const P: usize, const N: usize>(
@@ -82,7 +73,8 @@ fn forces_of<const D: usize, const S: usize, const P: usize, const N: usize>(
         for (x, &node) in x.iter_mut().zip(mesh.nodes(element)) {
             x.copy_from_slice(&mesh.point(node as usize)[..D]);
         }
-        let gradients: Gradients<D, S, P, N> = kernel.gauss(mesh.shapes[element], &x);
+        let gradients: Gradients<D, S, P, N> =
+            kernel.gauss((mesh.shapes[element], mesh.integration_of(element)), &x);
         let mut strains = [[0.0; P]; S];
         for free in free {
             let at_points = gradients.at_points(&of_element(mesh, element, &free.nodal));

@@ -53,11 +53,13 @@ pub use springs::Spring;
 pub use sums::Sums;
 pub use yield_depth::YieldByDepth;
 
+use crate::deck::words;
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh};
 use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
+use crate::shape::Integration;
 use crate::space::Vector;
 use given::Given;
 pub(crate) use mirror::Mirror;
@@ -125,8 +127,8 @@ impl Model {
     /// Input errors naming the scene entry and the node, body or set; [`crate::ErrorKind::Unheld`]
     /// where a body can move freely and the loads do work on that motion.
     pub fn new(scene: &Scene) -> Result<Self> {
-        let mesh = build_mesh(scene)?;
-        Self::resolve(scene, mesh, Origin::Scene)
+        let made = build_mesh(scene).and_then(|mesh| Self::resolve(scene, mesh, Origin::Scene));
+        made.map_err(|error| words::of_deck(scene, error))
     }
 
     /// The model of a scene on a given mesh (its `mesh` entry is ignored).
@@ -162,6 +164,7 @@ impl Model {
             Origin::Scene => &none,
             Origin::Arrays(given) => given,
         };
+        mesh.integration = integration(scene, &mesh);
         mesh::validate(&mesh).map_err(|error| match (&origin, &scene.mesh.file) {
             (Origin::Scene, Some(file)) => error.within(file.display()),
             _ => error,
@@ -189,10 +192,16 @@ impl Model {
             &normals,
             (&ties, &equations),
         )?;
-        if freedoms.settle(&mut mesh, &followers)? {
-            mesh::validate(&mesh).map_err(|e| {
-                e.within("the mesh whose tied nodes are moved onto what they follow")
-            })?;
+        let before = mesh.coordinates.clone();
+        if freedoms.settle(&mut mesh, &followers)?
+            && let Err(error) = mesh::validate(&mesh)
+        {
+            mesh.coordinates = before;
+            warnings.push(format!(
+                "tied nodes stay where they are, and bodies that turn together strain a little: \
+                 moved onto what they follow, {}",
+                error.message()
+            ));
         }
         freedoms.basis.restate(&mut pairs, &contacts);
         let stated = (&mut pairs[..], &contacts[..]);
@@ -347,6 +356,17 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
         materials.push(material);
     }
     Ok((materials, may_yield))
+}
+
+/// How each body is integrated; empty where all are reduced.
+fn integration(scene: &Scene, mesh: &Mesh) -> Vec<Integration> {
+    let of = |name: &String| scene.bodies.get(name).map(|body| body.integration);
+    let of_bodies = mesh.bodies.iter().map(|name| of(name).unwrap_or_default());
+    let all: Vec<Integration> = of_bodies.collect();
+    match all.contains(&Integration::Full) {
+        true => all,
+        false => Vec::new(),
+    }
 }
 
 fn warn_of_locking(mesh: &Mesh, may_yield: &[bool], warnings: &mut Vec<String>) {

@@ -4,6 +4,7 @@
 //! ([`mortar`]). The gap of a pair is `g = delta - (u_slave - sum_k w_k u_k) . n >= 0` with `delta`
 //! the distance along `n`, the unit vector from the slave's body to the other.
 
+mod held;
 mod matching;
 pub(super) mod mortar;
 pub(super) mod stated;
@@ -12,6 +13,7 @@ pub(super) mod ties;
 use super::given::Given;
 use super::mirror::Mirror;
 use super::names::Entry;
+use super::supports::Supports;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{self, PAIRING};
 use crate::mesh::{Curve, Mesh, Surface};
@@ -119,6 +121,8 @@ pub struct ContactSurface {
     /// Length of the slave surface of a plane model where it is closed and all its nodes have
     /// pairs.
     pub turn: Option<f64>,
+    /// Nodes of slaves that supports hold, and of what they face.
+    pub(super) held: Vec<usize>,
     /// Planes of symmetry on which it ends.
     pub(crate) mirrors: Vec<Mirror>,
 }
@@ -196,7 +200,9 @@ pub(super) fn resolve(
     let mut pairs: Vec<Pair> = Vec::new();
     let mut contacts = Vec::new();
     let mut slave_of: BTreeMap<usize, usize> = BTreeMap::new();
+    let supports = Supports::resolve(scene, mesh)?;
     for (index, contact) in scene.contact.iter().enumerate() {
+        let is_held = |pair: &Pair| contact.held && supports.hold_along(pair.slave, pair.normal);
         let start = pairs.len();
         let entry = Entry::of_list(scene, "contact", index);
         let what = format!(
@@ -232,13 +238,13 @@ pub(super) fn resolve(
         entries.check_normal().map_err(refused)?;
         let mut own_notes = Vec::new();
         let (mut found, mut shared) = find(&entries, &mut own_notes).map_err(refused)?;
-        // Nodes of an edge that two contacts share are slaves of one; a face that they share they
-        // would both hold.
-        let nodes: BTreeSet<usize> = shared.iter().map(|(node, _)| *node).collect();
-        let mut facets = entries.surfaces[found.slave].facets.iter();
-        let is_edge = !shared.is_empty()
-            && !facets.any(|&facet| mesh.facet_nodes(facet).all(|node| nodes.contains(&node)));
-        if is_edge && contact.slave == SlaveSide::Auto {
+        // Nodes that two contacts share are slaves of one; faces that both have on either side
+        // they would both hold.
+        let is_twice = |(_, other): &(usize, usize)| {
+            held::are_same(mesh, entries.surfaces, &scene.contact[*other])
+        };
+        let may_swap = contact.slave == SlaveSide::Auto && !shared.iter().any(is_twice);
+        if may_swap && !shared.is_empty() {
             entries.contact.slave = [SlaveSide::Second, SlaveSide::First][found.slave];
             let mut other_notes = Vec::new();
             match find(&entries, &mut other_notes) {
@@ -248,7 +254,20 @@ pub(super) fn resolve(
                 _ => {}
             }
         }
+        // A slave whose support bears what presses on it needs no pair; better, it is a master.
+        let n_held = |found: &Found| found.pairs.iter().filter(|pair| is_held(pair)).count();
+        if n_held(&found) > 0 && contact.slave == SlaveSide::Auto {
+            entries.contact.slave = [SlaveSide::Second, SlaveSide::First][found.slave];
+            let mut other_notes = Vec::new();
+            match find(&entries, &mut other_notes) {
+                Ok((other, none)) if none.is_empty() && n_held(&other) < n_held(&found) => {
+                    (found, shared, own_notes) = (other, none, other_notes);
+                }
+                _ => {}
+            }
+        }
         notes.append(&mut own_notes);
+        held::leave_to_supports(&mut found, is_held, (mesh, &what), notes).map_err(refused)?;
         if let Some(&(node, other)) = shared.first() {
             return Err(entry.refused(Error::input(format!(
                 "node {} is the slave of two contacts, {} and {} (`{}` on `{}`); a node may be \
@@ -289,6 +308,8 @@ struct Found {
     slave: usize,
     facet_length: f64,
     covered: Covered,
+    /// Nodes of pairs that were left to supports.
+    held: Vec<usize>,
 }
 
 /// What the other surface covers of facets of the slave surface, by their number, where that is not
@@ -333,6 +354,7 @@ fn surface_of(
         slivers: pieces.slivers,
         extent: extent(entries.mesh, surface, &pairs[start..], &found.covered),
         turn: turn(entries.mesh, surface, &pairs[start..]),
+        held: found.held.clone(),
         mirrors: Vec::new(),
     }
 }

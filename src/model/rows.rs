@@ -59,11 +59,6 @@ impl ContactRows {
         let mut masters = Vec::new();
         for pair in pairs {
             let row = on_masters(freedoms, pair).ok_or_else(|| moved(mesh, pair))?;
-            if let Some(node) = pair.faced()
-                && row.is_empty()
-            {
-                return Err(held(node));
-            }
             for &(freedom, _) in &row {
                 if !is_slave.contains_key(&freedom) {
                     place.entry(freedom).or_insert_with(|| {

@@ -71,6 +71,14 @@ impl Supports {
     }
 }
 
+impl Supports {
+    /// Whether a node is held along a direction, not only nearly at right angles to it.
+    pub(super) fn hold_along(&self, node: usize, direction: Vector) -> bool {
+        let mut held = self.of_node.get(&node).into_iter().flatten();
+        held.any(|held| dot(direction, held.direction).abs() >= NEARLY_TANGENT)
+    }
+}
+
 /// A normal that is nearly at right angles to a support is meant to be.
 pub(super) fn turn_normals_into_supports(pairs: &mut [Pair], supports: &Supports) {
     for pair in pairs {

@@ -40,6 +40,11 @@ pub struct Contact {
     /// interfere. By default an overlap is an error.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub overlap: bool,
+    /// Whether supports may hold nodes of the surfaces along the contact normal: a slave that is
+    /// held touches nothing, its support bears what presses there; a master that is held is an
+    /// obstacle. By default such a node is an error.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub held: bool,
 }
 
 impl Contact {

@@ -1,6 +1,7 @@
 //! What the bodies are made of.
 
 use super::{MaterialRow, tensile_test};
+use crate::shape::Integration;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
@@ -102,6 +103,9 @@ pub struct Body {
     /// May this body yield?
     #[serde(default)]
     pub plastic: Plastic,
+    /// How its quadratic quadrilaterals, hexahedra and prisms are integrated.
+    #[serde(default, skip_serializing_if = "Integration::is_reduced")]
+    pub integration: Integration,
     /// Its temperature throughout the run, at which the rows `over_temperature` of its material are
     /// read. Loads by `temperature` add strains to it, and change no modulus.
     #[serde(default, skip_serializing_if = "Option::is_none")]

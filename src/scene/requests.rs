@@ -1,5 +1,7 @@
 //! Which results are asked for in the formats of CalculiX: `.frd` files and tables in `.dat` files.
 
+use crate::space::Vector;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Which results are asked for in the formats of CalculiX, state by state.
@@ -13,6 +15,10 @@ pub struct Requests {
     pub materials: Vec<String>,
     /// Thickness of a plane model: forces are those on all of it.
     pub thickness: Option<f64>,
+    /// Axes of their own of nodes, by number, in which tables list displacements and forces.
+    pub axes: Arc<BTreeMap<u64, [Vector; 3]>>,
+    /// Where a deck asks for large displacements, which are computed as small ones.
+    pub large: Option<String>,
     /// The moment that each target stands for, in the order of the targets.
     pub moments: Vec<Moment>,
 }
@@ -54,6 +60,8 @@ pub struct Print {
     pub set: NamedSet,
     /// Whether the values are added up.
     pub totals: Totals,
+    /// Whether vectors are along x, y, z also where a node has axes of its own.
+    pub is_global: bool,
 }
 
 /// A set of nodes or elements by their numbers.

@@ -7,12 +7,14 @@ mod cut;
 mod extrapolation;
 mod facets;
 mod functions;
+mod integration;
 mod rows;
 
 pub use cut::{Cut, WHOLE, cut_of, cuts};
 pub use extrapolation::Extrapolation;
 pub use facets::FacetReference;
 pub use functions::Functions;
+pub use integration::Integration;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -71,8 +73,11 @@ pub struct Reference {
     pub nodes: &'static [Place],
     /// Values and derivatives of the shape functions.
     pub functions: fn(Place) -> Functions,
-    /// The rule that integrates stiffness and forces.
+    /// The usual rule that integrates stiffness and forces: a reduced one of quadratic
+    /// quadrilaterals, hexahedra and prisms.
     pub gauss: &'static Rule,
+    /// The rule that sees every way to deform; of most shapes the usual one.
+    pub full: &'static Rule,
     /// Where stress is most accurate (superconvergent): the centre of a bilinear element, the
     /// Gauss points of the others.
     pub sampling: &'static Rule,
@@ -166,11 +171,6 @@ impl Shape {
     /// Number of facets.
     pub(crate) fn n_facets(self) -> usize {
         self.reference().facets.len()
-    }
-
-    /// Number of Gauss points.
-    pub(crate) fn n_gauss_points(self) -> usize {
-        self.reference().gauss.len()
     }
 
     /// True where the strain is the same all over an element: such elements lock in isochoric

@@ -18,8 +18,8 @@ pub(super) fn name_freedom(error: Error, model: &Model) -> Error {
                 // Rigid motions were looked for before, and are held.
                 Some(shape) => format!(
                     "elements of the shape {} have ways to deform that their Gauss points do not \
-                     see, and nothing here holds them; give the body two elements across, another \
-                     shape, or more supports",
+                     see, and nothing here holds them; give the body `integration = \"full\"`, two \
+                     elements across, another shape, or more supports",
                     shape.name()
                 ),
                 None => "a part of the model is not held, or an element there is degenerate".into(),
@@ -42,9 +42,10 @@ fn shape_with_zero_energy_modes(model: &Model, freedom: usize) -> Option<Shape> 
     let n_rigid = model.kind.rigid_motions().len();
     let mesh = &model.mesh;
     let beside = (0..mesh.n_elements()).filter(|&e| mesh.nodes(e).contains(&node));
-    let mut shapes = beside.map(|e| mesh.shapes[e]);
-    shapes.find(|shape| {
+    let mut kinds = beside.map(|e| (mesh.shapes[e], mesh.n_points(e)));
+    let found = kinds.find(|(shape, n_points)| {
         let n_deforming = shape.n_nodes() * shape.dimension() - n_rigid;
-        n_deforming > shape.n_gauss_points() * n_strains
-    })
+        n_deforming > n_points * n_strains
+    });
+    found.map(|(shape, _)| shape)
 }

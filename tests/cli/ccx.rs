@@ -76,7 +76,7 @@ fn what_there_is_not_is_an_error_as_of_ccx() {
     let deck = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/decks/two_blocks.inp");
     let text = std::fs::read_to_string(deck).unwrap();
     let text = text.replace("*SURFACE BEHAVIOR", "*FRICTION\n0.2\n*SURFACE BEHAVIOR");
-    let text = text.replace("*STEP, INC=100", "*STEP, NLGEOM");
+    let text = text.replace("*STEP, INC=100", "*STEP, PERTURBATION");
     std::fs::write(work.path().join("rough.inp"), text).unwrap();
     std::fs::write(work.path().join("rough.frd"), "of an earlier run").unwrap();
     // FreeCAD writes a blank behind `-i`.

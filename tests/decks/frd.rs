@@ -38,15 +38,17 @@ const fn case(name: &'static str, bounds: [f64; 2], force: Option<f64>) -> Case 
 
 const SAME: [f64; 2] = [2e-6, ROUNDED];
 
-const CASES: [Case; 16] = [
+const CASES: [Case; 19] = [
     case("every_solid", SAME, Some(2e-6)),
     case("every_plane", SAME, Some(2e-6)),
     case("two_blocks", SAME, Some(2e-6)),
     case("bricks", SAME, Some(2e-6)),
     case("ring", SAME, Some(2e-6)),
     case("tetrahedra", SAME, Some(2e-6)),
-    // CalculiX integrates at nine points.
-    case("wedges", [1e-2, 2e-2], Some(2e-3)),
+    case("wedges", SAME, Some(2e-6)),
+    case("full_solids", SAME, Some(2e-6)),
+    case("full_strain", SAME, Some(2e-6)),
+    case("secant", SAME, Some(2e-6)),
     // CalculiX computes a slice with plane faces.
     case("tube", [2e-4, 2e-4], None),
     case("tied", SAME, None),

@@ -6,6 +6,8 @@ mod calculix;
 mod converted;
 mod frd;
 mod local_axes;
+mod messages;
+mod programs;
 mod refusals;
 mod sets;
 mod variants;

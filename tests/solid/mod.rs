@@ -5,6 +5,7 @@ mod extruded;
 mod generated;
 mod held;
 mod hertz;
+mod integration;
 mod nodal_forces;
 mod once;
 mod patch;

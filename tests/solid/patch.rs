@@ -3,7 +3,7 @@
 use crate::support::grid::{Grid, Point};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
-use brinell::mesh::Shape;
+use brinell::mesh::{Integration, Shape};
 use brinell::model::ModelBuilder;
 use brinell::progress::Silent;
 use brinell::results::Results;
@@ -63,10 +63,17 @@ fn straight(shape: Shape, map: fn(Point) -> Point, cells: [usize; 3]) -> impl Fn
     }
 }
 
+/// All shapes, those of two rules with either.
+fn shapes() -> Vec<(Shape, Integration)> {
+    let reduced = Shape::SOLID.map(|shape| (shape, Integration::Reduced));
+    let full = [Shape::Hex20, Shape::Prism15].map(|shape| (shape, Integration::Full));
+    reduced.into_iter().chain(full).collect()
+}
+
 /// A block under pressure, free to widen: one stress everywhere, whatever the elements.
 #[test]
 fn a_block_under_pressure_is_exact() {
-    for shape in Shape::SOLID {
+    for (shape, integration) in shapes() {
         let cells = [2, 2, 2];
         let map = straight(shape, bent, cells);
         let mut builder = ModelBuilder::new(Kind::Solid);
@@ -83,6 +90,7 @@ fn a_block_under_pressure_is_exact() {
                 "block",
                 Body {
                     material: "steel".into(),
+                    integration,
                     ..Body::default()
                 },
             )
@@ -113,7 +121,7 @@ fn a_block_under_pressure_is_exact() {
 /// Two blocks pressed together: the contact passes a uniform pressure.
 #[test]
 fn a_contact_passes_a_uniform_pressure() {
-    for shape in Shape::SOLID {
+    for (shape, integration) in shapes() {
         let cells = [3, 2, 2];
         let mut builder = ModelBuilder::new(Kind::Solid);
         let lower = straight(shape, bent, cells);
@@ -142,6 +150,7 @@ fn a_contact_passes_a_uniform_pressure() {
                     body,
                     Body {
                         material: "steel".into(),
+                        integration,
                         ..Body::default()
                     },
                 )

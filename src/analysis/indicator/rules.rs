@@ -1,6 +1,6 @@
 //! Where the stresses of quadratic elements are compared.
 
-use crate::shape::{Functions, Place, Shape};
+use crate::shape::{Functions, Integration, Place, Rule, Shape};
 use std::ops::Range;
 use std::sync::LazyLock;
 
@@ -92,16 +92,25 @@ pub(super) static COMPARED: LazyLock<[Vec<Compared>; Shape::ALL.len()]> = LazyLo
         let point = |(place, weight)| Compared {
             weight,
             functions: shape.functions(place),
-            shares: shares(shape, place),
+            shares: shares(shape, shape.rule(Integration::Reduced), place),
         };
         rule(shape).into_iter().map(point).collect()
     })
 });
 
-/// What the stress at each Gauss point of a quadratic element counts at a place: the polynomial
+/// What the values at the points of full integration count at each superconvergent point of a
+/// quadratic element.
+pub(super) static FROM_FULL: LazyLock<[Vec<Vec<f64>>; Shape::ALL.len()]> = LazyLock::new(|| {
+    Shape::ALL.map(|shape| {
+        let [reduced, full] = Integration::ALL.map(|integration| shape.rule(integration));
+        let at = |(place, _): &(Place, f64)| shares(shape, full, *place);
+        reduced.iter().map(at).collect()
+    })
+});
+
+/// What the stress at each point of a rule of a quadratic element counts at a place: the polynomial
 /// through them.
-fn shares(shape: Shape, at: Place) -> Vec<f64> {
-    let gauss = shape.reference().gauss;
+fn shares(shape: Shape, gauss: &Rule, at: Place) -> Vec<f64> {
     // Points of the simplex in its first coordinates: all of a triangle or tetrahedron, the base of
     // a prism, none of a square or cube.
     let (points, first) = match (shape.is_simplex(), shape.n_corners()) {
@@ -123,9 +132,15 @@ fn shares(shape: Shape, at: Place) -> Vec<f64> {
             let near = volumes(gauss[(own + 1) % points].0)[own];
             share = (here[own] - near) / (volumes(gauss[own].0)[own] - near);
         }
-        let along = |d: usize| match gauss[k].0[d] == 0.0 {
-            true => 1.0,
-            false => 0.5 * (1.0 + at[d] / gauss[k].0[d]),
+        // Lagrange's polynomial, one at its own abscissa and zero at the others.
+        let along = |d: usize| {
+            let own = gauss[k].0[d];
+            let mut others: Vec<f64> = gauss.iter().map(|(place, _)| place[d]).collect();
+            others.sort_by(f64::total_cmp);
+            others.dedup();
+            let others = others.into_iter().filter(|other| *other != own);
+            let factors = others.map(|other| (at[d] - other) / (own - other));
+            factors.product::<f64>()
         };
         (first..shape.dimension()).fold(share, |share, d| share * along(d))
     };
@@ -137,7 +152,7 @@ mod tests {
     use super::*;
 
     /// Rules have the volume of their element and are exact for cubics; stresses at the Gauss
-    /// points count one at their own and add up to one.
+    /// points count one at their own and add up to one, with either integration.
     #[test]
     fn rules_are_exact_and_shares_interpolate() {
         for shape in Shape::ALL.into_iter().filter(|shape| shape.is_quadratic()) {
@@ -157,16 +172,18 @@ mod tests {
                 _ => 0.0,
             };
             assert!((cubes - exact).abs() < 1e-14, "{shape:?} {cubes} {exact}");
-            for (k, (place, _)) in row.gauss.iter().enumerate() {
-                for (j, share) in shares(shape, *place).into_iter().enumerate() {
-                    let own = f64::from(u8::from(j == k));
-                    assert!((share - own).abs() < 1e-14, "{shape:?}");
-                }
-            }
             let within = |d: usize, x: f64| if d < row.dimension { x } else { 0.0 };
             let place = [within(0, 0.2), within(1, 0.1), within(2, 0.05)];
-            let between: f64 = shares(shape, place).iter().sum();
-            assert!((between - 1.0).abs() < 1e-14, "{shape:?} {between}");
+            for gauss in Integration::ALL.map(|integration| shape.rule(integration)) {
+                for (k, (place, _)) in gauss.iter().enumerate() {
+                    for (j, share) in shares(shape, gauss, *place).into_iter().enumerate() {
+                        let own = f64::from(u8::from(j == k));
+                        assert!((share - own).abs() < 1e-14, "{shape:?}");
+                    }
+                }
+                let between: f64 = shares(shape, gauss, place).iter().sum();
+                assert!((between - 1.0).abs() < 1e-14, "{shape:?} {between}");
+            }
         }
     }
 }

@@ -30,7 +30,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Sampled<D, 
                 .map(|g| at.each_ref().map(|lanes| lanes[g]))
                 .collect()
         };
-        let gauss = || kernel.at_gauss_points(shape, &nodes);
+        let integration = model.mesh.integration_of(e);
+        let gauss = || kernel.at_gauss_points((shape, integration), &nodes);
         let layers = match watched {
             Watched::GaussPoints => None,
             Watched::Recovered => Layers::of((&model.mesh, elements, neighbours), e, || {

@@ -91,8 +91,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         let elements = GatheredElements::new(model, elements, places);
         let n = elements.list.len();
         // That of the mesh, not of these elements: histories pass from zone to zone.
-        let shapes = model.mesh.shapes.iter();
-        let stride = shapes.map(|s| s.n_gauss_points()).max().unwrap_or(1);
+        let stride = model.mesh.most_points();
         let mut harder = Vec::new();
         if model.yield_by_depth.iter().any(Option::is_some) {
             harder.resize(n * stride, 0.0);

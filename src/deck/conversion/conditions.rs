@@ -26,8 +26,9 @@ impl Draft<'_> {
     pub(super) fn conditions(&mut self) -> Result<()> {
         let mut boundary = self.deck.histories(Kind::Boundary)?;
         let mut forces = self.deck.histories(Kind::Force)?;
+        let planes = self.constrain(&mut boundary, &mut forces)?;
         self.turn(&mut boundary, &mut forces)?;
-        self.hold_plane(&mut boundary, &mut forces)?;
+        self.hold_planes(planes, &mut boundary, &mut forces)?;
         self.boundary(boundary)?;
         self.forces(forces)?;
         let pressures = self.deck.histories(Kind::Pressure)?;
@@ -55,7 +56,7 @@ impl Draft<'_> {
             };
             let mut by_axis: BTreeMap<u8, Vec<u32>> = BTreeMap::new();
             for (node, axis) in self.deck.keys(&condition)? {
-                if self.geometry.is_used[node as usize] {
+                if self.geometry.uses(node) {
                     by_axis.entry(axis).or_default().push(node);
                 }
             }
@@ -91,7 +92,7 @@ impl Draft<'_> {
 
     /// Nodes held at zero become supports, others prescribed displacements.
     fn boundary(&mut self, mut map: Map) -> Result<()> {
-        map.retain(|key, _| self.geometry.is_used[key.0 as usize]);
+        map.retain(|key, _| self.geometry.uses(key.0));
         for (on, axis, series, place) in self.of_node_sets(Kind::Boundary, &mut map)? {
             match series.is_zero() {
                 true => self.hold(&on, &[axis as usize], place),
@@ -143,9 +144,7 @@ impl Draft<'_> {
     /// Each node of a set has the force: the scene's is that of all of them, shared equally.
     fn forces(&mut self, mut map: Map) -> Result<()> {
         map.retain(|_, entry| !entry.series.is_zero());
-        let unused = map
-            .iter()
-            .find(|(key, _)| !self.geometry.is_used[key.0 as usize]);
+        let unused = map.iter().find(|(key, _)| !self.geometry.uses(key.0));
         if let Some((key, entry)) = unused {
             let node = self.deck.node_name(key.0 as usize);
             let message = format!("a force acts on node {node}, which belongs to no element");
@@ -232,7 +231,7 @@ impl Draft<'_> {
             let Some(entry) = boundary.remove(&key) else {
                 continue;
             };
-            if !self.geometry.is_used[key.0 as usize] {
+            if !self.geometry.uses(key.0) {
                 continue;
             }
             if !entry.series.is_zero() {

@@ -1,12 +1,11 @@
 //! Contact pairs and ties.
 
-use super::super::data::{Account, ContactPair};
-use super::super::facets::Face;
+use super::super::data::{Account, Adjust, ContactPair};
+use super::super::sets::What;
 use super::Draft;
 use crate::error::Result;
 use crate::number::exact;
 use crate::scene::{Contact, SlaveSide, Tie};
-use crate::space::{difference, length};
 
 impl Draft<'_> {
     /// The slave surface is the first one. A clearance is a gap, or an interference where it is
@@ -19,17 +18,20 @@ impl Draft<'_> {
                 let message = format!("there is no *SURFACE INTERACTION {}", pair.interaction);
                 return Err(self.deck.error(at.0, at.1, message));
             };
-            let [slave, master] = [&pair.slave, &pair.master].map(|s| self.deck.surface(s, at));
-            let (slave, master) = (slave?, master?);
+            for name in [&pair.slave, &pair.master] {
+                self.deck.surface(name, at)?;
+            }
             let mut contact = Contact {
                 first: self.geometry.surface_name(&pair.slave),
                 second: self.geometry.surface_name(&pair.master),
                 stiffness: interaction.stiffness,
                 ..Contact::default()
             };
-            if let Some(within) = pair.adjust {
-                self.adjust(pair, within, [&slave, &master], &mut contact, account);
+            if let Some(Adjust::Nodes(set)) = &pair.adjust {
+                self.deck.indices(What::Nodes, set, at)?;
             }
+            contact.gap = pair.is_closed.then(|| 0.0.into());
+            contact.held = true;
             self.clear(pair, &mut contact, account);
             contact.overlap = contact.gap.is_none();
             let key = format!("contact.{}", self.contacts.len());
@@ -72,55 +74,5 @@ impl Draft<'_> {
             let list = &mut account.taken;
             Account::add(list, &self.deck.files, clearance.place, "CLEARANCE", &text);
         }
-    }
-
-    /// Nodes within a distance of the other surface are meant to lie on it. Where all of them are,
-    /// the gaps are zero; otherwise they stay what they are in the mesh.
-    fn adjust(
-        &self,
-        pair: &ContactPair,
-        within: f64,
-        surfaces: [&[Face]; 2],
-        contact: &mut Contact,
-        account: &mut Account,
-    ) {
-        let [slave, master] = surfaces.map(|faces| self.nodes_of(faces));
-        let point = |node: u32| self.deck.point(node as usize);
-        let is_near = |node: &u32| {
-            let mut others = master.iter();
-            others.any(|&other| length(difference(point(*node), point(other))) <= within)
-        };
-        let near = slave.iter().filter(|node| is_near(node)).count();
-        let text = if near == slave.len() {
-            contact.gap = Some(0.0.into());
-            format!(
-                "ADJUST={}: all nodes of {} begin in contact",
-                exact(within),
-                pair.slave
-            )
-        } else {
-            format!(
-                "ADJUST={}: the {near} of {} nodes of {} that are so close to a node of {} stay \
-                 where they are",
-                exact(within),
-                slave.len(),
-                pair.slave,
-                pair.master
-            )
-        };
-        let list = &mut account.taken;
-        Account::add(list, &self.deck.files, pair.place, "CONTACT PAIR", &text);
-    }
-
-    fn nodes_of(&self, faces: &[Face]) -> Vec<u32> {
-        let of_face = |&(element, local): &Face| {
-            let nodes = self.deck.element_nodes(element as usize);
-            let shape = self.deck.elements.types[element as usize].shape;
-            shape.facet(local as usize).iter().map(|&k| nodes[k])
-        };
-        let mut nodes: Vec<u32> = faces.iter().flat_map(of_face).collect();
-        nodes.sort_unstable();
-        nodes.dedup();
-        nodes
     }
 }

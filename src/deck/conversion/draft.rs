@@ -20,6 +20,8 @@ pub(super) struct Draft<'d> {
     pub(super) contacts: Vec<Contact>,
     pub(super) ties: Vec<Tie>,
     pub(super) equations: Vec<Equation>,
+    /// Names of sets of one node that equations are on.
+    pub(super) sets_of_nodes: BTreeMap<u32, String>,
     /// Lines of the deck by key.
     pub(super) places: BTreeMap<String, String>,
 }
@@ -35,6 +37,7 @@ impl<'d> Draft<'d> {
             contacts: Vec::new(),
             ties: Vec::new(),
             equations: Vec::new(),
+            sets_of_nodes: BTreeMap::new(),
             places: BTreeMap::new(),
         }
     }

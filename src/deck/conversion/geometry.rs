@@ -1,9 +1,10 @@
 //! The sets of the mesh that a deck becomes: those it names, and those that its conditions need.
 
 use super::super::Deck;
-use super::super::data::Target;
+use super::super::data::{Kind, Target};
 use super::super::facets::Face;
 use super::super::sets::What;
+use super::super::source::Place;
 use crate::error::Result;
 use std::collections::BTreeMap;
 
@@ -14,6 +15,8 @@ pub(crate) struct Geometry {
     pub(crate) surfaces: BTreeMap<String, Vec<Face>>,
     /// Whether a node belongs to an element.
     pub(crate) is_used: Vec<bool>,
+    /// Surfaces that look both ways and are for results only.
+    pub(super) left_out: Vec<(String, Place)>,
     /// Names of surfaces by those in the deck, in capitals.
     surface_names: BTreeMap<String, String>,
     /// How often each name was asked for.
@@ -57,6 +60,11 @@ impl Geometry {
         }
     }
 
+    /// Whether a node belongs to an element.
+    pub(super) fn uses(&self, node: u32) -> bool {
+        self.is_used.get(node as usize) == Some(&true)
+    }
+
     /// The nodes of a set that belong to elements.
     pub(super) fn used(&self, mut nodes: Vec<u32>) -> Vec<u32> {
         nodes.retain(|node| self.is_used[*node as usize]);
@@ -65,6 +73,39 @@ impl Geometry {
 }
 
 impl Deck {
+    /// Whether faces of both elements beside each other are among some.
+    fn looks_both_ways(&self, faces: &[Face]) -> bool {
+        let mut corners: Vec<Vec<u32>> = faces.iter().map(|face| self.corners_of(*face)).collect();
+        corners.sort_unstable();
+        corners.windows(2).any(|pair| pair[0] == pair[1])
+    }
+
+    /// The corners of a face, ascending.
+    fn corners_of(&self, (element, local): Face) -> Vec<u32> {
+        let shape = self.shape(element as usize);
+        let n = shape.facet_reference(local as usize).n_corners;
+        let nodes = self.element_nodes(element as usize);
+        let own = shape.facet(local as usize)[..n].iter();
+        let mut corners: Vec<u32> = own.map(|&k| nodes[k]).collect();
+        corners.sort_unstable();
+        corners
+    }
+
+    /// Whether a contact, a tie or a load is on a surface.
+    fn presses_on(&self, surface: &str) -> bool {
+        let is_it = |name: &str| name.eq_ignore_ascii_case(surface);
+        let properties = &self.properties;
+        let contacts = properties.contacts.iter().map(|c| [&c.slave, &c.master]);
+        let ties = properties.ties.iter().map(|t| [&t.slave, &t.master]);
+        let of_pairs = contacts.chain(ties).flatten().any(|name| is_it(name));
+        let steps = self.program.steps.iter().flat_map(|step| &step.conditions);
+        let mut all = self.program.initial.iter().chain(steps);
+        of_pairs
+            || all.any(|c| {
+                c.kind == Kind::Pressure && matches!(&c.on, Target::Set(name) if is_it(name))
+            })
+    }
+
     /// The sets that the deck names. A surface that shares the name of a node set gets another one.
     ///
     /// # Errors
@@ -103,6 +144,10 @@ impl Deck {
                 continue;
             };
             let faces = self.surface(name, (*place, "SURFACE"))?;
+            if self.looks_both_ways(&faces) && !self.presses_on(name) {
+                out.left_out.push((name.to_string(), *place));
+                continue;
+            }
             let clashes = out.node_sets.contains_key(name);
             let own = match clashes {
                 true => format!("{name}_surface"),

@@ -7,6 +7,7 @@ mod draft;
 mod equations;
 mod geometry;
 mod outputs;
+mod system;
 mod volume_loads;
 
 pub(crate) use geometry::Geometry;
@@ -14,12 +15,14 @@ pub(crate) use geometry::Geometry;
 use super::Deck;
 use super::bodies::{Bodies, unsupported};
 use super::data::{Account, Note, Section};
+use super::element_type::has_two_rules;
 use super::series::are_alike;
 use super::temperature::OfBody;
 use crate::error::{Error, ErrorKind, Result};
 use crate::interpolation::interpolate;
 use crate::number::exact;
 use crate::scene::{Body, History, Scene, Stepping, Target};
+use crate::shape::Integration;
 use crate::space::Space;
 use draft::Draft;
 use std::collections::BTreeMap;
@@ -56,7 +59,7 @@ impl Deck {
     /// and keyword for what does not fit together.
     pub fn convert(&self, options: Options) -> Result<Conversion> {
         let mut account = self.account.clone();
-        self.judge_nlgeom(options, &mut account);
+        let large = self.judge_nlgeom(options, &mut account);
         if !account.refused.is_empty() {
             let lines: Vec<String> = account.refused.iter().map(Note::to_string).collect();
             return Err(Error::new(ErrorKind::Unsupported, lines.join("\n")));
@@ -74,7 +77,12 @@ impl Deck {
             let message = format!("body {} has no section", bodies.names[section]);
             return Err(self.error(self.end, "SOLID SECTION", message));
         }
-        let mut draft = Draft::new(self, self.geometry()?, self.thickness(space, &mut account)?);
+        let geometry = self.geometry()?;
+        for (name, place) in &geometry.left_out {
+            let text = format!("{name} looks both ways, and is there for results alone");
+            Account::add(&mut account.ignored, &self.files, *place, "SURFACE", &text);
+        }
+        let mut draft = Draft::new(self, geometry, self.thickness(space, &mut account)?);
         draft.conditions()?;
         draft.contacts(&mut account)?;
         draft.contact_changes(&mut account)?;
@@ -83,8 +91,10 @@ impl Deck {
         let temperatures = self.temperatures_of_bodies(&bodies)?;
         let mut scene = self.empty_scene(space);
         self.add_bodies(&bodies, &temperatures, &mut scene, &mut draft.places)?;
+        self.add_integration(&bodies, &mut scene, &mut account);
         draft.temperatures(&bodies, temperatures);
         scene.requests = self.requests((space, draft.thickness), options, &mut account)?;
+        scene.requests.large = large;
         self.add_loads(&mut draft, &mut scene);
         self.choose_stepping(&draft, &mut scene);
         scene.support = std::mem::take(&mut draft.supports);
@@ -99,20 +109,18 @@ impl Deck {
         })
     }
 
-    fn judge_nlgeom(&self, options: Options, account: &mut Account) {
-        let Some(place) = self.nlgeom else { return };
-        let (list, text) = match options.small_strain {
-            true => (
-                &mut account.taken,
-                "NLGEOM: strains and displacements are taken to be small all the same",
-            ),
-            false => (
-                &mut account.refused,
-                "NLGEOM: strains and displacements are small here; take it out, or compute with \
-                 --small-strain",
-            ),
+    /// Where large displacements are asked for, small ones are computed: whether they are is
+    /// measured at the end, unless the user has said that they are to be taken so.
+    fn judge_nlgeom(&self, options: Options, account: &mut Account) -> Option<String> {
+        let place = self.nlgeom?;
+        let text = match options.small_strain {
+            true => "NLGEOM: strains and displacements are taken to be small all the same",
+            false => {
+                "NLGEOM: strains and displacements are taken to be small; the run measures them"
+            }
         };
-        Account::add(list, &self.files, place, "STEP", text);
+        Account::add(&mut account.taken, &self.files, place, "STEP", text);
+        (!options.small_strain).then(|| self.files.show(place))
     }
 
     /// The one thickness of a plane model: forces are per unit of it.
@@ -213,6 +221,36 @@ impl Deck {
             scene.bodies.insert(name.clone(), body);
         }
         Ok(())
+    }
+
+    /// A body with elements that are fully integrated is so as a whole.
+    fn add_integration(&self, bodies: &Bodies, scene: &mut Scene, account: &mut Account) {
+        let types = &self.elements.types;
+        let is_full = |element: usize| types[element].integration == Integration::Full;
+        for (element, &body) in bodies.of_element.iter().enumerate() {
+            if let Some(body) = scene.bodies.get_mut(&bodies.names[body as usize])
+                && is_full(element)
+            {
+                body.integration = Integration::Full;
+            }
+        }
+        // The first element of another kind in each of these.
+        let mut is_said = vec![false; bodies.names.len()];
+        for (element, &body) in bodies.of_element.iter().enumerate() {
+            let name = &bodies.names[body as usize];
+            let is_mixed = has_two_rules(types[element].shape)
+                && !is_full(element)
+                && (scene.bodies.get(name)).is_some_and(|body| !body.integration.is_reduced());
+            if is_mixed && !std::mem::replace(&mut is_said[body as usize], true) {
+                let label = self.element_name(element);
+                let text = format!(
+                    "element {label}: reduced integration there; here full, as of others in body \
+                     {name}: give it a section of its own"
+                );
+                let place = self.elements.places[element];
+                Account::add(&mut account.taken, &self.files, place, "ELEMENT", &text);
+            }
+        }
     }
 
     /// Without contact there is no event to step to: steps then take equal increments, at least as

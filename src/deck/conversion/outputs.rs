@@ -95,6 +95,9 @@ impl Deck {
             let mut items = of_file.chain(moment.prints.iter().map(|print| print.item));
             items.any(ResultItem::needs_points)
         };
+        let axes = self.local_axes()?.into_iter();
+        let axes = axes.map(|(node, axes)| (self.node_label(node as usize), axes));
+        out.axes = Arc::new(axes.collect());
         out.point_values = out.moments.iter().any(needs_points);
         Ok(out)
     }
@@ -164,6 +167,7 @@ fn add(request: &OutputRequest, on: On, moment: &mut Moment) {
                 item,
                 set: set.clone(),
                 totals: request.totals,
+                is_global: request.is_global,
             }),
         }
     }

@@ -3,6 +3,7 @@
 use super::mesh::{face, target};
 use super::volume::{OnVolume, volume_load};
 use super::{Reader, fields};
+use crate::deck::bodies::unsupported;
 use crate::deck::data::{Condition, ContactChange, Kind, Step, Target};
 use crate::deck::fields::Fields;
 use crate::deck::keyword::Keyword;
@@ -206,13 +207,6 @@ impl Reader<'_> {
             }
             _ => {}
         }
-        if keyword.has("FIXED") {
-            self.refuse(
-                keyword,
-                keyword.place,
-                "FIXED: give the displacement as a value",
-            );
-        }
         Ok(amplitude)
     }
 
@@ -241,6 +235,7 @@ impl Reader<'_> {
                     range,
                     value,
                     amplitude: amplitude.clone(),
+                    is_fixed: keyword.has("FIXED"),
                     place: line.place,
                 });
             }
@@ -256,10 +251,10 @@ impl Reader<'_> {
             let freedom = row.label("the degree of freedom")? as usize;
             let value = row.number("the force")?;
             row.end()?;
-            if !(1..=3).contains(&freedom) {
+            if !(1..=6).contains(&freedom) {
                 return Err(row.place.error(format!(
-                    "degree of freedom {freedom}: forces act along 1, 2 and 3; moments and heat \
-                     are not"
+                    "degree of freedom {freedom}: forces act along 1, 2 and 3, moments about 4, 5 \
+                     and 6 of a reference node; heat flows do not"
                 )));
             }
             self.add(Condition {
@@ -268,6 +263,7 @@ impl Reader<'_> {
                 range: [freedom; 2],
                 value,
                 amplitude: amplitude.clone(),
+                is_fixed: false,
                 place: line.place,
             });
         }
@@ -302,6 +298,7 @@ impl Reader<'_> {
                         range: [index; 2],
                         value,
                         amplitude: amplitude.clone(),
+                        is_fixed: false,
                         place: line.place,
                     });
                     continue;
@@ -386,6 +383,7 @@ impl Reader<'_> {
             range: [face; 2],
             value,
             amplitude: amplitude.clone(),
+            is_fixed: false,
             place: line.place,
         });
     }
@@ -425,6 +423,11 @@ fn freedoms(row: &mut Fields) -> Result<(Vec<[usize; 2]>, f64)> {
         true => 0.0,
         false => row.number_or("the value", 0.0)?,
     };
+    if first == 11 {
+        let message = "degree of freedom 11 is the temperature, and there is no heat flow here: \
+                       compute the temperatures elsewhere, and give them by *TEMPERATURE";
+        return Err(unsupported(row.place.error(message)));
+    }
     if first == 0 || last < first || last > 6 {
         return Err(row.place.error(format!(
             "degrees of freedom {first} to {last}: displacements are 1, 2 and 3, the last must not \

@@ -83,6 +83,7 @@ impl Reader<'_> {
             contact: (keyword.get("SLAVE").zip(keyword.get("MASTER")))
                 .map(|(slave, master)| [slave, master].map(str::to_string)),
             totals,
+            is_global: (keyword.get("GLOBAL")).is_some_and(|value| plain(value) == "YES"),
             place: keyword.place,
         };
         let is_3d = |value: &str| value.eq_ignore_ascii_case("3D");

@@ -3,8 +3,8 @@
 use super::mesh::target;
 use super::{Reader, fields};
 use crate::deck::data::{
-    Clearance, ContactPair, Equation, Hardening, Interaction, MaterialData, Section, TiedPair,
-    Transform,
+    Adjust, Clearance, ContactPair, Equation, Hardening, Interaction, MaterialData, Section,
+    Target, TiedPair, Transform,
 };
 use crate::deck::fields::Where;
 use crate::deck::keyword::Keyword;
@@ -129,15 +129,17 @@ impl Reader<'_> {
 
     pub(super) fn section(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
-        keyword.allow(files, &["ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"])?;
+        let known = ["ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET"];
+        keyword.allow(files, &known)?;
         let elements = keyword.require(files, "ELSET")?.to_string();
         let material = keyword.require(files, "MATERIAL")?.to_string();
         if keyword.has("ORIENTATION") {
-            self.refuse(
-                keyword,
-                keyword.place,
-                "materials are isotropic: take ORIENTATION out",
-            );
+            let how = "ORIENTATION: materials are isotropic, stresses are along x, y, z";
+            self.take(keyword, keyword.place, how);
+        }
+        if keyword.has("OFFSET") {
+            let why = "OFFSET: sections of solids and of the plane have none";
+            self.ignore(keyword, keyword.place, why);
         }
         let mut thickness = None;
         if let Some(line) = self.source.next_data()? {
@@ -271,14 +273,17 @@ impl Reader<'_> {
         let interaction = keyword.require(files, "INTERACTION")?.to_string();
         let adjust = match keyword.get("ADJUST") {
             Some(text) => match text.parse::<f64>() {
-                Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(distance),
-                _ => {
+                Ok(distance) if distance >= 0.0 && distance.is_finite() => {
+                    Some(Adjust::Within(distance))
+                }
+                Ok(_) => {
                     let why = format!(
-                        "ADJUST={text}: only a distance, 0 or more, is read; give one or take it \
+                        "ADJUST={text}: give a distance, 0 or more, or a set of nodes, or take it \
                          out"
                     );
                     return Err(keyword.error(files, why));
                 }
+                Err(_) => Some(Adjust::Nodes(Target::Set(text.to_string()))),
             },
             None => None,
         };
@@ -292,7 +297,8 @@ impl Reader<'_> {
                 slave,
                 master,
                 interaction: interaction.clone(),
-                adjust,
+                adjust: adjust.clone(),
+                is_closed: false,
                 place: line.place,
             });
             is_first = false;
@@ -368,13 +374,10 @@ impl Reader<'_> {
     pub(super) fn clearance(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
         keyword.allow(files, &["MASTER", "SLAVE", "VALUE"])?;
-        let [master, slave, value] =
-            ["MASTER", "SLAVE", "VALUE"].map(|key| keyword.require(files, key));
-        let (master, slave, value) = (master?.to_string(), slave?.to_string(), value?);
-        let number = value.parse::<f64>().ok().filter(|value| value.is_finite());
-        let value = number.ok_or_else(|| {
-            keyword.error(files, format!("VALUE={value} is not a number; give one"))
-        })?;
+        let [master, slave] = ["MASTER", "SLAVE"].map(|key| keyword.require(files, key));
+        let (master, slave) = (master?.to_string(), slave?.to_string());
+        keyword.require(files, "VALUE")?;
+        let value = keyword.number(files, "VALUE")?.unwrap_or(0.0);
         self.deck.properties.clearances.push(Clearance {
             slave,
             master,
@@ -390,9 +393,9 @@ impl Reader<'_> {
         while let Some(first) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, first);
             let n = row.label("the number of terms")?;
-            if !(2..=MOST_TERMS).contains(&n) {
+            if !(1..=MOST_TERMS).contains(&n) {
                 return Err(row.place.error(format!(
-                    "{n} terms; give at least 2 and at most {MOST_TERMS}"
+                    "{n} terms; give at least 1 and at most {MOST_TERMS}"
                 )));
             }
             row.end()?;
@@ -460,7 +463,7 @@ impl Reader<'_> {
 }
 
 /// Temperatures of a table are ascending.
-fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> Result<()> {
+pub(super) fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> Result<()> {
     match last.filter(|last| temperature <= *last) {
         None => Ok(()),
         Some(last) => Err(place.error(format!(

@@ -1,8 +1,10 @@
 //! Mass and heat: what acts on the volume of elements, and what materials need for it.
 
 use super::mesh::target;
+use super::properties::ascending;
 use super::{Reader, fields};
 use crate::deck::data::{Condition, Kind, VolumeLoad};
+use crate::deck::expansion::Expansion;
 use crate::deck::fields::Fields;
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
@@ -18,8 +20,27 @@ impl Reader<'_> {
     pub(super) fn expansion(&mut self, keyword: &Keyword) -> Result<()> {
         keyword.allow(&self.source.files, &["TYPE", "ZERO"])?;
         keyword.choice(&self.source.files, "TYPE", &["ISO"])?;
-        let value = self.one_value(keyword, "the coefficient of expansion")?;
-        self.of_material(keyword)?.expansion = Some(value);
+        let zero = keyword.number(&self.source.files, "ZERO")?.unwrap_or(0.0);
+        let mut rows: Vec<[f64; 2]> = Vec::new();
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let coefficient = row.number("the coefficient of expansion")?;
+            let temperature = row.number_or("the temperature", 0.0)?;
+            row.end()?;
+            ascending(&row.place, rows.last().map(|last| last[0]), temperature)?;
+            rows.push([temperature, coefficient]);
+        }
+        if rows.is_empty() {
+            let message = "a line with the coefficient of expansion should follow; give it";
+            return Err(keyword.error(&self.source.files, message));
+        }
+        let expansion = Expansion::new(rows, zero);
+        if !expansion.is_constant() {
+            let how = "by temperature: strains are exact at the times of the deck and at the ends \
+                       of its steps and increments, and go straight between them";
+            self.take(keyword, keyword.place, how);
+        }
+        self.of_material(keyword)?.expansion = Some(expansion);
         Ok(())
     }
 
@@ -60,6 +81,7 @@ impl Reader<'_> {
                 range: [1; 2],
                 value,
                 amplitude: amplitude.clone(),
+                is_fixed: false,
                 place: line.place,
             });
         }

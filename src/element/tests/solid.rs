@@ -11,7 +11,7 @@ fn steel() -> Lame {
 
 /// A hexahedron with the gradients of B-bar or plain ones.
 fn solid(has_mean: bool, x: &[[f64; 3]; 20]) -> Solid {
-    let mut solid = Kernel::solid().gauss(Shape::Hex8, x);
+    let mut solid = Kernel::solid().gauss((Shape::Hex8, Integration::Reduced), x);
     solid.has_mean = has_mean;
     solid
 }

@@ -18,7 +18,7 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
         .filter_map(|name| mesh.surfaces.get(name))
         .flat_map(|surface| surface.facets.iter().copied())
         .collect();
-    let paired: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
+    let paired = super::may_touch(pairs, contacts);
     let outer: Vec<Vec<Edge>> = contacts.iter().map(outer_edges).collect();
     let at_edges = outer.iter().flatten().flatten();
     let nodes: BTreeSet<usize> = at_edges.flat_map(|&k| pairs[k].nodes()).collect();

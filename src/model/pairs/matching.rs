@@ -133,6 +133,7 @@ pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Opt
         slave,
         facet_length,
         covered: BTreeMap::new(),
+        held: Vec::new(),
     }))
 }
 

@@ -112,6 +112,7 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
         slave: found.slave,
         facet_length: found.facet_length,
         covered: found.covered,
+        held: Vec::new(),
     })
 }
 
@@ -153,6 +154,7 @@ pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, V
         slave: found.slave,
         facet_length: found.facet_length,
         covered: found.covered,
+        held: Vec::new(),
     };
     Ok((found, free))
 }

@@ -80,7 +80,12 @@ fn of_all_sets(model: &Model) -> Vec<Print> {
             (ResultItem::Force, Totals::Yes),
         ] {
             let set = set.clone();
-            out.push(Print { item, set, totals });
+            out.push(Print {
+                item,
+                set,
+                totals,
+                is_global: true,
+            });
         }
     }
     for (body, name) in mesh.bodies.iter().enumerate() {
@@ -92,6 +97,7 @@ fn of_all_sets(model: &Model) -> Vec<Print> {
                 labels: Arc::new(own.map(|e| mesh.element_label(e)).collect()),
             },
             totals: Totals::No,
+            is_global: true,
         });
     }
     out

@@ -1,9 +1,11 @@
 //! The order in which CalculiX lists the integration points of an element.
 //!
 //! Its elements of the plane are solids of one layer: their points repeat over the thickness.
-//! Elements that it integrates with more points than brinell have the points of brinell.
+//! Points of full integration are in its order from the first.
 
 use crate::mesh::Shape;
+#[cfg(test)]
+use crate::shape::Integration;
 
 /// Points whose mean is listed.
 pub(super) type Mean = &'static [usize];
@@ -44,6 +46,7 @@ pub(super) fn order(shape: Shape, n_points: usize) -> Vec<Mean> {
     ];
     match (shape, n_points) {
         (Shape::Quad4 | Shape::Quad8, 4) => SQUARE.repeat(2),
+        (Shape::Quad8, 9) => EACH[..9].repeat(3),
         (Shape::Tri3, 1) => EACH[..1].repeat(2),
         (Shape::Tri6, 3) => EACH[..3].repeat(3),
         (Shape::Hex8 | Shape::Hex20, 8) => CUBE.to_vec(),
@@ -60,8 +63,9 @@ mod tests {
     /// Every point of a shape is in the list.
     #[test]
     fn no_point_is_left_out() {
-        for shape in Shape::ALL {
-            let n = shape.n_gauss_points();
+        let integrated = |by| Shape::ALL.into_iter().map(move |shape| (shape, by));
+        for (shape, by) in Integration::ALL.into_iter().flat_map(integrated) {
+            let n = shape.n_points(by);
             let mut found: Vec<usize> = order(shape, n).concat();
             found.sort_unstable();
             found.dedup();

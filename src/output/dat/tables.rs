@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::output::slaves::Slaves;
 use crate::results::{Fields, State};
 use crate::scene::{Print, ResultItem, Totals};
-use crate::space::Space;
+use crate::space::{Space, dot};
 use std::io::{self, Write};
 
 /// Writes tables of a model.
@@ -104,7 +104,15 @@ impl<'a> Tables<'a> {
         writeln!(out, "\n {head}\n")?;
         for (label, node) in self.nodes(print) {
             let vector = self.vector(node, values).map(|v| factor * v);
-            writeln!(out, "{label:10}{}", row(&vector))?;
+            // Marked as CalculiX marks it.
+            let own = self.model.scene.requests.axes.get(&label);
+            match own.filter(|_| !print.is_global) {
+                Some(axes) => {
+                    let vector = axes.map(|axis| dot(axis, vector));
+                    writeln!(out, "{label:10}{} L", row(&vector))?;
+                }
+                None => writeln!(out, "{label:10}{}", row(&vector))?,
+            }
         }
         Ok(())
     }
@@ -171,7 +179,8 @@ impl<'a> Tables<'a> {
         let (mesh, space) = (&self.model.mesh, self.model.kind);
         let nodes = mesh.nodes(element).iter();
         let nodes: Vec<_> = nodes.map(|&node| mesh.point(node as usize)).collect();
-        let points = volume_points(space, mesh.shapes[element], &nodes);
+        let kind = (mesh.shapes[element], mesh.integration_of(element));
+        let points = volume_points(space, kind, &nodes);
         let volume: f64 = points.map(|point| point.weight).sum();
         match space {
             Space::Axisymmetric => volume / 180.0,

@@ -2,7 +2,7 @@
 
 use crate::mesh::{Mesh, Shape};
 use crate::results::PointValues;
-use crate::shape::Extrapolation;
+use crate::shape::{Extrapolation, Integration};
 
 /// Means over the elements of each node.
 pub(super) struct Extrapolated {
@@ -12,16 +12,17 @@ pub(super) struct Extrapolated {
     pub(super) strain: Vec<f64>,
     /// `n_nodes`.
     pub(super) plastic_strain: Vec<f64>,
-    /// By the number of the shape.
+    /// By the numbers of integration and shape.
     of_shapes: Vec<Extrapolation>,
 }
 
 impl Extrapolated {
     pub(super) fn new(mesh: &Mesh, points: &PointValues) -> Self {
-        let of_shapes: Vec<Extrapolation> = Shape::ALL
-            .iter()
-            .map(|shape| Extrapolation::new(*shape, shape.reference().gauss))
-            .collect();
+        let integrated = |by: Integration| {
+            let of = move |shape: Shape| Extrapolation::new(shape, shape.rule(by));
+            Shape::ALL.into_iter().map(of)
+        };
+        let of_shapes: Vec<_> = Integration::ALL.into_iter().flat_map(integrated).collect();
         let n_elements = count(mesh);
         let mean = |values: &[f64], size: usize| {
             let mut out = vec![0.0; size * mesh.n_nodes()];
@@ -85,7 +86,8 @@ fn at_nodes<'a>(
     points: &PointValues,
     (element, values, size): (usize, &'a [f64], usize),
 ) -> impl Iterator<Item = (usize, Vec<f64>)> + 'a {
-    let of = &of_shapes[mesh.shapes[element] as usize];
+    let first = Shape::ALL.len() * mesh.integration_of(element) as usize;
+    let of = &of_shapes[first + mesh.shapes[element] as usize];
     let range = points.of(element);
     let values = &values[size * range.start..size * range.end];
     let nodes = mesh.nodes(element).iter().enumerate();

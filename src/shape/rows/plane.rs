@@ -29,6 +29,8 @@ pub(in crate::shape) const SQUARE: [Place; 8] = [
 pub(super) const G2: f64 = 0.577_350_269_189_625_8;
 /// Gauss abscissa `sqrt(3/5)` of the 3 x 3 rule.
 const G3: f64 = 0.774_596_669_241_483_4;
+/// Abscissas of the 3-point rule.
+pub(super) const LINE3: [f64; 3] = [-G3, 0.0, G3];
 
 const GAUSS_2X2: &Rule = &[
     ([-G2, -G2, 0.0], 1.0),
@@ -36,6 +38,19 @@ const GAUSS_2X2: &Rule = &[
     ([G2, G2, 0.0], 1.0),
     ([-G2, G2, 0.0], 1.0),
 ];
+/// Weights of the 3-point rule.
+pub(super) const W3: [f64; 3] = [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0];
+/// First along the first coordinate.
+const GAUSS_3X3: &Rule = &{
+    let mut points = [([0.0; 3], 0.0); 9];
+    let mut k = 0;
+    while k < 9 {
+        let [i, j] = [k % 3, k / 3];
+        points[k] = ([LINE3[i], LINE3[j], 0.0], W3[i] * W3[j]);
+        k += 1;
+    }
+    points
+};
 const CENTER: &Rule = &[([0.0, 0.0, 0.0], 4.0)];
 
 pub(super) const SIXTH: f64 = 1.0 / 6.0;
@@ -54,6 +69,7 @@ pub(super) static TRI3: Reference = Reference {
     nodes: TRIANGLE.split_at(3).0,
     functions: functions::tri3,
     gauss: CENTROID,
+    full: CENTROID,
     sampling: CENTROID,
     has_mean_dilatation: false,
     // Its Jacobian is constant.
@@ -74,6 +90,7 @@ pub(super) static TRI6: Reference = Reference {
     nodes: &TRIANGLE,
     functions: functions::tri6,
     gauss: INNER_3,
+    full: INNER_3,
     sampling: INNER_3,
     has_mean_dilatation: false,
     checked: &[
@@ -103,6 +120,7 @@ pub(super) static QUAD4: Reference = Reference {
     nodes: SQUARE.split_at(4).0,
     functions: functions::quad4,
     gauss: GAUSS_2X2,
+    full: GAUSS_2X2,
     sampling: CENTER,
     has_mean_dilatation: true,
     // Its Jacobian is linear along each reference coordinate.
@@ -124,6 +142,7 @@ pub(super) static QUAD8: Reference = Reference {
     functions: functions::quad8,
     // Reduced integration.
     gauss: GAUSS_2X2,
+    full: GAUSS_3X3,
     sampling: GAUSS_2X2,
     has_mean_dilatation: false,
     checked: &[

@@ -1,6 +1,6 @@
 //! Rows of solid shapes.
 
-use super::plane::{G2, IN_ORDER, SIXTH};
+use super::plane::{G2, IN_ORDER, LINE3, SIXTH, W3};
 use crate::shape::{Place, Reference, Rule, functions};
 
 /// Corners of each edge of a tetrahedron, in the order of the nodes between them.
@@ -103,6 +103,17 @@ const GAUSS_2X2X2: &Rule = &[
     ([G2, G2, G2], 1.0),
     ([-G2, G2, G2], 1.0),
 ];
+/// First along the first coordinate, then along the second.
+const GAUSS_3X3X3: &Rule = &{
+    let mut points = [([0.0; 3], 0.0); 27];
+    let mut n = 0;
+    while n < 27 {
+        let [i, j, k] = [n % 3, n / 3 % 3, n / 9];
+        points[n] = ([LINE3[i], LINE3[j], LINE3[k]], W3[i] * W3[j] * W3[k]);
+        n += 1;
+    }
+    points
+};
 const CENTER_OF_CUBE: &Rule = &[([0.0, 0.0, 0.0], 8.0)];
 const CENTROID_OF_TETRAHEDRON: &Rule = &[([0.25, 0.25, 0.25], 1.0 / 6.0)];
 /// Four points, exact to degree 2: `(5 -+ sqrt 5)/20`.
@@ -126,6 +137,7 @@ pub(super) static TET4: Reference = Reference {
     nodes: TETRAHEDRON.split_at(4).0,
     functions: functions::tet4,
     gauss: CENTROID_OF_TETRAHEDRON,
+    full: CENTROID_OF_TETRAHEDRON,
     sampling: CENTROID_OF_TETRAHEDRON,
     has_mean_dilatation: false,
     checked: TETRAHEDRON.split_at(1).0,
@@ -145,6 +157,7 @@ pub(super) static TET10: Reference = Reference {
     nodes: &TETRAHEDRON,
     functions: functions::tet10,
     gauss: INNER_4,
+    full: INNER_4,
     sampling: INNER_4,
     has_mean_dilatation: false,
     checked: &{
@@ -184,6 +197,17 @@ const INNER_3X2: &Rule = &[
     ([4.0 * SIXTH, SIXTH, G2], SIXTH),
     ([SIXTH, 4.0 * SIXTH, G2], SIXTH),
 ];
+/// Three points of a triangle at three heights.
+const INNER_3X3: &Rule = &{
+    let mut points = [([0.0; 3], 0.0); 9];
+    let mut n = 0;
+    while n < 9 {
+        let ([x, y, _], _) = INNER_3X2[n % 3];
+        points[n] = ([x, y, LINE3[n / 3]], SIXTH * W3[n / 3]);
+        n += 1;
+    }
+    points
+};
 const CENTER_OF_PRISM: &Rule = &[([1.0 / 3.0, 1.0 / 3.0, 0.0], 1.0)];
 
 /// Corners and Gauss points.
@@ -205,6 +229,7 @@ pub(super) static PRISM6: Reference = Reference {
     nodes: PRISM.split_at(6).0,
     functions: functions::prism6,
     gauss: INNER_3X2,
+    full: INNER_3X2,
     sampling: CENTER_OF_PRISM,
     has_mean_dilatation: true,
     checked: &CHECKED_OF_PRISM,
@@ -231,6 +256,7 @@ pub(super) static PRISM15: Reference = Reference {
     functions: functions::prism15,
     // Reduced integration.
     gauss: INNER_3X2,
+    full: INNER_3X3,
     sampling: INNER_3X2,
     has_mean_dilatation: false,
     checked: &CHECKED_OF_PRISM,
@@ -267,6 +293,7 @@ pub(super) static HEX8: Reference = Reference {
     nodes: CUBE.split_at(8).0,
     functions: functions::hex8,
     gauss: GAUSS_2X2X2,
+    full: GAUSS_2X2X2,
     sampling: CENTER_OF_CUBE,
     has_mean_dilatation: true,
     checked: &CHECKED_OF_CUBE,
@@ -294,6 +321,7 @@ pub(super) static HEX20: Reference = Reference {
     functions: functions::hex20,
     // Reduced integration.
     gauss: GAUSS_2X2X2,
+    full: GAUSS_3X3X3,
     sampling: GAUSS_2X2X2,
     has_mean_dilatation: false,
     checked: &CHECKED_OF_CUBE,

@@ -1,0 +1,170 @@
+//! Nodes of slave surfaces that are moved onto the master surface (`ADJUST` of `*CONTACT PAIR`).
+//!
+//! Those within a distance of the other surface, or those of a set, move to its nearest point, from
+//! either side: faces are cut in triangles, edges of the plane are straight.
+
+use super::Deck;
+use super::data::{Account, Adjust};
+use super::facets::Face;
+use super::sets::What;
+use crate::balls::Balls;
+use crate::number::exact;
+use crate::space::{Vector, along, difference, dot, length};
+
+impl Deck {
+    /// Moves the nodes of all pairs that ask for it. A name that there is not is told where the
+    /// pair is used.
+    pub(super) fn adjust(&mut self) {
+        for number in 0..self.properties.contacts.len() {
+            let pair = self.properties.contacts[number].clone();
+            let Some(adjust) = &pair.adjust else { continue };
+            let at = (pair.place, "CONTACT PAIR");
+            let [slave, master] = [&pair.slave, &pair.master].map(|name| self.surface(name, at));
+            let (Ok(slave), Ok(master)) = (slave, master) else {
+                continue;
+            };
+            let nodes = self.nodes_of(&slave);
+            let chosen = match adjust {
+                Adjust::Within(_) => Ok(nodes.clone()),
+                Adjust::Nodes(set) => self.indices(What::Nodes, set, at),
+            };
+            let Ok(chosen) = chosen else { continue };
+            let surface = Pieces::new(self, &master);
+            let (mut n_moved, mut farthest) = (0, 0.0f64);
+            for &node in nodes
+                .iter()
+                .filter(|node| chosen.binary_search(node).is_ok())
+            {
+                let x = self.point(node as usize);
+                let target = surface.nearest(x);
+                let distance = length(difference(target, x));
+                if matches!(adjust, Adjust::Within(most) if distance > *most) {
+                    continue;
+                }
+                n_moved += 1;
+                farthest = farthest.max(distance);
+                self.nodes.coordinates[3 * node as usize..][..3].copy_from_slice(&target);
+            }
+            self.properties.contacts[number].is_closed = n_moved == nodes.len();
+            let text = format!(
+                "ADJUST={}: {n_moved} of the {} nodes of {} are moved onto {}, by {} at most",
+                adjust.written(),
+                nodes.len(),
+                pair.slave,
+                pair.master,
+                exact(farthest)
+            );
+            let list = &mut self.account.taken;
+            Account::add(list, &self.files, pair.place, "CONTACT PAIR", &text);
+        }
+    }
+}
+
+impl Adjust {
+    fn written(&self) -> String {
+        match self {
+            Adjust::Within(distance) => exact(*distance).to_string(),
+            Adjust::Nodes(super::data::Target::Set(name)) => name.clone(),
+            Adjust::Nodes(super::data::Target::Label(label)) => label.to_string(),
+        }
+    }
+}
+
+/// A surface as triangles, or lines whose last two corners are one.
+struct Pieces {
+    corners: Vec<[Vector; 3]>,
+    around: Balls,
+}
+
+impl Pieces {
+    fn new(deck: &Deck, faces: &[Face]) -> Self {
+        let mut corners = Vec::new();
+        for &(element, local) in faces {
+            let shape = deck.shape(element as usize);
+            let n = shape.facet_reference(local as usize).n_corners;
+            let nodes = deck.element_nodes(element as usize);
+            let own = &shape.facet(local as usize)[..n];
+            let x: Vec<Vector> = own.iter().map(|&k| deck.point(nodes[k] as usize)).collect();
+            match x[..] {
+                [a, b] => corners.push([a, b, b]),
+                [a, b, c] => corners.push([a, b, c]),
+                [a, b, c, d] => corners.extend([[a, b, c], [a, c, d]]),
+                _ => {}
+            }
+        }
+        let ball = |[a, b, c]: &[Vector; 3]| {
+            let third = 1.0 / 3.0;
+            let center = [0, 1, 2].map(|d| third * (a[d] + b[d] + c[d]));
+            let radius = [a, b, c].map(|x| length(difference(*x, center)));
+            (center, radius.into_iter().fold(0.0, f64::max))
+        };
+        let around = Balls::new(corners.iter().map(ball).collect());
+        Pieces { corners, around }
+    }
+
+    /// The nearest point.
+    fn nearest(&self, x: Vector) -> Vector {
+        let found = std::cell::Cell::new((f64::INFINITY, x));
+        self.around.nearest(x, |piece| {
+            let point = nearest_on(&self.corners[piece], x);
+            let distance = length(difference(point, x));
+            if distance < found.get().0 {
+                found.set((distance, point));
+            }
+            distance
+        });
+        found.get().1
+    }
+}
+
+/// The point of a triangle that is nearest to another one.
+///
+/// # Source
+/// C. Ericson, *Real-Time Collision Detection* (2005), section 5.1.5.
+fn nearest_on([a, b, c]: &[Vector; 3], x: Vector) -> Vector {
+    let (ab, ac, ax) = (difference(*b, *a), difference(*c, *a), difference(x, *a));
+    let [aa, bb, cc] = [dot(ab, ab), dot(ab, ac), dot(ac, ac)];
+    let (d, e) = (dot(ab, ax), dot(ac, ax));
+    let determinant = aa * cc - bb * bb;
+    let inside = [cc * d - bb * e, aa * e - bb * d];
+    if determinant > f64::EPSILON * aa * cc
+        && inside.iter().all(|v| *v >= 0.0)
+        && inside[0] + inside[1] <= determinant
+    {
+        let [v, w] = inside.map(|v| v / determinant);
+        return along(along(*a, v, ab), w, ac);
+    }
+    let edges = [(a, b), (b, c), (c, a)].map(|(from, to)| {
+        let side = difference(*to, *from);
+        let square = dot(side, side);
+        let t = match square > 0.0 {
+            true => (dot(difference(x, *from), side) / square).clamp(0.0, 1.0),
+            false => 0.0,
+        };
+        along(*from, t, side)
+    });
+    let size = |point: &Vector| length(difference(*point, x));
+    let nearest = edges.into_iter().min_by(|p, q| size(p).total_cmp(&size(q)));
+    nearest.unwrap_or(*a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_point_is_inside_on_an_edge_or_a_corner() {
+        let triangle = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        for (x, expected) in [
+            ([0.2, 0.3, 0.7], [0.2, 0.3, 0.0]),
+            ([0.5, -1.0, 0.1], [0.5, 0.0, 0.0]),
+            ([1.0, 1.0, 0.0], [0.5, 0.5, 0.0]),
+            ([-1.0, -1.0, 2.0], [0.0; 3]),
+        ] {
+            let off = length(difference(nearest_on(&triangle, x), expected));
+            assert!(off < 1e-15, "{x:?}");
+        }
+        let line = [[0.0; 3], [2.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+        assert_eq!(nearest_on(&line, [1.0, 1.0, 0.0]), [1.0, 0.0, 0.0]);
+    }
+}

@@ -1,0 +1,307 @@
+//! Equations of all kinds as equations of the scene: chains, terms in local axes, rigid bodies,
+//! nodes without elements.
+
+use super::super::bodies::unsupported;
+use super::super::constraints::HeldPlane;
+use super::super::data::Equation;
+use super::super::history::{Entry, Key, Map};
+use super::super::linear::{self, Follows, Reduced, Row, Terms};
+use super::super::series::Series;
+use super::super::sets::What;
+use super::super::source::Place;
+use super::Draft;
+use crate::error::Result;
+use crate::scene::{self, Direction, EquationTerm};
+use crate::space::Vector;
+use std::collections::BTreeMap;
+
+/// Share of the terms that a sum of displacements may be and count as zero.
+const ROUND_OFF: f64 = 1e-9;
+
+impl Draft<'_> {
+    /// Takes all equations into the scene but for planes that are held with nothing else to do;
+    /// these are left. Nodes without elements are done with: what moves or presses them moves or
+    /// presses the nodes that follow them.
+    pub(super) fn constrain(
+        &mut self,
+        boundary: &mut Map,
+        forces: &mut Map,
+    ) -> Result<Vec<HeldPlane>> {
+        let axes = self.deck.local_axes()?;
+        let (planes, others) = self.deck.held_planes()?;
+        let mut rows = Vec::new();
+        for equation in others {
+            self.rows_of(equation, &mut rows)?;
+        }
+        for body in self.deck.rigid_bodies()? {
+            for (node, axis, mut row) in body.rows(self.deck) {
+                let own = axes.get(&node).copied().unwrap_or(GLOBAL);
+                for (of, local) in own.iter().enumerate() {
+                    *row.terms.entry((node, of as u8)).or_insert(0.0) += local[axis];
+                }
+                row.first = Some((node, axis as u8));
+                rows.push(row);
+            }
+        }
+        let (simple, joined) = apart(planes, &rows, |plane| {
+            let is_own = |node: &u32| axes.contains_key(node);
+            let (leader, axis) = plane.leader;
+            let mut followers = plane.nodes.iter().filter(|node| **node != leader);
+            plane.nodes.iter().any(is_own)
+                || followers.any(|node| boundary.contains_key(&(*node, axis)))
+        });
+        for plane in joined {
+            let followers = plane.nodes.iter().filter(|node| **node != plane.leader.0);
+            rows.extend(followers.map(|&node| Row {
+                terms: Terms::from([((node, plane.leader.1), 1.0), (plane.leader, -1.0)]),
+                first: Some((node, plane.leader.1)),
+                place: plane.place,
+                keyword: "EQUATION",
+            }));
+        }
+        let of_rows: Vec<Key> = rows
+            .iter()
+            .flat_map(|row| row.terms.keys().copied())
+            .collect();
+        let reduced = self.reduced(rows, boundary);
+        self.move_forces(&reduced, &of_rows, boundary, forces)?;
+        self.check_known(&reduced.known, boundary)?;
+        let known = boundary.clone();
+        for follows in &reduced.others {
+            self.follow(follows, &known, boundary, &axes)?;
+        }
+        let is_loose = |key: &Key| !self.geometry.uses(key.0);
+        boundary.retain(|key, _| !(is_loose(key) && of_rows.contains(key)));
+        Ok(simple)
+    }
+
+    /// What is held at zero is in no equation.
+    fn reduced(&self, mut rows: Vec<Row>, boundary: &Map) -> Reduced {
+        let dimension = self.deck.dimension();
+        let is_zero = |key: &Key| {
+            let out_of_plane = key.1 as usize >= dimension && self.geometry.uses(key.0);
+            out_of_plane
+                || boundary
+                    .get(key)
+                    .is_some_and(|entry| entry.series.is_zero())
+        };
+        for row in &mut rows {
+            row.terms.retain(|key, _| !is_zero(key));
+        }
+        linear::reduce(
+            rows,
+            |key| !self.geometry.uses(key.0),
+            |key| boundary.contains_key(key),
+        )
+    }
+
+    /// The rows of an equation, one for each node of its first set.
+    fn rows_of(&self, equation: &Equation, rows: &mut Vec<Row>) -> Result<()> {
+        let (deck, at) = (self.deck, (equation.place, "EQUATION"));
+        let refused = |message: String| deck.error(at.0, at.1, message);
+        let mut terms = Vec::new();
+        for (on, freedom, coefficient) in &equation.terms {
+            let nodes = deck.indices(What::Nodes, on, at)?;
+            let keys: Vec<Key> = match freedom {
+                1..=3 => nodes
+                    .iter()
+                    .map(|&node| (node, *freedom as u8 - 1))
+                    .collect(),
+                _ => deck.rotations_among(&nodes, [*freedom; 2])?,
+            };
+            if keys.is_empty() {
+                let message = format!(
+                    "degree of freedom {freedom} is none of a node here: 1 to {}",
+                    deck.dimension()
+                );
+                return Err(unsupported(refused(message)));
+            }
+            terms.push((keys, *coefficient));
+        }
+        let n = terms.first().map_or(0, |(keys, _)| keys.len());
+        if let Some((keys, _)) = terms.iter().find(|(keys, _)| ![1, n].contains(&keys.len())) {
+            let message = format!(
+                "a term is on {} nodes, the first on {n}: give it as many, or one",
+                keys.len()
+            );
+            return Err(refused(message));
+        }
+        for k in 0..n {
+            let mut sum = Terms::new();
+            let key_of = |keys: &Vec<Key>| if keys.len() == 1 { keys[0] } else { keys[k] };
+            for (keys, coefficient) in &terms {
+                *sum.entry(key_of(keys)).or_insert(0.0) += coefficient;
+            }
+            rows.push(Row {
+                terms: sum,
+                first: terms.first().map(|(keys, _)| key_of(keys)),
+                place: equation.place,
+                keyword: "EQUATION",
+            });
+        }
+        Ok(())
+    }
+
+    /// A force on a node without elements presses what it follows from; one on a node that is held
+    /// goes into the support.
+    fn move_forces(
+        &self,
+        reduced: &Reduced,
+        of_rows: &[Key],
+        boundary: &Map,
+        forces: &mut Map,
+    ) -> Result<()> {
+        for follows in &reduced.loose {
+            let Some(entry) = forces.remove(&follows.key) else {
+                continue;
+            };
+            for (key, share) in &follows.of {
+                if boundary.contains_key(key) {
+                    continue;
+                }
+                if !self.geometry.uses(key.0) && !entry.series.is_zero() {
+                    return Err(self.pressed_loose(follows.key, entry.place));
+                }
+                let new = || Entry::new(Series::starting(0.0), entry.place);
+                let sum = forces.entry(*key).or_insert_with(new);
+                sum.series.add(&entry.series, *share);
+            }
+        }
+        let is_left = |key: &Key| !self.geometry.uses(key.0) && of_rows.contains(key);
+        let left: Vec<Key> = forces.keys().filter(|key| is_left(key)).copied().collect();
+        for key in left {
+            if let Some(entry) = forces.remove(&key)
+                && !boundary.contains_key(&key)
+                && !entry.series.is_zero()
+            {
+                return Err(self.pressed_loose(key, entry.place));
+            }
+        }
+        Ok(())
+    }
+
+    fn pressed_loose(&self, key: Key, place: Place) -> crate::Error {
+        let node = self.deck.node_name(key.0 as usize);
+        let message = format!(
+            "a force acts on node {node} along {}, which no node of an element follows alone",
+            key.1 + 1
+        );
+        self.deck.error(place, "CLOAD", message)
+    }
+
+    /// Rows between displacements that are all given must hold.
+    fn check_known(&self, rows: &[Row], boundary: &Map) -> Result<()> {
+        for row in rows {
+            let sum = series_of(&row.terms, boundary);
+            let sizes = row.terms.iter().map(|(key, c)| {
+                let given = boundary
+                    .get(key)
+                    .map_or(0.0, |entry| entry.series.largest());
+                (c * given).abs()
+            });
+            if sum.largest().abs() > ROUND_OFF * sizes.fold(0.0, f64::max) {
+                let message = "what is held or moved does not agree with it: take one of them out";
+                return Err(self.deck.error(row.place, row.keyword, message));
+            }
+        }
+        Ok(())
+    }
+
+    /// A displacement that follows known ones alone is held or moved; another is an equation.
+    fn follow(
+        &mut self,
+        follows: &Follows,
+        known: &Map,
+        boundary: &mut Map,
+        axes: &BTreeMap<u32, [Vector; 3]>,
+    ) -> Result<()> {
+        if follows.of.keys().all(|key| known.contains_key(key)) {
+            let series = series_of(&follows.of, known);
+            boundary.insert(follows.key, Entry::new(series, follows.place));
+            return Ok(());
+        }
+        let is_loose = |key: &&Key| !self.geometry.uses(key.0);
+        if let Some(key) = follows.of.keys().find(is_loose) {
+            let node = self.deck.node_name(key.0 as usize);
+            let message = format!(
+                "node {node}, which belongs to no element, is moved, and what follows it turns \
+                 freely: hold its rotation too, or move nodes of elements"
+            );
+            return Err(unsupported(self.deck.error(
+                follows.place,
+                follows.keyword,
+                message,
+            )));
+        }
+        let one = (follows.key, -1.0);
+        let all = std::iter::once(one).chain(follows.of.iter().map(|(key, c)| (*key, *c)));
+        let mut terms = Vec::new();
+        for ((node, axis), coefficient) in all {
+            let own = axes.get(&node).unwrap_or(&GLOBAL)[axis as usize];
+            let mut parts: Vec<(usize, f64)> = own
+                .map(|x| coefficient * x)
+                .into_iter()
+                .enumerate()
+                .collect();
+            parts.retain(|(_, c)| c.abs() > ROUND_OFF * coefficient.abs());
+            // The largest one first: it follows.
+            parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+            let on = self.set_of_node(node);
+            terms.extend(parts.into_iter().map(|(axis, coefficient)| EquationTerm {
+                on: on.clone(),
+                direction: Direction::ALL[axis],
+                coefficient,
+            }));
+        }
+        let key = format!("equation.{}", self.equations.len());
+        self.places.insert(key, self.deck.files.show(follows.place));
+        self.equations.push(scene::Equation { terms });
+        Ok(())
+    }
+
+    /// The name of a set of one node.
+    fn set_of_node(&mut self, node: u32) -> String {
+        let known = self.sets_of_nodes.get(&node);
+        if let Some(name) = known {
+            return name.clone();
+        }
+        let name = format!("node-{}", self.deck.node_label(node as usize));
+        let name = self.geometry.add_nodes(&name, vec![node]);
+        self.sets_of_nodes.insert(node, name.clone());
+        name
+    }
+}
+
+const GLOBAL: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// The sum of known displacements times coefficients.
+fn series_of(terms: &Terms, known: &Map) -> Series {
+    let mut sum = Series::starting(0.0);
+    for (key, c) in terms {
+        if let Some(entry) = known.get(key) {
+            sum.add(&entry.series, *c);
+        }
+    }
+    sum
+}
+
+/// Planes that share nothing with others or with rows, and those that do or are to be among them.
+fn apart(
+    planes: Vec<HeldPlane>,
+    rows: &[Row],
+    is_joined: impl Fn(&HeldPlane) -> bool,
+) -> (Vec<HeldPlane>, Vec<HeldPlane>) {
+    let mut count: BTreeMap<Key, usize> = BTreeMap::new();
+    let of_rows = rows.iter().flat_map(|row| row.terms.keys().copied());
+    let keys = |plane: &HeldPlane| -> Vec<Key> {
+        let nodes = plane.nodes.iter();
+        nodes.map(|&node| (node, plane.leader.1)).collect()
+    };
+    let of_planes = planes.iter().flat_map(keys);
+    of_rows
+        .chain(of_planes)
+        .for_each(|key| *count.entry(key).or_default() += 1);
+    planes
+        .into_iter()
+        .partition(|plane| !is_joined(plane) && keys(plane).iter().all(|key| count[key] == 1))
+}

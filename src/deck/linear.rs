@@ -1,0 +1,239 @@
+//! Linear equations between displacements: which follow which.
+//!
+//! Of `sum_k c_k u_k = 0`, row by row, displacements of nodes without elements are taken out first:
+//! a row says what each of them is. What is left is brought to the form `u_i = sum_k a_k u_k`, in
+//! which no `u_i` is among the others of any row (Gauss and Jordan, with the largest coefficient
+//! of a column or row as pivot).
+
+use super::history::Key;
+use super::source::Place;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Share of the largest coefficient of a column below which one is round-off.
+const ROUND_OFF: f64 = 1e-11;
+/// Share of the largest coefficient of a row from which its first term follows the others, as it is
+/// written.
+const LARGE_ENOUGH: f64 = 0.1;
+
+/// Coefficients by node and axis.
+pub(super) type Terms = BTreeMap<Key, f64>;
+
+/// An equation of a line.
+#[derive(Debug, Clone)]
+pub(super) struct Row {
+    pub(super) terms: Terms,
+    /// The term that follows the others where it can.
+    pub(super) first: Option<Key>,
+    pub(super) place: Place,
+    pub(super) keyword: &'static str,
+}
+
+/// A displacement that follows from others.
+#[derive(Debug, Clone)]
+pub(super) struct Follows {
+    pub(super) key: Key,
+    /// `u_key = sum_k a_k u_k`.
+    pub(super) of: Terms,
+    pub(super) place: Place,
+    pub(super) keyword: &'static str,
+}
+
+/// What comes of all equations.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Reduced {
+    /// Displacements of nodes without elements.
+    pub(super) loose: Vec<Follows>,
+    /// Displacements of other nodes.
+    pub(super) others: Vec<Follows>,
+    /// Equations between known displacements alone.
+    pub(super) known: Vec<Row>,
+}
+
+/// Equations with the rows that each key is in.
+struct Matrix {
+    rows: Vec<Row>,
+    of_key: BTreeMap<Key, BTreeSet<usize>>,
+    /// The largest coefficient of each key.
+    scale: BTreeMap<Key, f64>,
+}
+
+/// Reduces equations. `is_loose` says whether a displacement is one of a node without elements,
+/// `is_known` whether it is given: that of a known one is a number and follows nothing.
+pub(super) fn reduce(
+    rows: Vec<Row>,
+    is_loose: impl Fn(&Key) -> bool,
+    is_known: impl Fn(&Key) -> bool,
+) -> Reduced {
+    let mut matrix = Matrix::new(rows);
+    let mut out = Reduced::default();
+    let keys: Vec<Key> = matrix.of_key.keys().copied().collect();
+    let (mut done, mut loose) = (BTreeSet::new(), Vec::new());
+    for key in keys.iter().filter(|key| is_loose(key) && !is_known(key)) {
+        let Some(row) = matrix.largest_of(key, &done) else {
+            continue;
+        };
+        matrix.eliminate(row, key);
+        done.insert(row);
+        loose.push((row, *key));
+    }
+    let follows = loose.into_iter().map(|(row, key)| matrix.follows(row, key));
+    out.loose.extend(follows);
+    // What is loose and free in a row that is left would have been taken out.
+    let rows: Vec<usize> = (0..matrix.rows.len())
+        .filter(|r| !done.contains(r))
+        .collect();
+    let mut pivots = Vec::new();
+    for row in rows {
+        match matrix.follower(row, &is_known) {
+            Some(key) => {
+                matrix.eliminate(row, &key);
+                pivots.push((row, key));
+            }
+            None if matrix.rows[row].terms.is_empty() => {}
+            None => out.known.push(matrix.rows[row].clone()),
+        }
+    }
+    let follows = pivots
+        .into_iter()
+        .map(|(row, key)| matrix.follows(row, key));
+    out.others.extend(follows);
+    out
+}
+
+impl Matrix {
+    fn new(rows: Vec<Row>) -> Self {
+        let mut out = Matrix {
+            rows,
+            of_key: BTreeMap::new(),
+            scale: BTreeMap::new(),
+        };
+        for (number, row) in out.rows.iter_mut().enumerate() {
+            row.terms.retain(|_, c| *c != 0.0);
+            for (key, c) in &row.terms {
+                out.of_key.entry(*key).or_default().insert(number);
+                let largest = out.scale.entry(*key).or_insert(0.0);
+                *largest = largest.max(c.abs());
+            }
+        }
+        out
+    }
+
+    /// The row in which a key has its largest coefficient, but for some.
+    fn largest_of(&self, key: &Key, but: &BTreeSet<usize>) -> Option<usize> {
+        let rows = self
+            .of_key
+            .get(key)?
+            .iter()
+            .filter(|row| !but.contains(row));
+        let size = |row: &&usize| self.rows[**row].terms[key].abs();
+        rows.max_by(|a, b| size(a).total_cmp(&size(b)).then(b.cmp(a)))
+            .copied()
+    }
+
+    /// The displacement that is to follow the others of a row: its first term, or the largest.
+    fn follower(&self, row: usize, is_known: impl Fn(&Key) -> bool) -> Option<Key> {
+        let row = &self.rows[row];
+        let free = || row.terms.iter().filter(|(key, _)| !is_known(key));
+        let largest = free().fold(None, |most: Option<(&Key, f64)>, (key, c)| match most {
+            Some((_, size)) if c.abs() <= size => most,
+            _ => Some((key, c.abs())),
+        });
+        let (key, size) = largest?;
+        let first = row.first.filter(|first| {
+            let c = row.terms.get(first).filter(|_| !is_known(first));
+            c.is_some_and(|c| c.abs() >= LARGE_ENOUGH * size)
+        });
+        Some(first.unwrap_or(*key))
+    }
+
+    /// Takes a key out of all rows but its own.
+    fn eliminate(&mut self, own: usize, key: &Key) {
+        let terms = self.rows[own].terms.clone();
+        let Some(pivot) = terms.get(key) else { return };
+        let others: Vec<usize> = self.of_key[key].iter().copied().collect();
+        for row in others.into_iter().filter(|row| *row != own) {
+            let Some(c) = self.rows[row].terms.get(key) else {
+                continue;
+            };
+            let factor = c / pivot;
+            for (of, c) in &terms {
+                let sum = self.rows[row].terms.entry(*of).or_insert(0.0);
+                *sum -= factor * c;
+                let least = ROUND_OFF * self.scale[of].max((factor * c).abs());
+                let is_left = of != key && sum.abs() > least;
+                let rows = self.of_key.entry(*of).or_default();
+                if is_left {
+                    rows.insert(row);
+                } else {
+                    self.rows[row].terms.remove(of);
+                    rows.remove(&row);
+                }
+            }
+        }
+    }
+
+    fn follows(&self, row: usize, key: Key) -> Follows {
+        let row = &self.rows[row];
+        let pivot = row.terms.get(&key).copied().unwrap_or(1.0);
+        let others = row.terms.iter().filter(|(other, _)| **other != key);
+        Follows {
+            key,
+            of: others.map(|(other, c)| (*other, -c / pivot)).collect(),
+            place: row.place,
+            keyword: row.keyword,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(terms: &[(u32, f64)]) -> Row {
+        Row {
+            terms: terms.iter().map(|&(node, c)| ((node, 0), c)).collect(),
+            first: terms.first().map(|term| (term.0, 0)),
+            place: Place::default(),
+            keyword: "EQUATION",
+        }
+    }
+
+    fn of(follows: &Follows) -> Vec<(u32, f64)> {
+        follows.of.iter().map(|(key, c)| (key.0, *c)).collect()
+    }
+
+    #[test]
+    fn chains_end_at_what_follows_nothing() {
+        let rows = vec![row(&[(1, 1.0), (2, -1.0)]), row(&[(2, 2.0), (3, -1.0)])];
+        let reduced = reduce(rows, |_| false, |_| false);
+        let all: Vec<_> = reduced.others.iter().map(|f| (f.key.0, of(f))).collect();
+        assert_eq!(all, [(1, vec![(3, 0.5)]), (2, vec![(3, 0.5)])]);
+    }
+
+    #[test]
+    fn what_is_loose_is_taken_out_and_what_is_known_follows_nothing() {
+        // Two nodes follow a loose one, a third is known and follows it too.
+        let rows = vec![
+            row(&[(1, 1.0), (100, -1.0)]),
+            row(&[(2, 1.0), (100, -2.0)]),
+            row(&[(3, 1.0), (100, -1.0)]),
+        ];
+        let reduced = reduce(rows, |key| key.0 == 100, |key| key.0 == 3);
+        assert_eq!(of(&reduced.loose[0]), [(2, 0.5)]);
+        let all: Vec<_> = reduced.others.iter().map(|f| (f.key.0, of(f))).collect();
+        assert_eq!(all, [(1, vec![(3, 1.0)]), (2, vec![(3, 2.0)])]);
+        assert!(reduced.known.is_empty());
+    }
+
+    #[test]
+    fn what_is_said_twice_is_said_once_and_known_rows_are_left() {
+        let rows = vec![
+            row(&[(1, 1.0), (2, -1.0)]),
+            row(&[(1, 3.0), (2, -3.0)]),
+            row(&[(8, 1.0), (9, -1.0)]),
+        ];
+        let reduced = reduce(rows, |_| false, |key| key.0 > 7);
+        assert_eq!(reduced.others.len(), 1);
+        assert_eq!(reduced.known.len(), 1);
+    }
+}

@@ -1,0 +1,143 @@
+//! Nodes that move as a rigid body does (`*RIGID BODY`, `*COUPLING` with `*KINEMATIC`).
+//!
+//! With the displacement `u_r` of the reference node, the rotation `w` and the place `x` of a node
+//!
+//! ```text
+//! u = u_r + w x (x - x_r)
+//! ```
+//!
+//! along the axes that follow. The rotation is the displacement of a node (`ROT NODE`), or the
+//! degrees of freedom 4 to 6 of the reference node.
+//!
+//! # Source
+//! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, `*RIGID BODY`, `*KINEMATIC`.
+
+use super::Deck;
+use super::data::{RigidNodes, Target};
+use super::history::Key;
+use super::linear::{Row, Terms};
+use super::sets::{At, What};
+use super::source::Place;
+use crate::error::Result;
+use crate::space::difference;
+
+/// A rigid body with indices of nodes.
+pub(super) struct RigidBody {
+    /// Ascending, without the reference and the rotation.
+    nodes: Vec<u32>,
+    reference: u32,
+    /// The node whose displacement is the rotation: one beyond all nodes where the deck has none.
+    rotation: u32,
+    follows: [bool; 3],
+    place: Place,
+    keyword: &'static str,
+}
+
+impl Deck {
+    /// All rigid bodies.
+    ///
+    /// # Errors
+    /// Names and numbers that there are not; a reference that is not one node.
+    pub(super) fn rigid_bodies(&self) -> Result<Vec<RigidBody>> {
+        let all = self.properties.rigid.iter().enumerate();
+        all.map(|(number, rigid)| {
+            let at = (rigid.place, rigid.keyword);
+            let reference = self.one_node(&rigid.reference, at)?;
+            let rotation = match &rigid.rotation {
+                Some(node) => self.one_node(node, at)?,
+                None => (self.n_nodes() + number) as u32,
+            };
+            let mut nodes = match &rigid.nodes {
+                RigidNodes::Set(name) => {
+                    self.indices(What::Nodes, &Target::Set(name.clone()), at)?
+                }
+                RigidNodes::Elements(name) => {
+                    let elements = self.indices(What::Elements, &Target::Set(name.clone()), at)?;
+                    let nodes = elements.iter().map(|e| self.element_nodes(*e as usize));
+                    nodes.flatten().copied().collect()
+                }
+                RigidNodes::Surface(name) => self.nodes_of(&self.surface(name, at)?),
+            };
+            nodes.sort_unstable();
+            nodes.dedup();
+            nodes.retain(|node| *node != reference && *node != rotation);
+            Ok(RigidBody {
+                nodes,
+                reference,
+                rotation,
+                follows: rigid.follows,
+                place: rigid.place,
+                keyword: rigid.keyword,
+            })
+        })
+        .collect()
+    }
+
+    fn one_node(&self, target: &Target, at: At) -> Result<u32> {
+        match self.indices(What::Nodes, target, at)?[..] {
+            [node] => Ok(node),
+            ref nodes => {
+                let message = format!(
+                    "the reference is {} nodes; name one node, or a set of one",
+                    nodes.len()
+                );
+                Err(self.error(at.0, at.1, message))
+            }
+        }
+    }
+
+    /// Rotations among the degrees of freedom from a first to a last of some nodes: 4 to 6 of a
+    /// reference node, those of a rotation in the plane out of it.
+    pub(super) fn rotations_among(
+        &self,
+        nodes: &[u32],
+        [first, last]: [usize; 2],
+    ) -> Result<Vec<Key>> {
+        let mut out = Vec::new();
+        if self.properties.rigid.is_empty() {
+            return Ok(out);
+        }
+        for body in self.rigid_bodies()? {
+            if nodes.contains(&body.reference) {
+                let freedoms = first.max(4)..=last.min(6);
+                out.extend(freedoms.map(|freedom| (body.rotation, freedom as u8 - 4)));
+            }
+            if self.dimension() == 2 && nodes.contains(&body.rotation) && first <= 3 && last >= 3 {
+                out.push((body.rotation, 2));
+            }
+        }
+        out.sort_unstable();
+        out.dedup();
+        Ok(out)
+    }
+}
+
+impl RigidBody {
+    /// The equations of its nodes along the axes of the model.
+    pub(super) fn rows(&self, deck: &Deck) -> impl Iterator<Item = (u32, usize, Row)> {
+        let dimension = deck.dimension();
+        let origin = deck.point(self.reference as usize);
+        self.nodes.iter().flat_map(move |&node| {
+            let r = difference(deck.point(node as usize), origin);
+            let axes = (0..dimension).filter(|axis| self.follows[*axis]);
+            axes.map(move |axis| {
+                let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+                // The component of the cross product: w_next r_last - w_last r_next.
+                let mut terms = Terms::from([((self.reference, axis as u8), -1.0)]);
+                for (of, c) in [(next, -r[last]), (last, r[next])] {
+                    // In the plane there is the rotation out of it alone.
+                    if dimension == 3 || of == 2 {
+                        terms.insert((self.rotation, of as u8), c);
+                    }
+                }
+                let row = Row {
+                    terms,
+                    first: None,
+                    place: self.place,
+                    keyword: self.keyword,
+                };
+                (node, axis, row)
+            })
+        })
+    }
+}

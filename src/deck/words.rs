@@ -1,0 +1,140 @@
+//! What is found wrong with the scene of a deck, in the words of the deck.
+
+use crate::error::Error;
+use crate::scene::Scene;
+
+/// What a scene's messages advise, and what the same is in a deck.
+const ADVICE: [(&str, &str); 12] = [
+    ("load: there is no load", "*STEP: there is no load"),
+    (
+        "add a [[load]]",
+        "give a step a *CLOAD, *DLOAD, *DSLOAD, *TEMPERATURE, or a *BOUNDARY with a value",
+    ),
+    (
+        "add a support or a contact",
+        "add a *BOUNDARY or a *CONTACT PAIR",
+    ),
+    (
+        "give the body `integration = \"full\"`",
+        "give it elements without the R behind their type",
+    ),
+    (" (`slave = \"first\"`)", ": name it first"),
+    (" (`slave = \"second\"`)", ": name it first"),
+    (" (`slave`)", ": name it first"),
+    (", or give `normal`", ""),
+    ("give `distance`", "give POSITION TOLERANCE"),
+    ("put another term first", "write another term first"),
+    ("the scene's", "the deck's"),
+    ("in the scene", "in the deck"),
+];
+
+/// Keys of a material, and the keyword that has them.
+const OF_MATERIALS: [(&str, &str); 8] = [
+    (".youngs_modulus", "*ELASTIC of {}: Young's modulus"),
+    (".poissons_ratio", "*ELASTIC of {}: Poisson's ratio"),
+    (".density", "*DENSITY of {}"),
+    (".thermal_expansion", "*EXPANSION of {}"),
+    (".yield_stress", "*PLASTIC of {}: yield stress"),
+    (".hardening_table", "*PLASTIC of {}"),
+    (".kinematic_modulus", "*PLASTIC of {}: slope"),
+    (".over_temperature", "*ELASTIC or *PLASTIC of {}"),
+];
+
+/// Lists of a scene, and the keyword that their entries come of.
+const LISTS: [(&str, &str); 4] = [
+    ("contact.", "*CONTACT PAIR"),
+    ("tie.", "*TIE"),
+    ("equation.", "*EQUATION"),
+    ("support.", "*BOUNDARY"),
+];
+
+/// An error about the scene of a deck as one about the deck; that of another scene as it is.
+pub(crate) fn of_deck(scene: &Scene, error: Error) -> Error {
+    if !scene.requests.is_of_deck() {
+        return error;
+    }
+    error.reworded(|text| {
+        let mut text = reworded(text);
+        for (number, load) in scene.load.iter().enumerate() {
+            if let Some(place) = scene.places.of(&format!("load.{number}")) {
+                let name = format!("load `{}`", load.name);
+                text = text.replace(&name, &format!("the load of {place}"));
+            }
+        }
+        text
+    })
+}
+
+/// A message without keys of a scene.
+pub(super) fn reworded(text: &str) -> String {
+    let mut text = materials(text);
+    for (key, keyword) in LISTS {
+        text = entries(&text, key, keyword);
+    }
+    for (scene, deck) in ADVICE {
+        text = text.replace(scene, deck);
+    }
+    text
+}
+
+/// `materials.NAME.KEY` and what follows of it (`.3`), as a keyword of the material.
+fn materials(text: &str) -> String {
+    const START: &str = "materials.";
+    let Some((before, rest)) = text.split_once(START) else {
+        return text.to_string();
+    };
+    let keys = OF_MATERIALS.iter();
+    let first = keys.filter_map(|(key, words)| Some((rest.find(key)?, key.len(), words)));
+    let Some((at, length, words)) = first.min_by_key(|found| found.0) else {
+        return format!("{before}*MATERIAL {}", materials(rest));
+    };
+    let after = rest[at + length..].trim_start_matches(|c: char| c == '.' || c.is_ascii_digit());
+    let words = words.replace("{}", &rest[..at]);
+    format!("{before}{words}{}", materials(after))
+}
+
+/// `contact.3.first` as a keyword.
+fn entries(text: &str, key: &str, keyword: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once(key) {
+        out.push_str(before);
+        let is_word = before.ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == '.');
+        if is_word || !after.starts_with(|c: char| c.is_ascii_digit()) {
+            out.push_str(key);
+            rest = after;
+            continue;
+        }
+        let is_path = |c: char| c.is_ascii_alphanumeric() || c == '.' || c == '_';
+        out.push_str(keyword);
+        rest = after.trim_start_matches(is_path);
+    }
+    out + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn keys_of_a_scene_become_keywords() {
+        for (scene, deck) in [
+            (
+                "a.inp, line 3: materials.My steel.poissons_ratio: 0.5 must",
+                "a.inp, line 3: *ELASTIC of My steel: Poisson's ratio: 0.5 must",
+            ),
+            (
+                "materials.S.hardening_table.1: softening",
+                "*PLASTIC of S: softening",
+            ),
+            (
+                "contact.0.second: \"SL\" cannot touch itself",
+                "*CONTACT PAIR: \"SL\" cannot touch itself",
+            ),
+            ("give materials.S.density", "give *DENSITY of S"),
+            ("in contact. 3 of them", "in contact. 3 of them"),
+        ] {
+            assert_eq!(reworded(scene), deck);
+        }
+    }
+}

@@ -1,0 +1,133 @@
+"""FreeCAD writes decks, ccx and brinell in its place run them, FreeCAD reads the results.
+
+Run by FreeCAD itself (`make test-clients`):
+
+    BRINELL_CCX=/path/brinell-ccx CLIENTS_OUT=/tmp/out freecadcmd tests/clients/clients.py
+
+Prints one line of a Markdown table for each example: what the result object of FreeCAD holds with
+either program (largest displacement and von Mises stress), the largest difference as a share of the
+largest value, and the seconds of both.
+"""
+
+import importlib
+import os
+import sys
+import time
+
+import FreeCAD
+from femtools import ccxtools
+
+# Example of FreeCAD, what it shows, and what explains a difference.
+EXAMPLES = [
+    ("ccx_cantilever_faceload", "face load"),
+    ("ccx_cantilever_nodeload", "forces on nodes"),
+    ("ccx_cantilever_prescribeddisplacement", "displacement"),
+    ("ccx_cantilever_ele_tetra4", "linear tetrahedra"),
+    ("ccx_cantilever_ele_hexa20", "C3D20"),
+    ("boxanalysis_static", "pressure, forces"),
+    ("constraint_contact_solid_solid", "contact", "ccx' contact is a spring, here it is hard "
+     "up to the slope of the deck; nodes at the edge are held"),
+    ("constraint_tie", "tie", "three nodes in a line are fixed, about which it turns freely: "
+     "the displacements are anybody's, the stresses count; the tie holds in the mean"),
+    ("constraint_section_print", "section print"),
+    ("constraint_selfweight_cantilever", "own weight"),
+    ("constraint_centrif", "rotation", "nothing holds the disc along x: ccx moves it by kilometres"),
+    ("constraint_transform_torque", "transform"),
+    ("material_nl_platewithhole", "plasticity"),
+    ("material_multiple_bendingbeam_fiveboxes", "several materials"),
+    ("material_multiple_tensionrod_twoboxes", "several materials"),
+    ("thermomech_bimetall", "heat flow"),
+    ("thermomech_flow1d", "heat flow"),
+    ("thermomech_spine", "heat flow"),
+    ("constraint_contact_shell_shell", "shells"),
+]
+
+
+def solver_of(doc):
+    for member in doc.Analysis.Group:
+        if member.isDerivedFrom("Fem::FemSolverObjectPython"):
+            return member
+    raise RuntimeError("no solver")
+
+
+def solve(doc, program, folder):
+    """Writes the deck, runs it, loads the results; displacements, stresses, seconds, what is wrong."""
+    os.makedirs(folder, exist_ok=True)
+    fea = ccxtools.FemToolsCcx(doc.Analysis, solver_of(doc), test_mode=False)
+    fea.purge_results()
+    fea.update_objects()
+    fea.setup_working_dir(folder)
+    # The path in FreeCAD's settings, as a user gives it.
+    settings = FreeCAD.ParamGet("User parameter:BaseApp/Preferences/Mod/Fem/Ccx")
+    settings.SetBool("UseStandardCcxLocation", False)
+    settings.SetString("ccxBinaryPath", program)
+    fea.setup_ccx(program)
+    message = fea.check_prerequisites()
+    if message:
+        return None, None, 0.0, message
+    fea.write_inp_file()
+    start = time.time()
+    code = fea.ccx_run()
+    seconds = time.time() - start
+    if code:
+        text = fea.ccx_stdout or ""
+        lines = [line.strip() for line in text.splitlines() if "*ERROR" in line]
+        return None, None, seconds, "; ".join(lines)[:300] or "exit %s" % code
+    # Who ran it says so.
+    if ("brinell" in fea.ccx_stdout) != ("brinell" in os.path.basename(program)):
+        return None, None, seconds, "another program ran"
+    fea.load_results()
+    found = [m for m in doc.Analysis.Group if m.isDerivedFrom("Fem::FemResultObject")]
+    if not found:
+        return None, None, seconds, "no result object"
+    result = found[-1]
+    moved = dict(zip(result.NodeNumbers, result.DisplacementVectors))
+    mises = dict(zip(result.NodeNumbers, result.vonMises))
+    return moved, mises, seconds, ""
+
+
+def compared(name, what, own, other):
+    moved, mises, seconds, wrong = own
+    moved_ccx, mises_ccx, seconds_ccx, wrong_ccx = other
+    if wrong_ccx:
+        return "| %s | %s | | | | ccx: %s |" % (name, what, wrong_ccx)
+    if wrong:
+        return "| %s | %s | | | | %s |" % (name, what, wrong)
+    if set(moved) != set(moved_ccx):
+        return "| %s | %s | | | | other nodes |" % (name, what)
+    largest = max(v.Length for v in moved_ccx.values()) or 1.0
+    off = max((moved[n] - moved_ccx[n]).Length for n in moved) / largest
+    most = max(mises_ccx.values()) or 1.0
+    off_mises = max(abs(mises[n] - mises_ccx[n]) for n in mises) / most
+    return "| %s | %s | %.4g, %.1e | %.4g, %.1e | %.1f, %.1f | |" % (
+        name, what, largest, off, most, off_mises, seconds, seconds_ccx)
+
+
+def main():
+    program = os.environ["BRINELL_CCX"]
+    ccx = os.environ.get("CCX", "/usr/bin/ccx")
+    out = os.environ["CLIENTS_OUT"]
+    chosen = os.environ.get("CLIENTS_ONLY", "").split()
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    for name, what, *why in EXAMPLES:
+        if chosen and name not in chosen:
+            continue
+        try:
+            module = importlib.import_module("femexamples." + name)
+            doc = FreeCAD.newDocument(name)
+            module.setup(doc, "ccxtools")
+            doc.recompute()
+            other = solve(doc, ccx, os.path.join(out, name, "ccx"))
+            own = solve(doc, program, os.path.join(out, name, "brinell"))
+            line = compared(name, what, own, other)
+            FreeCAD.closeDocument(doc.Name)
+        except Exception as error:
+            line = "| %s | %s | | | | %s: %s |" % (name, what, type(error).__name__, error)
+        line = " ".join(line.split())
+        if why:
+            line = line[:-1].rstrip() + " " + why[0] + " |"
+        with open(os.path.join(out, "freecad.md"), "a") as table:
+            table.write(line + "\n")
+
+
+main()

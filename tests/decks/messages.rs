@@ -1,0 +1,212 @@
+//! Messages about a deck are in its own words: keyword and line, never a key of a scene.
+
+use brinell::analysis::Analysis;
+use brinell::deck;
+use brinell::linalg::Backend;
+use brinell::model::Model;
+use brinell::progress::Silent;
+use brinell::{Error, Result};
+
+/// One cube on another.
+const DECK: &str = "\
+*NODE, NSET=ALL
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+11, 0., 0., 1.
+12, 1., 0., 1.
+13, 1., 1., 1.
+14, 0., 1., 1.
+15, 0., 0., 2.
+16, 1., 0., 2.
+17, 1., 1., 2.
+18, 0., 1., 2.
+*ELEMENT, TYPE=C3D8, ELSET=LOW
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*ELEMENT, TYPE=C3D8, ELSET=UP
+2, 11, 12, 13, 14, 15, 16, 17, 18
+*NSET, NSET=BASE
+1, 2, 3, 4
+*NSET, NSET=X0
+1, 4, 5, 8, 11, 14, 15, 18
+*NSET, NSET=Y0
+1, 2, 5, 6, 11, 12, 15, 16
+*SURFACE, NAME=FLOOR
+1, S2
+*SURFACE, NAME=FACE
+2, S1
+*MATERIAL, NAME=My steel
+*ELASTIC
+210000., 0.3
+*PLASTIC
+300., 0.
+400., 0.1
+*SOLID SECTION, ELSET=LOW, MATERIAL=My steel
+*SOLID SECTION, ELSET=UP, MATERIAL=My steel
+*SURFACE INTERACTION, NAME=I
+*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=HARD
+*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE, SMALL SLIDING
+FACE, FLOOR
+*BOUNDARY
+BASE, 3, 3
+X0, 1, 1
+Y0, 2, 2
+*STEP
+*STATIC
+*DLOAD
+2, P2, 50.
+*END STEP
+";
+
+/// What belongs to scenes alone.
+const OF_SCENES: [&str; 14] = [
+    "materials.",
+    "[[",
+    "contact.",
+    "tie.",
+    "load.",
+    "support.",
+    "equation.",
+    "bodies.",
+    "slave =",
+    "`normal`",
+    "`distance`",
+    "integration =",
+    "_modulus",
+    "_stress",
+];
+
+fn run(text: &str) -> Result<()> {
+    let work = tempfile::tempdir().unwrap();
+    let path = work.path().join("deck.inp");
+    std::fs::write(&path, text).unwrap();
+    let scene = deck::load(&path)?;
+    Analysis::new(Model::new(&scene)?, Backend::Dense)?.run(&mut Silent)?;
+    Ok(())
+}
+
+fn message(changes: &[(&str, &str)]) -> String {
+    let mut text = DECK.to_string();
+    for (old, new) in changes {
+        assert!(text.contains(old), "{old}");
+        text = text.replacen(old, new, 1);
+    }
+    let error: Option<Error> = run(&text).err();
+    error.map_or_else(|| panic!("taken: {changes:?}"), |error| error.to_string())
+}
+
+#[test]
+fn messages_of_a_deck_have_no_keys_of_scenes() {
+    run(DECK).unwrap();
+    let tie = (
+        "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE, SMALL SLIDING",
+        "*TIE, NAME=T, POSITION TOLERANCE=1E-4",
+    );
+    let cases: [(&[(&str, &str)], &str); 14] = [
+        (
+            &[("210000., 0.3", "-1., 0.3")],
+            "*ELASTIC of My steel: Young's modulus",
+        ),
+        (
+            &[("210000., 0.3", "1., 0.5")],
+            "*ELASTIC of My steel: Poisson's ratio",
+        ),
+        (&[("400., 0.1", "200., 0.1")], "*PLASTIC of My steel"),
+        (
+            &[("300., 0.\n400., 0.1", "-300., 0.")],
+            "*PLASTIC of My steel: yield stress",
+        ),
+        (
+            &[("2, P2, 50.", "UP, GRAV, 9.81, 0., 0., -1.")],
+            "give *DENSITY of My steel",
+        ),
+        (
+            &[("BASE, 3, 3\n", "")],
+            "add a *BOUNDARY or a *CONTACT PAIR",
+        ),
+        (
+            &[("FACE, FLOOR", "FLOOR, FLOOR")],
+            "*CONTACT PAIR: \"FLOOR\" cannot touch itself",
+        ),
+        (
+            &[("FACE, FLOOR", "FACE, FLOR")],
+            "*CONTACT PAIR: there is no surface FLOR",
+        ),
+        (
+            &[("FACE, FLOOR", "FACE, FLOOR\nFACE, FLOOR")],
+            "is the slave of two contacts",
+        ),
+        (
+            &[
+                tie,
+                ("11, 0., 0., 1.", "11, 0., 0., 1.1"),
+                ("12, 1., 0., 1.", "12, 1., 0., 1.1"),
+            ],
+            "POSITION TOLERANCE",
+        ),
+        (
+            &[("*CONTACT PAIR", "*TIE, NAME=T\nFACE, FLOOR\n*CONTACT PAIR")],
+            "tie 1",
+        ),
+        (&[("*BOUNDARY\n", "*BOUNDARY\nALL, 1, 3\n")], "deck.inp"),
+        (&[("1, 1, 2, 3, 4, 5", "1, 2, 1, 3, 4, 5")], "element 1"),
+        (
+            &[(
+                "*END STEP",
+                "*END STEP\n*STEP\n*STATIC\n*BOUNDARY\n7, 1\n*END STEP",
+            )],
+            "*BOUNDARY: node 7",
+        ),
+    ];
+    for (changes, expected) in cases {
+        let text = message(changes);
+        println!("{text}");
+        assert!(text.contains(expected), "{expected}: {text}");
+        for key in OF_SCENES {
+            assert!(!text.contains(key), "{key}: {text}");
+        }
+        assert!(text.contains("deck.inp") || text.contains("body"), "{text}");
+    }
+}
+
+/// Large displacements are computed as small ones where they are small.
+#[test]
+fn nlgeom_is_measured() {
+    let large = |pressure: &str| {
+        let text = DECK.replace("*STEP\n", "*STEP, NLGEOM\n");
+        let text = text
+            .replace("*END STEP, NLGEOM", "*END STEP")
+            .replace("50.", pressure);
+        let text = text.replace("*PLASTIC\n300., 0.\n400., 0.1\n", "");
+        let work = tempfile::tempdir().unwrap();
+        let path = work.path().join("deck.inp");
+        std::fs::write(&path, text).unwrap();
+        let scene = deck::load(&path).unwrap();
+        let model = Model::new(&scene).unwrap();
+        Analysis::new(model, Backend::Dense)
+            .unwrap()
+            .run(&mut Silent)
+            .unwrap()
+    };
+    let small = large("50.");
+    let said = small
+        .warnings
+        .iter()
+        .find(|text| text.contains("*STEP: NLGEOM: displacements"));
+    let said = said.expect("what was measured");
+    assert!(
+        said.contains("taken for small, and are: ") && said.contains("0.02 %"),
+        "{said}"
+    );
+    assert!(brinell::output::ending(&small).is_ok());
+    let error = brinell::output::ending(&large("50000.")).unwrap_err();
+    assert!(
+        error.to_string().contains("compute with --small-strain"),
+        "{error}"
+    );
+}
