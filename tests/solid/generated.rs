@@ -163,6 +163,8 @@ fn a_quarter_and_a_half_are_those_of_the_whole() {
             &format!("symmetry={symmetry}"),
             &format!("support={supports}"),
             "program.targets=[{ load_factor = 2.0 }, { load_factor = 0.0 }]",
+            // The zones differ; displacements follow forces with a hundredfold error.
+            "analysis.tolerance=1e-12",
         ];
         run(&scene("crossed_cylinders", &overrides))
     };

@@ -11,6 +11,8 @@ use crate::{Error, Result};
 const KEY: &str = "mesh.curved_bodies";
 /// Elements along the larger half axis are at most this much longer than along the smaller one.
 const LONGEST: f64 = 4.0;
+/// Share of a number of elements that is far above its round-off and far below one.
+const ROUND_OFF: f64 = 1e-9;
 
 /// How large the contact of two curved bodies is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -144,7 +146,8 @@ impl Layout {
                     (h, p.fine_width * semi_axes[d])
                 }
             };
-            let n = (even / h).round().max(1.0);
+            // Half an element more or less is not for round-off, so for units, to say.
+            let n = (even / h * (1.0 + ROUND_OFF)).round().max(1.0);
             let until = match d {
                 2 => reach * p.fine_depth / p.fine_width * small,
                 _ => reach * semi_axes[d],
