@@ -181,7 +181,7 @@ fn quality_row(out: &mut String, name: &str, results: &Results) -> Outcome<()> {
 }
 
 /// Six significant digits.
-fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     let magnitude = if value == 0.0 {
         0
     } else {
