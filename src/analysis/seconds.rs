@@ -28,10 +28,9 @@ const YIELD_LOAD: f64 = 2e-6;
 const STATE: f64 = 4.5e-7;
 /// Of the elastic path, per cube of the pairs: each change of contact goes over their matrix.
 const PATH: f64 = 1.5e-9;
-/// Of a trailing solve with its share of the plastic iteration: to begin with, for each entry of
-/// the factor's trailing columns, and for each freedom of the zone (its material, two to four
-/// points a freedom, once for some four solves).
-const SOLVE: [f64; 3] = [2e-5, 5.5e-10, 2.5e-7];
+/// Of a trailing solve with its share of the plastic iteration: to begin with, and for each entry
+/// of the factor's trailing columns.
+const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
 /// Share of the pairs that change their status in an increment of their own while the load goes one
 /// way: where gaps differ (the contact grows pair by pair), and where all are alike.
 const CHANGES: [f64; 2] = [0.7, 0.17];
@@ -172,10 +171,7 @@ pub(super) fn of_run(
     }
     elastic
         + YIELD_LOAD * sizes.zone_freedoms as f64
-        + solves(model)
-            * (SOLVE[0]
-                + SOLVE[1] * prediction.trailing_nonzeros
-                + SOLVE[2] * sizes.zone_freedoms as f64)
+        + solves(model) * (SOLVE[0] + SOLVE[1] * prediction.trailing_nonzeros)
 }
 
 #[cfg(test)]
