@@ -81,8 +81,8 @@ pub(super) fn run(arguments: &HardnessArguments) -> Result<()> {
     let sheet = Sheet::of(&recorded).map_err(|error| error.within(dir.display()))?;
     if sheet.beyond_small_strains {
         warn(&format!(
-            "the contact radius is {} of the ball's: beyond {SMALL} strains are no longer small, as \
-             they are taken to be, and these figures are no measure of a real test",
+            "the contact radius is {} of the ball's: beyond {SMALL} strains are no longer small, \
+             as they are taken to be, and these figures are no measure of a real test",
             significant(sheet.contact_radius_over_ball_radius, 3)
         ));
     }

@@ -137,6 +137,36 @@ fn a_ball_in_a_groove() {
     }
 }
 
+/// A solid's coarser mesh, whose elements see no yielding at the load of first yield, and targets
+/// that know of no larger load: first yield is found all the same.
+#[test]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn a_groove_yields_where_no_larger_load_is_known() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = format!("{STEEL} --groove 5.2 --race 20 --resolution 3");
+    made(folder.path(), &line);
+    let scene = folder.path().join("c0.toml");
+    let run = brinell(&[
+        "run",
+        "-q",
+        "--no-report",
+        "--no-estimate",
+        "--json",
+        "--set",
+        "program.targets=[{ yield = true, fields = false }]",
+        // As far as the contact of the dent may reach.
+        "--set",
+        "mesh.curved_bodies.contact_width=2.0",
+        scene.to_str().unwrap(),
+    ]);
+    let why = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(run.status.success(), "{why}");
+    let summary: Value = serde_json::from_str(&stdout(&run)).unwrap();
+    let hertz = hertz([5.0; 2], [-5.2, 20.0]).yield_load(0.3, 2000.0);
+    // Three elements over the smaller half axis.
+    near(summary["yield"]["load"].as_f64().unwrap(), hertz, 0.1);
+}
+
 #[test]
 fn what_leaves_no_dent_is_refused() {
     for (line, part) in [

@@ -1,7 +1,6 @@
 //! The scene of ISO 76's question: which load leaves a dent of a ten-thousandth of the rolling
-//! element's diameter? Beside it stand the loads at which the contact stresses that the standard
-//! rates by are reached in elastic bodies; they are told, nothing is computed from them but the load
-//! whose load factor is called 1.
+//! element's diameter? Beside it stand the loads at which elastic bodies reach the contact stresses
+//! that the standard rates by; they are told, and the one of the bearing at hand is load factor 1.
 
 use super::materials::{First, Made, Second};
 use super::pressed::{self, OnFlat};
