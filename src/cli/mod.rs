@@ -7,6 +7,7 @@
 #[cfg(all(unix, feature = "cholmod"))]
 mod again;
 mod arguments;
+mod below;
 mod ccx;
 mod commands;
 mod completions;

@@ -1,6 +1,7 @@
 //! The program from the outside: what it prints where, and its exit codes.
 
 mod accuracy;
+mod below;
 mod ccx;
 mod directory;
 mod guide;
