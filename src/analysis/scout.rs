@@ -9,7 +9,7 @@
 use super::Analysis;
 use super::position::Purpose;
 use super::program::Run;
-use super::zone_choice::place_of_first_yield;
+use super::zone_choice::{place_of_first_yield, predict};
 use super::zone_fit::Expected;
 use crate::balls::Balls;
 use crate::error::Result;
@@ -27,7 +27,9 @@ const COARSER: f64 = 2.0;
 const LEAST: f64 = 1.4;
 
 /// The stress as the coarser mesh shows it; `None` where the zone is known without it, where there
-/// is no coarser mesh, or none on which the program begins.
+/// is no coarser mesh, or none on which the program begins, and where no element is seen to yield:
+/// of a load that a target finds no more than first yield is known, and elements that are coarse
+/// for the contact miss the largest stress.
 pub(super) fn expect(analysis: &Analysis, observer: &mut dyn Observer) -> Option<Expected> {
     let since = Instant::now();
     let model = &analysis.model;
@@ -45,7 +47,8 @@ pub(super) fn expect(analysis: &Analysis, observer: &mut dyn Observer) -> Option
     let coarser = Analysis::new(coarser, analysis.backend).ok()?;
     let ratios = on_its_own_mesh(&coarser, observer).ok().flatten()?;
     let ratios = carried_over(&coarser.model.mesh, &ratios, &model.mesh);
-    Some(Expected { ratios, since })
+    let yields = !predict(model, &ratios).elements.is_empty();
+    yields.then_some(Expected { ratios, since })
 }
 
 fn on_its_own_mesh(analysis: &Analysis, observer: &mut dyn Observer) -> Result<Option<Vec<f64>>> {

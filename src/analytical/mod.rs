@@ -20,6 +20,7 @@
 //! | thick sphere, elastoplastic | `thick_sphere.rs`: [`ThickSphere`] | the same, for any `nu` | Hill ch. V |
 //! | shaft in a ring | `shrink_fit.rs`: [`ShrinkFit`] | pressure, stress, interference at first yield | Timoshenko |
 //! | flat punches | `flat_punch.rs`: [`FlatPunch`], [`CircularPunch`] | elastic pressure, limit load | Prandtl 1920; Shield 1955 |
+//! | what an indentation is read by | `indentation.rs`: [`Indentation`] | Brinell and Meyer hardness, pile-up, modulus from the unloading stiffness | ISO 6506; Hill et al. 1989; Oliver and Pharr 1992 |
 //! | two bodies as one | `contact_pair.rs`: [`contact_modulus`], [`relative_radius`], [`RelativeRadii`] | contact modulus, relative radii, planes at an angle too | Johnson pp. 85-92 |
 //!
 //! The published figures that these reproduce are in `data/reference`; a test compares them row by
@@ -35,6 +36,7 @@ mod hertz_contact;
 mod hertz_ellipse;
 mod hertz_line;
 mod hertz_point;
+mod indentation;
 mod kirsch;
 mod pin_in_hole;
 mod plane;
@@ -54,6 +56,7 @@ pub use hertz_contact::HertzContact;
 pub use hertz_ellipse::HertzEllipse;
 pub use hertz_line::HertzLine;
 pub use hertz_point::HertzPoint;
+pub use indentation::Indentation;
 pub use kirsch::KirschField;
 pub use pin_in_hole::PinInHole;
 pub use plane::Plane;

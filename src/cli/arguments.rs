@@ -126,6 +126,13 @@ pub(super) enum Command {
     ///
     /// Elastic bodies that touch in a point or along a line, by their radii; no mesh, no run.
     Hertz(super::hertz::HertzArguments),
+    /// Read an indentation by a ball off a result directory: Brinell hardness, mean pressure,
+    /// pile-up, unloading stiffness and the modulus that follows from it
+    #[command(
+        after_help = "Example: brinell new hardness --load 3000 --out test.toml && brinell \
+                            run test.toml && brinell hardness test.out"
+    )]
+    Hardness(super::hardness::HardnessArguments),
     /// Print a commented scene to start from, or list those there are
     Example(super::example::ExampleArguments),
     /// Write a commented scene for a common problem from a few numbers

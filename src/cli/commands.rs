@@ -41,6 +41,7 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
         Command::Sweep(sweep) => super::sweep::execute(sweep),
         Command::Materials(materials) => super::materials::run(materials),
         Command::Hertz(hertz) => super::hertz::run(hertz),
+        Command::Hardness(hardness) => super::hardness::run(hardness),
         Command::Example(example) => example::run(example),
         Command::New(new) => new::run(new),
         Command::Schema(schema) => schema::run(schema),

@@ -7,6 +7,7 @@
 #[cfg(all(unix, feature = "cholmod"))]
 mod again;
 mod arguments;
+mod below;
 mod ccx;
 mod commands;
 mod completions;
@@ -15,6 +16,7 @@ mod deck;
 mod example;
 mod forecast;
 mod fresh;
+mod hardness;
 mod hertz;
 mod interrupt;
 mod materials;
@@ -163,7 +165,7 @@ pub fn new_scene(words: impl IntoIterator<Item = OsString>) -> Result<String> {
         let text = problem.to_string();
         Error::input(text.trim_start_matches("error: ").trim_end())
     })?;
-    new::start(&line.problem, line.out.as_deref())
+    new::start(&line.problem, line.out.as_deref()).map(|started| started.text)
 }
 
 /// An error with its causes, as lines for a reader.

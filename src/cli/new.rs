@@ -1,7 +1,10 @@
 //! `brinell new`: a commented scene for a common problem from a few numbers. What a scene needs
 //! beyond them (how far the fine mesh reaches, which states to write) is set from the closed forms.
 
+mod asked;
 mod fit;
+mod hardness;
+mod iso76;
 mod materials;
 mod pressed;
 mod punch;
@@ -15,6 +18,7 @@ use crate::error::{Error, Result};
 use crate::mesh::{Mesh, gmsh};
 use crate::number::significant;
 use crate::scene::Scene;
+use asked::Asked;
 use clap::{Args, Subcommand};
 use materials::Made;
 use std::path::{Path, PathBuf};
@@ -63,6 +67,12 @@ pub(super) enum Problem {
     RollerBetweenRaceways(raceways::Bearing),
     /// A flat rigid punch goes into a block (plane strain)
     Punch(punch::Punch),
+    /// Which load leaves a dent of 1e-4 of the rolling element's diameter, as ISO 76 asks: a ball
+    /// on a flat or in a groove, or a roller (its load is per mm of length)
+    Iso76(iso76::StaticLoad),
+    /// A ball goes into a flat and is let go: a hardness test, by load or by depth (axisymmetric);
+    /// `brinell hardness` reads its results
+    Hardness(hardness::Hardness),
 }
 
 pub(super) fn positive(text: &str) -> std::result::Result<f64, String> {
@@ -104,33 +114,40 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
             ));
         }
     };
-    let text = start(problem, arguments.out.as_deref())?;
+    let started = start(problem, arguments.out.as_deref())?;
     match &arguments.out {
-        None => print(&text),
+        None => print(&started.text),
         Some(path) => print(&format!(
-            "{0} written; run it with: brinell run {0}\n",
-            path.display()
+            "{0} written; run it with: brinell run {0}\n{1}",
+            path.display(),
+            started.note
         )),
     }
 }
 
 /// A new scene, and its mesh where that is no generator's.
-struct Started {
-    text: String,
+pub(super) struct Started {
+    pub text: String,
     mesh: Option<Mesh>,
+    /// What is told besides where the scene is written.
+    note: String,
 }
 
 impl From<String> for Started {
     fn from(text: String) -> Self {
-        Started { text, mesh: None }
+        Started {
+            text,
+            mesh: None,
+            note: String::new(),
+        }
     }
 }
 
-/// The text of a problem's scene, written to a file where one is given; a mesh goes beside it.
+/// A problem's scene, written to a file where one is given; a mesh goes beside it.
 ///
 /// # Errors
 /// What the numbers say wrong; a file that is there already or cannot be written.
-pub(super) fn start(problem: &Problem, out: Option<&Path>) -> Result<String> {
+pub(super) fn start(problem: &Problem, out: Option<&Path>) -> Result<Started> {
     let mesh_path = out.map(|out| out.with_extension("msh"));
     let started: Started = match problem {
         Problem::RollerBetweenRaceways(bearing) => {
@@ -149,6 +166,8 @@ pub(super) fn start(problem: &Problem, out: Option<&Path>) -> Result<String> {
         Problem::RollerOnFlat(pressed) => pressed::scene(pressed, false)?.into(),
         Problem::ShaftInBore(fit) => fit::scene(fit)?.into(),
         Problem::Punch(given) => punch::scene(given)?.into(),
+        Problem::Iso76(asked) => iso76::scene(asked)?,
+        Problem::Hardness(test) => hardness::scene(test)?.into(),
     };
     Scene::parse(&started.text, "the new scene")?;
     if let Some(out) = out {
@@ -160,7 +179,7 @@ pub(super) fn start(problem: &Problem, out: Option<&Path>) -> Result<String> {
         }
         fresh::write(&files)?;
     }
-    Ok(started.text)
+    Ok(started)
 }
 
 /// A deck's scene and mesh, and how to go on.

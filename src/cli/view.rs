@@ -2,7 +2,7 @@
 
 use super::report::states_table;
 use super::table::{page_width, wrap};
-use super::{print, warn};
+use super::{below, print, warn};
 use crate::error::Result;
 use crate::number::{number, significant, with_unit};
 use crate::output::labels::{Labels, in_line, labelled};
@@ -16,7 +16,8 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   brinell view data/scenes/cylinder_on_half_plane.out
-  brinell view data/scenes/cylinder_on_half_plane.out --terminal")]
+  brinell view data/scenes/cylinder_on_half_plane.out --terminal
+  brinell view data/scenes/cylinder_on_half_plane.out --below below.csv")]
 pub(super) struct ViewArguments {
     /// A directory that `brinell run` wrote
     #[arg(value_name = "DIR")]
@@ -24,6 +25,10 @@ pub(super) struct ViewArguments {
     /// Print the main plots instead; writes nothing
     #[arg(long)]
     pub terminal: bool,
+    /// Write the stresses below the middle of the contact to a CSV file instead: a row for each
+    /// state with fields and each node on the line x = 0 (in solids x = y = 0)
+    #[arg(long, value_name = "FILE", conflicts_with = "terminal")]
+    pub below: Option<PathBuf>,
     /// Columns of tables and plots; by default those of the terminal, 110 at most
     #[arg(
         long,
@@ -41,6 +46,9 @@ pub(super) fn run(arguments: &ViewArguments) -> Result<()> {
     }
     if arguments.terminal {
         return terminal(arguments);
+    }
+    if let Some(file) = &arguments.below {
+        return below::write(&arguments.dir, file);
     }
     let page = output::write_report(&arguments.dir)?;
     print(&format!("{}\n", page.display()))

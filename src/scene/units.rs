@@ -52,7 +52,7 @@ pub struct Units {
 
 impl Units {
     /// The unit of stress in pascals, where its name is known.
-    pub(super) fn pascals(&self) -> Option<f64> {
+    pub(crate) fn pascals(&self) -> Option<f64> {
         known(&STRESSES, &self.stress)
     }
 

@@ -81,16 +81,21 @@ fn figure(summary: &Value, path: &str) -> Option<f64> {
     at.as_f64()
 }
 
-/// Every row `| ... | unit | \`path\` | value |` is what the runs above it give, to its digits.
+/// Paths and values of every row `| ... | unit | \`path\` | value |`.
 #[cfg(any(feature = "cholmod", feature = "faer"))]
-fn check_rows(text: &str, summaries: &[(String, Value)]) -> usize {
-    let rows = text.lines().filter_map(|line| {
+fn rows(text: &str) -> impl Iterator<Item = (&str, &str)> {
+    text.lines().filter_map(|line| {
         let cells: Vec<&str> = line.strip_prefix("| ")?.split('|').map(str::trim).collect();
         let path = cells.get(2)?.strip_prefix('`')?.strip_suffix('`')?;
         Some((path, *cells.get(3)?))
-    });
+    })
+}
+
+/// Every row is what the runs above it give, to its digits.
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn check_rows(text: &str, summaries: &[(String, Value)]) -> usize {
     let mut checked = 0;
-    for (path, value) in rows {
+    for (path, value) in rows(text) {
         let digits = value
             .split_once('.')
             .map_or(0, |(_, decimals)| decimals.len());
@@ -119,6 +124,52 @@ fn the_roller_and_the_shaft_are_as_their_pages_say() {
         }
         assert_eq!(checked, rows, "{name}");
     }
+}
+
+/// The page of ISO 76, but for its groove, which takes long; and the loads by Hertz that are told.
+#[test]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn the_loads_of_iso_76_are_as_their_page_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = page("iso76.md");
+    let is_groove = |line: &&str| line.starts_with("brinell ") && line.contains("groove.toml");
+    let lines = text.lines().filter(|line| !is_groove(line));
+    let text = lines.map(|line| format!("{line}\n")).collect::<String>();
+    let mut checked = 0;
+    for part in text.split("\n## ") {
+        let summaries = follow(part, folder.path());
+        checked += check_rows(part, &summaries);
+    }
+    assert_eq!(checked, 8);
+    for (scene, loads) in [
+        ("c0", &["332.0", "732.8", "962.8"][..]),
+        ("rolled", &["1415", "1759"]),
+    ] {
+        let made = folder.path().join(format!("{scene}.toml"));
+        let made = std::fs::read_to_string(made).unwrap();
+        for load in loads {
+            assert!(made.contains(&format!("at {load} N")), "{load}: {made}");
+            assert!(text.contains(&format!("| {load} |")), "{load}");
+        }
+    }
+}
+
+/// The figures that `brinell hardness` prints are those of its page: a thousandth, since the
+/// stiffness is a ratio of small differences.
+#[test]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn the_hardness_test_is_as_its_page_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = page("hardness.md");
+    follow(&text, folder.path());
+    let results = folder.path().join("test.out");
+    let sheet = brinell(&["hardness", results.to_str().unwrap(), "--json"]);
+    let sheet: Value = serde_json::from_str(&stdout(&sheet)).unwrap();
+    for (key, value) in rows(&text) {
+        let (found, value) = (figure(&sheet, key).unwrap(), value.parse::<f64>().unwrap());
+        assert!((found / value - 1.0).abs() < 1e-3, "{key}: {found} {value}");
+    }
+    assert_eq!(rows(&text).count(), 13);
 }
 
 /// The commands of the first page run, on a coarser mesh.

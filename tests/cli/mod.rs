@@ -1,11 +1,14 @@
 //! The program from the outside: what it prints where, and its exit codes.
 
 mod accuracy;
+mod below;
 mod ccx;
 mod directory;
 mod guide;
+mod hardness;
 mod hertz;
 mod interruption;
+mod iso76;
 mod kernels;
 mod mutations;
 mod outputs;

@@ -49,7 +49,7 @@ def new(problem, *, out=None, **numbers):
     A mesh that belongs to it ("roller-between-raceways") goes beside that.
 
     problem: "ball-on-flat", "roller-on-flat", "shaft-in-bore", "punch", "ball-in-groove", "crossed-cylinders",
-        "roller-between-raceways".
+        "roller-between-raceways", "iso76", "hardness".
     numbers: the options of `brinell new PROBLEM --help` as keywords, with underscores: radius=5, yield_stress=500,
         three_dimensional=True. Units are N, mm and MPa.
     """

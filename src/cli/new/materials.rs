@@ -113,6 +113,20 @@ pub(super) struct Made {
 }
 
 impl Made {
+    /// A body of its own elasticity that does not yield.
+    pub fn elastic_body(name: &str, youngs_modulus: f64, poissons_ratio: f64) -> Self {
+        Made {
+            name: name.to_string(),
+            is_listed: false,
+            material: Material {
+                youngs_modulus,
+                poissons_ratio,
+                ..Material::default()
+            },
+            is_elastic: true,
+        }
+    }
+
     /// The stress at which it first yields, where it may.
     pub fn first_yield_stress(&self) -> Option<f64> {
         self.material
@@ -135,6 +149,12 @@ impl Made {
 }
 
 impl First {
+    /// Whether a curve, a yield stress or a material of the list is given.
+    pub(super) fn yields_as_given(&self) -> bool {
+        let curve = self.hardening_table.is_some() || self.tensile_test.is_some();
+        curve || self.material.is_some() || self.yield_stress.is_some()
+    }
+
     /// The material of the first body.
     pub(super) fn made(&self) -> Result<Made> {
         if let Some(name) = &self.material {

@@ -1,8 +1,8 @@
 //! The scene of a ball or a roller on a flat.
 
-use super::materials::{First, Second, section};
+use super::materials::{First, Made, Second, section};
 use super::size::Size;
-use super::{HEAD, UNITS, about_loads, largest, positive, toml, weaker};
+use super::{Asked, HEAD, UNITS, about_loads, largest, positive, toml, weaker};
 use crate::analytical::{HertzLine, HertzPoint, contact_modulus};
 use crate::error::Result;
 use clap::Args;
@@ -12,6 +12,9 @@ const FAR: f64 = 6.0;
 
 /// Radius of a ball or a roller [mm].
 pub(super) const RADIUS: f64 = 10.0;
+
+/// Elements over the contact half width at first yield where nothing is said.
+pub(super) const RESOLUTION: usize = 16;
 
 /// A ball on a flat.
 #[derive(Debug, Args)]
@@ -57,11 +60,11 @@ pub(super) fn scene(pressed: &Pressed, ball: bool) -> Result<String> {
         (first, Box::new(move |load| hertz.half_width(load)))
     };
     let load = largest(pressed.load, yield_load)?;
-    let (shape, name, kind, per) = match ball {
-        true => ("Ball", "ball", "axisymmetric", "N over the full circle"),
-        false => ("Roller", "roller", "plane_strain", "N per mm of length"),
+    let (shape, name) = match ball {
+        true => ("Ball", "ball"),
+        false => ("Roller", "roller"),
     };
-    let (about, first) = about_loads(load, yield_load, per);
+    let (about, first) = about_loads(load, yield_load, per(ball));
     let patience = match yield_load.is_some_and(|first| load > FAR * first) {
         true => {
             "# So far beyond it a run may take minutes, and the estimate of its errors more: \
@@ -69,23 +72,75 @@ pub(super) fn scene(pressed: &Pressed, ball: bool) -> Result<String> {
         }
         false => "",
     };
-    let symmetry = match ball {
-        true => "".to_string(),
-        false => "symmetry = 2                 # half model, x >= 0: loads and results are those \
-                  of the whole\n"
-            .to_string(),
+    let on_flat = OnFlat {
+        title: &format!("{shape} on a flat"),
+        name,
+        ball,
+        radius,
+        resolution: pressed.resolution.unwrap_or(RESOLUTION),
+        half_width: yield_load.is_none().then(|| widths(load)),
+        made: &made,
     };
-    let half_width = match yield_load {
-        Some(_) => String::new(),
-        None => format!(
-            "half_width = {}           # of the contact that the mesh is made for\n",
-            toml(widths(load))
+    Ok(on_flat.text(&Asked {
+        about: about + patience,
+        load,
+        program: format!(
+            "# Pressed to the full load, then let go: what stays is the dent.
+[program]
+targets = [
+{first}    {{ name = \"pressed\", load_factor = 1.0 }},
+    {{ name = \"unloaded\", load_factor = 0.0 }},
+]
+"
         ),
-    };
-    let material = section(&[(name, &made[0]), ("flat", &made[1])]);
-    Ok(format!(
-        "{HEAD}#
-{about}{patience}title = \"{shape} on a flat\"
+    }))
+}
+
+/// What the load of a round body on a flat is.
+pub(super) fn per(ball: bool) -> &'static str {
+    match ball {
+        true => "N over the full circle",
+        false => "N per mm of length",
+    }
+}
+
+/// A ball or a roller on a flat, as a scene has it.
+pub(super) struct OnFlat<'m> {
+    pub title: &'m str,
+    /// Name of the round body.
+    pub name: &'m str,
+    /// Whether it is a ball, in an axisymmetric model; else a roller in plane strain.
+    pub ball: bool,
+    pub radius: f64,
+    pub resolution: usize,
+    /// Half width that the mesh is made for, where nothing yields.
+    pub half_width: Option<f64>,
+    pub made: &'m [Made; 2],
+}
+
+impl OnFlat<'_> {
+    /// The scene.
+    pub fn text(&self, asked: &Asked) -> String {
+        let name = self.name;
+        let kind = match self.ball {
+            true => "axisymmetric",
+            false => "plane_strain",
+        };
+        let symmetry = match self.ball {
+            true => "",
+            false => {
+                "symmetry = 2                 # half model, x >= 0: loads and results are those \
+                 of the whole\n"
+            }
+        };
+        let half_width = self.half_width.map_or(String::new(), |width| {
+            let width = toml(width);
+            format!("half_width = {width}           # of the contact that the mesh is made for\n")
+        });
+        let material = section(&[(name, &self.made[0]), ("flat", &self.made[1])]);
+        format!(
+            "{HEAD}#
+{about}title = \"{title}\"
 kind = \"{kind}\"
 {UNITS}
 {symmetry}
@@ -116,15 +171,14 @@ name = \"press\"
 on = \"{name}.top\"
 plane_force = {{ direction = \"y\", total = {total} }}   # {per}; the surface stays plane
 
-# Pressed to the full load, then let go: what stays is the dent.
-[program]
-targets = [
-{first}    {{ name = \"pressed\", load_factor = 1.0 }},
-    {{ name = \"unloaded\", load_factor = 0.0 }},
-]
-",
-        radius = toml(radius),
-        resolution = pressed.resolution.unwrap_or(16),
-        total = toml(-load),
-    ))
+{program}",
+            about = asked.about,
+            title = self.title,
+            radius = toml(self.radius),
+            resolution = self.resolution,
+            total = toml(-asked.load),
+            per = per(self.ball),
+            program = asked.program,
+        )
+    }
 }

@@ -133,7 +133,7 @@ targets = [
     );
     let mesh = raceways.mesh(Shape::Quad4)?;
     Ok(Started {
-        text,
         mesh: Some(mesh),
+        ..text.into()
     })
 }

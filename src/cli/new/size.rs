@@ -6,8 +6,8 @@ use clap::Args;
 /// A radius, or none.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Size {
-    /// Radius of the ball, the roller or the bore [mm]; by default 10 on a flat, 5 in a groove, 50
-    /// of a bore
+    /// Radius of the ball, the roller or the bore [mm]; by default 10 on a flat, 5 in a groove, of
+    /// `iso76` and of `hardness`, 50 of a bore
     #[arg(
         long,
         value_name = "R",

@@ -1,9 +1,9 @@
 //! Scenes of two curved bodies in three dimensions.
 
-use super::materials::{First, Second, section};
+use super::materials::{First, Made, Second, section};
 use super::pressed::{Pressed, RADIUS};
 use super::size::Size;
-use super::{HEAD, UNITS, about_loads, largest, not_zero, positive, toml, weaker};
+use super::{Asked, HEAD, UNITS, about_loads, largest, not_zero, positive, toml, weaker};
 use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::Result;
 use clap::Args;
@@ -11,7 +11,7 @@ use clap::Args;
 /// Radius of a ball in a groove [mm].
 const BALL: f64 = 5.0;
 /// Elements over the smaller half axis where nothing is said: a run takes seconds.
-const RESOLUTION: usize = 6;
+pub(super) const RESOLUTION: usize = 6;
 
 /// What all of them have.
 #[derive(Debug, Args)]
@@ -90,11 +90,11 @@ pub(in crate::cli) struct Crossed {
 }
 
 /// The two bodies: principal radii along x and y, and what the scene states about them.
-struct Bodies {
-    title: &'static str,
-    names: [&'static str; 2],
-    upper: ([f64; 2], &'static str),
-    lower: ([f64; 2], &'static str),
+pub(super) struct Bodies {
+    pub title: &'static str,
+    pub names: [&'static str; 2],
+    pub upper: ([f64; 2], &'static str),
+    pub lower: ([f64; 2], &'static str),
 }
 
 pub(super) fn ball_on_flat(pressed: &Pressed) -> Result<String> {
@@ -160,24 +160,46 @@ fn scene(
     let yield_load = weaker(&made, |nu, y| hertz.yield_load(nu, y));
     let load = largest(load, yield_load)?;
     let (about, first) = about_loads(load, yield_load, "N");
-    let semi_axes = match yield_load {
-        Some(_) => String::new(),
-        None => format!(
-            "semi_axes = [{}]   # half axes of the contact that the mesh is made for\n",
-            hertz.semi_axes(load).map(toml).join(", ")
+    let semi_axes = yield_load.is_none().then(|| hertz.semi_axes(load));
+    let asked = Asked {
+        about,
+        load,
+        program: format!(
+            "[program]
+targets = [
+{first}    {{ name = \"loaded\", load_factor = 1.0 }},
+    {{ name = \"unloaded\", load_factor = 0.0 }},
+]
+"
         ),
     };
-    let [upper, lower] = bodies.names;
-    let list = |radii: [f64; 2]| radii.map(toml).join(", ");
-    let supports: String = ["x", "y"]
-        .into_iter()
-        .flat_map(|axis| bodies.names.map(|body| (axis, body)))
-        .map(|(axis, body)| {
-            format!("[[support]]\non = \"{body}.symmetry_{axis}\"\nfix = [\"{axis}\"]\n\n")
-        })
-        .collect();
-    Ok(format!(
-        "{HEAD}#
+    Ok(bodies.text(&made, resolution, semi_axes, &asked))
+}
+
+impl Bodies {
+    /// The scene; with the half axes that its mesh is made for where nothing yields.
+    pub fn text(
+        &self,
+        made: &[Made; 2],
+        resolution: usize,
+        semi_axes: Option<[f64; 2]>,
+        asked: &Asked,
+    ) -> String {
+        let semi_axes = semi_axes.map_or(String::new(), |axes| {
+            let axes = axes.map(toml).join(", ");
+            format!("semi_axes = [{axes}]   # half axes of the contact that the mesh is made for\n")
+        });
+        let [upper, lower] = self.names;
+        let list = |radii: [f64; 2]| radii.map(toml).join(", ");
+        let supports: String = ["x", "y"]
+            .into_iter()
+            .flat_map(|axis| self.names.map(|body| (axis, body)))
+            .map(|(axis, body)| {
+                format!("[[support]]\non = \"{body}.symmetry_{axis}\"\nfix = [\"{axis}\"]\n\n")
+            })
+            .collect();
+        format!(
+            "{HEAD}#
 {about}title = \"{title}\"
 kind = \"solid\"
 {UNITS}
@@ -204,21 +226,19 @@ name = \"press\"
 on = \"{upper}.top\"
 plane_force = {{ direction = \"z\", total = {total} }}   # N; the surface stays plane
 
-[program]
-targets = [
-{first}    {{ name = \"loaded\", load_factor = 1.0 }},
-    {{ name = \"unloaded\", load_factor = 0.0 }},
-]
-
+{program}
 [[reference]]
 hertz_ellipse = {{ first = [{above}], second = [{below}] }}
 ",
-        title = bodies.title,
-        above = list(bodies.upper.0),
-        of_upper = bodies.upper.1,
-        below = list(bodies.lower.0),
-        of_lower = bodies.lower.1,
-        material = section(&[(upper, &made[0]), (lower, &made[1])]),
-        total = toml(-load),
-    ))
+            about = asked.about,
+            title = self.title,
+            above = list(self.upper.0),
+            of_upper = self.upper.1,
+            below = list(self.lower.0),
+            of_lower = self.lower.1,
+            material = section(&[(upper, &made[0]), (lower, &made[1])]),
+            total = toml(-asked.load),
+            program = asked.program,
+        )
+    }
 }

@@ -19,14 +19,16 @@ pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
     if let Some(approach) = column("approach") {
         let rows = results.history.iter();
         let points: Vec<[f64; 2]> = rows.map(|row| [row.measured[approach], row.load]).collect();
-        let stiffness = unloading_stiffness(&points).map_or(String::new(), |stiffness| {
-            let unit = match (labels.load(), labels.length()) {
-                ("", _) | (_, "") => String::new(),
-                (load, length) => format!(" {load}/{length}"),
-            };
-            let stiffness = significant(stiffness, 6);
-            format!(" Unloading begins with a stiffness of {stiffness}{unit}.")
-        });
+        let stiffness = results
+            .unloading_stiffness()
+            .map_or(String::new(), |stiffness| {
+                let unit = match (labels.load(), labels.length()) {
+                    ("", _) | (_, "") => String::new(),
+                    (load, length) => format!(" {load}/{length}"),
+                };
+                let stiffness = significant(stiffness, 6);
+                format!(" Unloading begins with a stiffness of {stiffness}{unit}.")
+            });
         out.push(titled(
             "load_against_approach".to_string(),
             "Load against approach, increment by increment".to_string(),
@@ -76,16 +78,6 @@ fn sets(columns: &[String]) -> Vec<&str> {
         .collect()
 }
 
-/// Slope with which a curve of force over depth comes down from its largest force: that of the
-/// first increment after it, up to whose end contact is as it was. `None` where it does not come
-/// down.
-fn unloading_stiffness(points: &[[f64; 2]]) -> Option<f64> {
-    let top = (0..points.len()).max_by(|&a, &b| points[a][1].total_cmp(&points[b][1]))?;
-    let [from, to] = [points[top], *points.get(top + 1)?];
-    let slope = (from[1] - to[1]) / (from[0] - to[0]);
-    (slope.is_finite() && slope > 0.0).then_some(slope)
-}
-
 fn titled(
     name: String,
     title: String,
@@ -104,19 +96,5 @@ fn titled(
             widened: 0.0,
             legend: SeriesLabelPosition::LowerRight,
         },
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_stiffness_is_that_of_the_first_increment_after_the_largest_force() {
-        let there_and_back = [[0.0, 0.0], [1.0, 4.0], [2.0, 10.0], [1.9, 9.0], [1.5, 0.0]];
-        let stiffness = unloading_stiffness(&there_and_back).unwrap();
-        assert!((stiffness - 10.0).abs() < 1e-12);
-        assert_eq!(unloading_stiffness(&there_and_back[..3]), None);
-        assert_eq!(unloading_stiffness(&[]), None);
     }
 }

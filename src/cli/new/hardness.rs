@@ -1,0 +1,124 @@
+//! The scene of a hardness test: a ball goes into a flat and is let go.
+
+use super::materials::{First, Made};
+use super::pressed::{OnFlat, RESOLUTION};
+use super::size::Size;
+use super::{Asked, about_loads, poissons_ratio, positive, toml, weaker};
+use crate::analytical::{HertzPoint, contact_modulus};
+use crate::cli::hardness::SMALL;
+use crate::error::Result;
+use clap::Args;
+
+/// Radius of the ball [mm].
+const RADIUS: f64 = 5.0;
+/// Young's modulus of a rigid ball over that of the flat: it yields a thousandth.
+const RIGID: f64 = 1e3;
+
+const AFTER_HELP: &str = "\
+Example: brinell new hardness --diameter 10 --load 3000 --yield-stress 500 --out test.toml && \
+brinell run test.toml && brinell hardness test.out";
+
+/// A ball on a flat, by load or by depth.
+#[derive(Debug, Args)]
+#[command(after_help = AFTER_HELP)]
+pub(in crate::cli) struct Hardness {
+    #[command(flatten)]
+    pub size: Size,
+    #[command(flatten)]
+    pub until: Until,
+    /// Young's modulus of the ball, which does not yield [MPa]; without it the ball is as good as
+    /// rigid: a thousand times the modulus of the flat
+    #[arg(long, value_name = "E", value_parser = positive, allow_negative_numbers = true)]
+    pub ball_modulus: Option<f64>,
+    /// Poisson's ratio of the ball
+    #[arg(
+        long,
+        value_name = "NU",
+        default_value_t = 0.3,
+        value_parser = poissons_ratio,
+        allow_negative_numbers = true
+    )]
+    pub ball_poissons_ratio: f64,
+    /// Elements over the contact radius, at first yield and at any larger contact at least
+    #[arg(long, value_name = "N", default_value_t = RESOLUTION)]
+    pub resolution: usize,
+    #[command(flatten)]
+    pub flat: First,
+}
+
+/// How far the ball goes in.
+#[derive(Debug, Args)]
+#[group(required = true, multiple = false)]
+pub(in crate::cli) struct Until {
+    /// Load [N]
+    #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
+    pub load: Option<f64>,
+    /// Depth over the radius of the ball, h/R, under the load
+    #[arg(long, value_name = "H", value_parser = positive, allow_negative_numbers = true)]
+    pub depth: Option<f64>,
+}
+
+/// The scene.
+pub(super) fn scene(test: &Hardness) -> Result<String> {
+    let radius = test.size.radius_or(RADIUS);
+    let flat = test.flat.made()?;
+    let [modulus, ratio] = flat.elastic();
+    let of_ball = test.ball_modulus.unwrap_or(RIGID * modulus);
+    let made = [
+        Made::elastic_body("ball", of_ball, test.ball_poissons_ratio),
+        flat,
+    ];
+    let contact = contact_modulus(of_ball, test.ball_poissons_ratio, modulus, ratio);
+    let hertz = HertzPoint::new(radius, contact)?;
+    let first = weaker(&made, |nu, y| hertz.yield_load(nu, y));
+    let depth = test.until.depth.map(|depth| depth * radius);
+    // What an elastic flat would bear at a depth is more than any other bears.
+    let load = match (test.until.load, depth) {
+        (Some(load), _) => load,
+        (None, depth) => hertz.load_for_approach(depth.unwrap_or(radius)),
+    };
+    let (about, yields) = about_loads(load, first, "N");
+    let reached = match depth {
+        Some(depth) => format!("approach = {}", toml(depth)),
+        None => "load_factor = 1.0".to_string(),
+    };
+    let end = match depth {
+        Some(_) => {
+            "# That load is the elastic one at the depth asked for: of it so much is found as \
+                    the flat bears.\n"
+        }
+        None => "",
+    };
+    // An elastic contact is the smallest of all.
+    let far = match hertz.contact_radius(load) > SMALL * radius {
+        true => {
+            "# Even an elastic contact is wider than 0.2 of the ball's radius here: beyond what \
+             small strains\n# are good for.\n"
+        }
+        false => "",
+    };
+    let on_flat = OnFlat {
+        title: "Hardness test: a ball in a flat",
+        name: "ball",
+        ball: true,
+        radius,
+        resolution: test.resolution,
+        half_width: first.is_none().then(|| hertz.contact_radius(load)),
+        made: &made,
+    };
+    Ok(on_flat.text(&Asked {
+        about: format!("{about}{end}{far}"),
+        load,
+        program: format!(
+            "# Pressed in, then let go; the history has the depth (approach) in each increment.
+# `brinell hardness` reads the results: hardness, mean pressure, pile-up, unloading stiffness.
+[program]
+history = [\"ball.top\"]
+targets = [
+{yields}    {{ name = \"indented\", {reached} }},
+    {{ name = \"unloaded\", load_factor = 0.0 }},
+]
+"
+        ),
+    }))
+}
