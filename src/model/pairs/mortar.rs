@@ -23,7 +23,8 @@ mod overlap;
 mod roundness;
 mod spheres;
 
-use super::{ContactSurface, Covered, CoveredFacet, Entries, Found, NO_AREA, Pair};
+use super::covered::{Covered, CoveredFacet};
+use super::{ContactSurface, Entries, Found, NO_AREA, Pair};
 use crate::balls::Balls;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{longest_facet, nodes, normals};
