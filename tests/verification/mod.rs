@@ -27,6 +27,7 @@ mod over_temperature;
 mod pin_in_hole;
 mod planes_of_symmetry;
 mod quality;
+mod rigid_surfaces;
 mod run;
 mod shakedown;
 mod shrink_fit;
