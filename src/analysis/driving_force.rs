@@ -10,8 +10,8 @@
 //! R = sum_k h_k (v'(K_pp u_k - f_k) - w' P_k) - t'(delta - g) - w' J - v' J_p
 //! ```
 //!
-//! Where a rigid surface moves, what drives it balances the forces of its pairs: `R = -sum r_j n_j . d`
-//! with the unit direction `d` of its displacement.
+//! Where a rigid surface moves, what drives it balances the forces of its pairs:
+//! `R = -sum r_j n_j . d` with the unit direction `d` of its displacement.
 //!
 //! Load `k`, or list of loads that change alike, has the factor `h_k`, the prescribed displacements
 //! `u_k`, the forces `f_k` on prescribed freedoms and the load vector `P_k` on free ones

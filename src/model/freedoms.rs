@@ -203,6 +203,14 @@ impl Freedoms {
         node >= self.first_rigid as usize
     }
 
+    /// The free freedoms of rigid surfaces.
+    pub(crate) fn of_rigid(&self) -> impl Iterator<Item = usize> + '_ {
+        let owners = self.owners.iter().enumerate();
+        owners
+            .filter(|(_, owner)| self.is_rigid(owner.0 as usize))
+            .map(|(freedom, _)| freedom)
+    }
+
     /// Holds a node along the directions of its supports, in axes of which one is the contact
     /// normal, where there is one.
     fn hold(

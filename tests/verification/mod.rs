@@ -27,6 +27,8 @@ mod over_temperature;
 mod pin_in_hole;
 mod planes_of_symmetry;
 mod quality;
+mod rigid_refused;
+mod rigid_solids;
 mod rigid_surfaces;
 mod run;
 mod shakedown;

@@ -2,8 +2,8 @@
 //! in axisymmetric ones, given at the points of a grid.
 //!
 //! Between them Hermite's cubics run, one direction after the other, with the slopes of the
-//! parabolas through three neighbours (at the ends of the line: of the first and last three). Values
-//! and slopes are continuous, and a paraboloid is met exactly.
+//! parabolas through three neighbours (at the ends of the line: of the first and last three).
+//! Values and slopes are continuous, and a paraboloid is met exactly.
 //!
 //! The point `(u, v, h)` closest to `x` is where the way to it is at right angles to both tangents:
 //!
