@@ -62,9 +62,8 @@ pub struct Freedoms {
     pub basis: ContactBasis,
     /// What gives way in soft contact: the last of the free freedoms.
     pub springs: Vec<Spring>,
-    /// The first node of rigid surfaces, of which all nodes from there on are; that behind the last
-    /// where there are none.
-    first_rigid: u32,
+    /// The first node of rigid surfaces, of which all nodes from there on are.
+    first_rigid: Option<usize>,
     /// What sums stand for: nodes, axes and coefficients.
     pub(super) followers: Vec<Vec<(u32, u8, f64)>>,
 }
@@ -116,7 +115,7 @@ impl Freedoms {
             owners: Vec::new(),
             basis,
             springs: Vec::new(),
-            first_rigid: rigid.first_node().unwrap_or(n_nodes) as u32,
+            first_rigid: rigid.first_node(),
             followers: Vec::new(),
         };
         for (node, normal) in normal_of.iter().enumerate() {
@@ -200,7 +199,7 @@ impl Freedoms {
 
     /// Whether a node is one of a rigid surface.
     pub fn is_rigid(&self, node: usize) -> bool {
-        node >= self.first_rigid as usize
+        self.first_rigid.is_some_and(|first| node >= first)
     }
 
     /// The free freedoms of rigid surfaces.

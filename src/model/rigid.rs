@@ -211,11 +211,28 @@ fn size(mesh: &Mesh) -> f64 {
     sides.fold(0.0, f64::max)
 }
 
+/// A point at a depth below the place of a rigid surface that is closest to what it may touch.
+fn behind(scene: &Scene, mesh: &Mesh, name: &str, form: &Form, depth: f64) -> Vector {
+    let touching = scene.contact.iter().filter_map(|contact| {
+        [
+            (&contact.first, &contact.second),
+            (&contact.second, &contact.first),
+        ]
+        .into_iter()
+        .find_map(|(own, other)| (own == name).then_some(other))
+    });
+    let nodes = touching.flat_map(|other| mesh.set_nodes(other).unwrap_or_default());
+    let near = nodes.filter_map(|node| Some((mesh.point(node), form.near(mesh.point(node))?)));
+    let closest = near.min_by(|a, b| a.1.0.total_cmp(&b.1.0));
+    closest.map_or([0.0; 3], |(x, (distance, normal))| {
+        along(x, -distance - depth, normal)
+    })
+}
+
 /// Adds the element of a rigid surface as a body, and all of its boundary as a surface of that
 /// name; returns its nodes.
 fn add_element(mesh: &mut Mesh, name: &str, form: &Form, half: f64, scene: &Scene) -> Range<usize> {
-    let (point, inward) = form.inward();
-    let mut center = along(point, 2.0 * half, inward);
+    let mut center = behind(scene, mesh, name, form, 2.0 * half);
     if scene.kind.is_axisymmetric() {
         center[0] = center[0].max(2.0 * half);
     }

@@ -29,8 +29,8 @@ struct Tables {
 impl ModelBuilder {
     /// Adds tables of a scene (TOML): materials, bodies, `[rigid.NAME]`, `[[contact]]`, `[[tie]]`,
     /// `[[equation]]`, `[[support]]`, `[[load]]`, `[program]`, `[analysis]`, `[units]`, `title`.
-    /// Materials, bodies, rigid surfaces, contacts, ties, equations, supports and loads come to those
-    /// that are there, the others take their place.
+    /// Materials, bodies, rigid surfaces, contacts, ties, equations, supports and loads come to
+    /// those that are there, the others take their place.
     ///
     /// ```
     /// # use brinell::model::ModelBuilder;

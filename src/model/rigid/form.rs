@@ -202,16 +202,6 @@ impl Form {
             }
         }
     }
-
-    /// A point that belongs to the surface, and the direction from there into the rigid body.
-    pub(in crate::model) fn inward(&self) -> (Vector, Vector) {
-        match self {
-            Form::Heights(heights) => heights.inward(),
-            Form::Plane { point, normal } => (*point, normal.map(|n| -n)),
-            Form::Sphere { center, .. } => (*center, unit(1)),
-            Form::Revolved { center, axis, .. } => (*center, *axis),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@
 use crate::error::{Error, Result};
 use crate::files;
 use crate::number::exact;
-use crate::space::{Vector, difference, direction, dot, unit};
+use crate::space::{Vector, difference, direction, dot};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -65,6 +65,8 @@ impl Heights {
         let scale = self.values.iter().fold(scale, |most, h| most.max(h.abs()));
         let [mut u, mut v] = [x[0], if flat { 0.0 } else { x[1] }];
         for _ in 0..STEPS {
+            // At the border a way that leads beyond it has no end.
+            [u, v] = self.within([u, v]);
             let [h, of_u, of_v] = self.at(u, v)?;
             let rest = x[self.up] - h;
             let b = [
@@ -81,6 +83,16 @@ impl Heights {
             }
         }
         None
+    }
+
+    /// A place, or the closest one on the border of the grid.
+    fn within(&self, place: [f64; 2]) -> [f64; 2] {
+        let [low, high] = [0, 1].map(|end| {
+            let ends = self.places.each_ref();
+            ends.map(|x| x[end * (x.len() - 1)])
+        });
+        let low = [if self.is_mirrored { -high[0] } else { low[0] }, low[1]];
+        [0, 1].map(|axis| place[axis].clamp(low[axis], high[axis]))
     }
 
     /// Distance and normal at the closest point.
@@ -262,18 +274,6 @@ fn grid(points: &[(usize, Vector)], axes: usize) -> Result<([Vec<f64>; 2], Vec<f
         }
     }
     Ok((places, values))
-}
-
-impl Heights {
-    /// As [`super::Form::inward`].
-    pub fn inward(&self) -> (Vector, Vector) {
-        let middle = |x: &[f64]| 0.5 * (x[0] + x[x.len() - 1]);
-        let [u, v] = [middle(&self.places[0]), middle(&self.places[1])];
-        let height = self.at(u, v).map_or(0.0, |at| at[0]);
-        let mut point = [u, v, 0.0];
-        point[self.up] = height;
-        (point, unit(self.up).map(|n| self.side * n))
-    }
 }
 
 #[cfg(test)]
