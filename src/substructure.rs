@@ -407,6 +407,7 @@ fn tie(
         rows: &model.rows.entries,
         freedoms: &partition.contact,
         part: &model.floating.part_of_contact,
+        rigid: &model.rigid_contact(),
     };
     Groups::new(stiffness, &model.floating.motions, contact)
 }
@@ -476,16 +477,17 @@ impl ContactCost {
 }
 
 /// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero
-/// elsewhere.
+/// elsewhere. A rigid surface has no stiffness: what it touches says what is much.
 fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
-    let of = |(freedom, floats): (&usize, &bool)| match floats {
-        true => system.stiffness.diagonal(*freedom),
-        false => 0.0,
-    };
-    partition
-        .contact
-        .iter()
-        .zip(&model.floating.of_contact)
-        .map(of)
-        .collect()
+    let own = |freedom: &usize| system.stiffness.diagonal(*freedom);
+    let floats = &model.floating.of_contact;
+    let of = |(freedom, floats): (&usize, &bool)| if *floats { own(freedom) } else { 0.0 };
+    let mut shift: Vec<f64> = partition.contact.iter().zip(floats).map(of).collect();
+    let rigid = model.rigid_contact();
+    if rigid.contains(&true) {
+        let largest = partition.contact.iter().map(own).fold(0.0, f64::max);
+        let of_rigid = shift.iter_mut().zip(rigid).filter(|(_, rigid)| *rigid);
+        of_rigid.for_each(|(shift, _)| *shift = largest);
+    }
+    shift
 }

@@ -10,6 +10,9 @@
 //! R = sum_k h_k (v'(K_pp u_k - f_k) - w' P_k) - t'(delta - g) - w' J - v' J_p
 //! ```
 //!
+//! Where a rigid surface moves, what drives it balances the forces of its pairs:
+//! `R = -sum r_j n_j . d` with the unit direction `d` of its displacement.
+//!
 //! Load `k`, or list of loads that change alike, has the factor `h_k`, the prescribed displacements
 //! `u_k`, the forces `f_k` on prescribed freedoms and the load vector `P_k` on free ones
 //! ([`crate::assembly::System::loads`]). `delta - g` is how far each pair has moved together; `J`
@@ -26,6 +29,8 @@ pub(super) struct DrivingForce {
     load: usize,
     /// Force of each list of loads that change alike at factor 1 with all pairs tied.
     of_loads: Vec<f64>,
+    /// Of a rigid surface all there is: the share of each pair's force in what drives it.
+    of_rigid: Option<Vec<f64>>,
     /// Force of each tied pair where the nodes move by 1.
     of_pairs: Vec<f64>,
     /// Displacements of zone and contact freedoms where they do.
@@ -50,6 +55,17 @@ impl DrivingForce {
             return Ok(None);
         }
         let size = case.magnitude;
+        if !case.opens.is_empty() {
+            let pairs = model.pairs.iter();
+            return Ok(Some(DrivingForce {
+                load,
+                of_rigid: Some(pairs.map(|pair| -case.gap(pair) / size).collect()),
+                of_loads: Vec::new(),
+                of_pairs: Vec::new(),
+                moved: Trailing::default(),
+                prescribed: Vec::new(),
+            }));
+        }
         let own = model.alike.iter().position(|alike| alike[..] == [load]);
         let Some(own) = own else {
             return Ok(None);
@@ -66,6 +82,7 @@ impl DrivingForce {
         moved.iter_mut().for_each(|u| *u /= size);
         Ok(Some(DrivingForce {
             load,
+            of_rigid: None,
             of_loads: held.map(|(held, f)| (held - dot(f)) / size).collect(),
             of_pairs: (loads.condensed[own].forces.iter())
                 .map(|force| force / size)
@@ -86,6 +103,13 @@ impl Solver<'_> {
         let structure = &self.structure;
         let driving = structure.loads.driving.as_ref()?;
         let product = |(a, b): (&f64, &f64)| a * b;
+        let of_whole = |force: f64| {
+            Some(force * self.at.factors[driving.load].signum() * structure.model.symmetry)
+        };
+        if let Some(shares) = &driving.of_rigid {
+            let forces = self.contact_forces();
+            return of_whole(shares.iter().zip(forces.iter()).map(product).sum());
+        }
         let delta = structure.delta(&self.at);
         let slip = delta.iter().zip(&self.now.gap).map(|(d, gap)| gap - d);
         let factors = structure.model.factors_of_alike(&self.at.factors);
@@ -102,6 +126,6 @@ impl Solver<'_> {
         if f64::abs(force) <= 8.0 * f64::EPSILON * structure.condition * size {
             return Some(0.0);
         }
-        Some(force * self.at.factors[driving.load].signum() * structure.model.symmetry)
+        of_whole(force)
     }
 }

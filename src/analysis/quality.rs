@@ -79,7 +79,11 @@ impl Reading<'_, '_> {
         self.solver.refresh();
         let model = self.solver.structure.model;
         let reduced = self.solver.structure.reduced_external(&self.solver.at);
-        let load = self.solver.total_load();
+        let mut load = self.solver.total_load();
+        // Against a rigid surface nothing is stiff: what acts on it balances, which out of balance
+        // forces show.
+        let rigid = model.freedoms.of_rigid();
+        rigid.for_each(|freedom| load[freedom] = 0.0);
         let mut condensed = self.solver.structure.external(&self.solver.at);
         condensed.add(1.0, &self.solver.now.initial.load);
         let slip = self.solver.structure.sub.split_slip(

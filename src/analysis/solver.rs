@@ -230,6 +230,11 @@ impl<'m> Solver<'m> {
             .map(|((alike, condensed), (from, to))| {
                 let loads = || alike.iter().map(|&load| &model.loads[load]);
                 let size: f64 = match model.loads[alike[0]].measures {
+                    // A rigid surface that moves changes gaps alone.
+                    _ if loads().any(|load| !load.opens.is_empty()) => {
+                        let all = condensed.load.iter().chain(&condensed.forces);
+                        all.map(|f| f.abs()).sum()
+                    }
                     Magnitude::Displacement => condensed.load.iter().map(|f| f.abs()).sum(),
                     Magnitude::Gap => condensed.forces.iter().map(|f| f.abs()).sum(),
                     _ => loads().map(LoadCase::size).sum(),

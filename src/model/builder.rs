@@ -10,7 +10,8 @@ use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::mesh::Mesh;
 use crate::scene::{
-    Body, Contact, History, Load, Material, Program, Scene, Settings, Support, Target, Tie,
+    Body, Contact, History, Load, Material, Program, RigidSurface, Scene, Settings, Support,
+    Target, Tie,
 };
 use crate::space::{Components, Space, Vector, in_words, length};
 use std::collections::BTreeMap;
@@ -117,6 +118,21 @@ impl ModelBuilder {
     pub fn contact(&mut self, contact: Contact) -> &mut Self {
         self.scene.contact.push(contact);
         self
+    }
+
+    /// Adds a rigid surface, which contacts and loads name as they name surfaces of the mesh. Its
+    /// values are checked by [`ModelBuilder::build`].
+    ///
+    /// # Errors
+    /// A name that is taken.
+    pub fn rigid(&mut self, name: &str, surface: RigidSurface) -> Result<&mut Self> {
+        if self.scene.rigid.contains_key(name) {
+            return Err(Error::input(format!(
+                "two rigid surfaces are named `{name}`"
+            )));
+        }
+        self.scene.rigid.insert(name.to_string(), surface);
+        Ok(self)
     }
 
     /// Holds two surfaces together.

@@ -195,7 +195,7 @@ impl ContactBasis {
         }
         for contact in contacts {
             let pairs = &mut pairs[contact.range.clone()];
-            if pairs.iter().all(|pair| pair.faced().is_some()) {
+            if contact.is_rigid || pairs.iter().all(|pair| pair.faced().is_some()) {
                 self.restate_nodes(pairs);
                 continue;
             }

@@ -9,6 +9,7 @@ use super::frame::{ALIGNED, Frame, frame};
 use super::names::Entry;
 use super::on_mesh::OnMesh;
 use super::pairs::ties::Tied;
+use super::rigid::RigidBodies;
 use super::springs::Spring;
 use super::supports::{Held, Supports, turn_normals_into_supports};
 use crate::error::{Error, Result};
@@ -61,6 +62,8 @@ pub struct Freedoms {
     pub basis: ContactBasis,
     /// What gives way in soft contact: the last of the free freedoms.
     pub springs: Vec<Spring>,
+    /// The first node of rigid surfaces, of which all nodes from there on are.
+    first_rigid: Option<usize>,
     /// What sums stand for: nodes, axes and coefficients.
     pub(super) followers: Vec<Vec<(u32, u8, f64)>>,
 }
@@ -78,7 +81,7 @@ impl Freedoms {
         basis: ContactBasis,
         pairs: &mut [Pair],
         master_normals: &[(usize, Vector)],
-        (ties, equations): (&[Tied], &[Following]),
+        (ties, equations, rigid): (&[Tied], &[Following], &RigidBodies),
     ) -> Result<(Self, Followers)> {
         let n_nodes = mesh.n_nodes();
         let supports = Supports::resolve(scene, mesh)?;
@@ -119,6 +122,7 @@ impl Freedoms {
             owners: Vec::new(),
             basis,
             springs: Vec::new(),
+            first_rigid: rigid.first_node(),
             followers: Vec::new(),
         };
         for (node, normal) in normal_of.iter().enumerate() {
@@ -130,7 +134,13 @@ impl Freedoms {
         for (&node, of_node) in &supports.of_node {
             freedoms.hold(scene, mesh, node, normal_of[node], of_node)?;
         }
-        let planes = freedoms.apply_loads(scene, mesh, &touches)?;
+        let shared = rigid.hold(&mut freedoms);
+        let mut planes = freedoms.apply_loads(scene, mesh, &touches)?;
+        planes.extend(
+            shared
+                .into_iter()
+                .map(|(axis, k)| (axis, scene.load.len() + k)),
+        );
         freedoms.check_edges(mesh)?;
         let others = Others {
             plane: &|axis| planes.contains_key(&axis),
@@ -186,6 +196,25 @@ impl Freedoms {
             self.frame_of[node] = self.frames.len() as u32;
             self.frames.push(frame);
         }
+    }
+
+    /// Gives a node axes of which the first is a direction.
+    pub(super) fn turn(&mut self, node: usize, first: Vector) {
+        let frame = frame(self.per_node, Some(first), &[]).unwrap_or_default();
+        self.set_frame(node, frame);
+    }
+
+    /// Whether a node is one of a rigid surface.
+    pub fn is_rigid(&self, node: usize) -> bool {
+        self.first_rigid.is_some_and(|first| node >= first)
+    }
+
+    /// The free freedoms of rigid surfaces.
+    pub(crate) fn of_rigid(&self) -> impl Iterator<Item = usize> + '_ {
+        let owners = self.owners.iter().enumerate();
+        owners
+            .filter(|(_, owner)| self.is_rigid(owner.0 as usize))
+            .map(|(freedom, _)| freedom)
     }
 
     /// Holds a node along the directions of its supports, in axes of which one is the contact
@@ -253,7 +282,9 @@ impl Freedoms {
                 });
                 let within = |error: Error| entry.refused(error.within(entry.on(&load.on)));
                 fields.collect::<Result<_>>().map_err(within)?
-            } else if let Some(plane) = load.plane_force {
+            } else if let Some(plane) = load.plane_force
+                && !scene.rigid.contains_key(&load.on)
+            {
                 vec![(plane.direction.axis(), None)]
             } else {
                 continue;
@@ -403,5 +434,6 @@ impl Freedoms {
     }
 }
 
-/// Group (load index) of each node and local direction of a surface held plane.
+/// Group of each node and local direction of a surface held plane (load index) or of a rigid one
+/// (numbers beyond those of the loads).
 type Planes = BTreeMap<(usize, usize), usize>;

@@ -30,6 +30,7 @@ mod openings;
 mod pairs;
 mod plausible;
 mod recipe;
+mod rigid;
 mod rows;
 mod springs;
 mod sums;
@@ -66,6 +67,7 @@ pub(crate) use mirror::Mirror;
 use names::Entry;
 use rayon::prelude::*;
 pub(crate) use recipe::Recipe;
+use rigid::RigidBodies;
 use std::ops::Deref;
 
 /// A model ready to be assembled.
@@ -171,6 +173,7 @@ impl Model {
         })?;
         let kind = scene.kind;
         check_dimension(scene, &mesh)?;
+        let rigid = RigidBodies::add(scene, &mut mesh)?;
         let mut warnings = scene.warnings.clone();
         warnings.extend(scene.beyond_rows());
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
@@ -179,7 +182,8 @@ impl Model {
         if kind.is_axisymmetric() {
             check_radii(&mesh)?;
         }
-        let (mut pairs, mut contacts) = pairs::resolve(scene, &mesh, given, &mut warnings)?;
+        let (mut pairs, mut contacts) =
+            pairs::resolve(scene, &mesh, (given, &rigid), &mut warnings)?;
         let ties = pairs::ties::resolve(scene, &mesh, &contacts, &mut warnings)?;
         let basis = ContactBasis::of(&mesh, &pairs, &contacts, &ties)?;
         let equations = equations::resolve(scene, &mesh)?;
@@ -190,7 +194,7 @@ impl Model {
             basis,
             &mut pairs,
             &normals,
-            (&ties, &equations),
+            (&ties, &equations, &rigid),
         )?;
         let before = mesh.coordinates.clone();
         if freedoms.settle(&mut mesh, &followers)?
@@ -207,6 +211,7 @@ impl Model {
         let stated = (&mut pairs[..], &contacts[..]);
         pairs::stated::at_control_points(scene, &mesh, &freedoms.basis, stated)?;
         let mut loads = loads::resolve(scene, &mesh, given, (&freedoms, &contacts))?;
+        rigid.open(scene, &mut loads, (&pairs, &contacts));
         let of_bodies = (&materials[..], &contacts[..]);
         loads.extend(initial_strain::resolve(scene, &mesh, of_bodies, &freedoms)?);
         check_targets(scene, &mesh)?;
@@ -254,6 +259,13 @@ impl Model {
         let warning = plausible::of_symmetry(&model);
         model.warnings.extend(warning);
         Ok(model)
+    }
+
+    /// For each contact freedom: whether it is the motion of a rigid surface.
+    pub(crate) fn rigid_contact(&self) -> Vec<bool> {
+        let owner = |&freedom: &usize| self.freedoms.owners[freedom].0 as usize;
+        let nodes = self.rows.freedoms.iter().map(owner);
+        nodes.map(|node| self.freedoms.is_rigid(node)).collect()
     }
 
     /// Displacements of all nodes in global axes, from free freedoms and load factors.
@@ -335,9 +347,15 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
             return Err(scene.places.in_front(&format!("bodies.{name}"), error));
         }
     }
-    let mut materials = Vec::new();
+    let mut materials: Vec<Material> = Vec::new();
     let mut may_yield = Vec::new();
     for name in &mesh.bodies {
+        if scene.rigid.contains_key(name) {
+            // Never strained: any material will do, and like moduli round off alike.
+            materials.extend(materials.first().cloned());
+            may_yield.push(false);
+            continue;
+        }
         let body = scene.bodies.get(name).ok_or_else(|| {
             let error = Error::input(format!(
                 "body `{name}` of the mesh has no [bodies.{name}] entry with its material"

@@ -8,12 +8,14 @@ mod covered;
 mod held;
 mod matching;
 pub(super) mod mortar;
+mod rigid;
 pub(super) mod stated;
 pub(super) mod ties;
 
 use super::given::Given;
 use super::mirror::Mirror;
 use super::names::Entry;
+use super::rigid::RigidBodies;
 use super::supports::Supports;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{self, PAIRING};
@@ -95,6 +97,8 @@ pub struct ContactSurface {
     pub names: [String; 2],
     /// Which of the two has the slaves: 0 or 1.
     pub slave: usize,
+    /// Whether the other one is rigid and has no mesh: its displacement is that of a body.
+    pub is_rigid: bool,
     /// Its pairs: `pairs[range]`.
     pub range: std::ops::Range<usize>,
     /// Centre and radius of the surface, where it is known to be a circle.
@@ -196,7 +200,7 @@ impl Entries<'_> {
 pub(super) fn resolve(
     scene: &Scene,
     mesh: &Mesh,
-    given: &Given,
+    (given, rigid): (&Given, &RigidBodies),
     notes: &mut Vec<String>,
 ) -> Result<(Vec<Pair>, Vec<ContactSurface>)> {
     let mut pairs: Vec<Pair> = Vec::new();
@@ -226,11 +230,16 @@ pub(super) fn resolve(
             mesh,
             space: scene.kind,
         };
+        let is_rigid = [&contact.first, &contact.second].map(|name| rigid.named(name));
         let given = given.pairs.get(&index).map(Vec::as_slice);
         let find = |entries: &Entries, notes: &mut Vec<String>| {
-            let found = match matching::pairs(entries, given)? {
-                Some(found) => found,
-                None => mortar::pairs(entries, notes)?,
+            let found = match is_rigid {
+                [Some(body), _] => rigid::pairs(entries, 1, body)?,
+                [_, Some(body)] => rigid::pairs(entries, 0, body)?,
+                _ => match matching::pairs(entries, given)? {
+                    Some(found) => found,
+                    None => mortar::pairs(entries, notes)?,
+                },
             };
             let shared = |pair: &Pair| Some((pair.slave, *slave_of.get(&pair.slave)?));
             let shared: Vec<(usize, usize)> = found.pairs.iter().filter_map(shared).collect();
@@ -298,7 +307,9 @@ pub(super) fn resolve(
             }
         }
         pairs.append(&mut found.pairs);
-        contacts.push(surface_of(&entries, &found, &mut pairs, start));
+        let mut surface = surface_of(&entries, &found, &mut pairs, start);
+        surface.is_rigid = is_rigid.iter().any(Option::is_some);
+        contacts.push(surface);
     }
     Ok((pairs, contacts))
 }
@@ -335,6 +346,7 @@ fn surface_of(
             entries.contact.second.clone(),
         ],
         slave: found.slave,
+        is_rigid: false,
         range: start..pairs.len(),
         circle: match surface.curve {
             Some(Curve::Circle { center, radius, .. }) => Some((center, radius)),

@@ -214,7 +214,8 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
                         None => row.push((freedom, b)),
                     }
                 }
-                Slot::Prescribed(_) => is_moved |= is_sum,
+                // What moves a rigid surface changes the gaps instead.
+                Slot::Prescribed(_) => is_moved |= is_sum && !freedoms.is_rigid(node),
                 Slot::Fixed | Slot::Sum(_) => {}
             });
         }

@@ -27,6 +27,7 @@ mod program;
 mod read;
 mod reference;
 mod requests;
+mod rigid;
 mod schema;
 mod target;
 mod tensile_test;
@@ -57,6 +58,10 @@ pub(crate) use read::closest;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
 pub use requests::{
     ContactForce, FileRequest, Moment, NamedSet, Print, Requests, ResultItem, Totals,
+};
+pub use rigid::{
+    RigidCone, RigidCylinder, RigidHeights, RigidPlane, RigidPunch, RigidSphere, RigidSurface,
+    RigidTorus,
 };
 pub use schema::schema;
 pub use target::{DisplacementTarget, Target, TargetFigure};
@@ -101,6 +106,10 @@ pub struct Scene {
     pub materials: BTreeMap<String, Material>,
     /// Bodies by name: the names are those of the mesh.
     pub bodies: BTreeMap<String, Body>,
+    /// Rigid surfaces by name, which need no mesh: `contact`, `load` and `history` name them as
+    /// they name surfaces of the mesh.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub rigid: BTreeMap<String, RigidSurface>,
     /// Pairs of surfaces that may touch.
     #[serde(default)]
     pub contact: Vec<Contact>,
@@ -187,6 +196,7 @@ impl Scene {
             start_from: None,
             materials: BTreeMap::new(),
             bodies: BTreeMap::new(),
+            rigid: BTreeMap::new(),
             contact: Vec::new(),
             tie: Vec::new(),
             equation: Vec::new(),

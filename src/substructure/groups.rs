@@ -36,12 +36,13 @@ struct Group {
 }
 
 /// What groups are made from: the contact rows, the free freedom and the part of each contact
-/// freedom.
+/// freedom, and whether that is the motion of a rigid surface.
 #[derive(Clone, Copy)]
 pub(super) struct Contact<'a> {
     pub rows: &'a [Entries],
     pub freedoms: &'a [usize],
     pub part: &'a [usize],
+    pub rigid: &'a [bool],
 }
 
 impl Groups {
@@ -91,7 +92,14 @@ impl Groups {
             let traces = traces(motions, &of_group, &own_freedoms);
             let own_row = |&k: &usize| of.rows[k].iter().map(|&(i, b)| (place[i].1, b)).collect();
             let entries: Vec<Entries> = pairs.iter().map(own_row).collect();
-            let rows = Rows::of_contact(entries, contact.len(), |i| stiffness.diagonal(i))?;
+            // What is rigid leads: it counts as stiff as the stiffest.
+            let diagonals = (0..contact.len()).map(|i| stiffness.diagonal(i));
+            let stiffest = diagonals.fold(0.0, f64::max);
+            let diagonal = |i: usize| match of.rigid[contact[i]] {
+                true => stiffest,
+                false => stiffness.diagonal(i),
+            };
+            let rows = Rows::of_contact(entries, contact.len(), diagonal)?;
             let (tied, matrix) = Tied::new(&stiffness, rows, &traces, &own_part)?;
             blocks.push(PairBlock {
                 pairs: pairs.clone(),

@@ -3,7 +3,7 @@
 use super::ModelBuilder;
 use crate::error::{Error, Result};
 use crate::scene::{
-    Body, Contact, Equation, Load, Material, Program, Settings, Support, Tie, Units,
+    Body, Contact, Equation, Load, Material, Program, RigidSurface, Settings, Support, Tie, Units,
 };
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -16,6 +16,7 @@ struct Tables {
     units: Option<Units>,
     materials: BTreeMap<String, Material>,
     bodies: BTreeMap<String, Body>,
+    rigid: BTreeMap<String, RigidSurface>,
     contact: Vec<Contact>,
     tie: Vec<Tie>,
     equation: Vec<Equation>,
@@ -26,10 +27,10 @@ struct Tables {
 }
 
 impl ModelBuilder {
-    /// Adds tables of a scene (TOML): materials, bodies, `[[contact]]`, `[[tie]]`, `[[equation]]`,
-    /// `[[support]]`, `[[load]]`, `[program]`, `[analysis]`, `[units]`, `title`. Materials, bodies,
-    /// contacts, ties, equations, supports and loads come to those that are there, the others take
-    /// their place.
+    /// Adds tables of a scene (TOML): materials, bodies, `[rigid.NAME]`, `[[contact]]`, `[[tie]]`,
+    /// `[[equation]]`, `[[support]]`, `[[load]]`, `[program]`, `[analysis]`, `[units]`, `title`.
+    /// Materials, bodies, rigid surfaces, contacts, ties, equations, supports and loads come to
+    /// those that are there, the others take their place.
     ///
     /// ```
     /// # use brinell::model::ModelBuilder;
@@ -58,6 +59,9 @@ impl ModelBuilder {
         }
         for (name, body) in tables.bodies {
             out.body(&name, body)?;
+        }
+        for (name, surface) in tables.rigid {
+            out.rigid(&name, surface)?;
         }
         let scene = &mut out.scene;
         scene.contact.extend(tables.contact);

@@ -167,7 +167,7 @@ fn facets_match(mesh: &Mesh, [master, slave]: [&Surface; 2], pairs: &[Pair]) -> 
 
 /// Integrals of each node's shape function over the facets of a surface all of whose nodes are
 /// among `faces`.
-fn nodal_areas(
+pub(super) fn nodal_areas(
     entries: &Entries,
     surface: &Surface,
     faces: &BTreeSet<usize>,

@@ -433,7 +433,7 @@ pub(in crate::model) fn master_normals(
     contacts: &[ContactSurface],
 ) -> Vec<(usize, Vector)> {
     let mut out = Vec::new();
-    for contact in contacts {
+    for contact in contacts.iter().filter(|contact| !contact.is_rigid) {
         let pairs = pairs[contact.range.clone()].iter();
         let masters: BTreeSet<usize> = pairs
             .filter(|pair| pair.faced().is_none())

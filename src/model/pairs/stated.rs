@@ -73,6 +73,7 @@ pub(in crate::model) fn at_control_points(
         let own = &mut pairs[surface.range.clone()];
         let is_uniform = |field: &Field| field.uniform().is_some();
         if contact.fields().iter().all(|(_, field)| is_uniform(field))
+            || surface.is_rigid
             || own.iter().all(|pair| pair.faced().is_some())
         {
             continue;

@@ -74,7 +74,7 @@ impl Checks {
     }
 
     /// A vector has as many components as the model coordinates.
-    fn vector(&mut self, key: &str, given: Components, space: Space) {
+    pub(super) fn vector(&mut self, key: &str, given: Components, space: Space) {
         self.components(key, given.count(), space);
     }
 
@@ -90,7 +90,7 @@ impl Checks {
         );
     }
 
-    fn is_direction(&mut self, key: &str, given: Components) {
+    pub(super) fn is_direction(&mut self, key: &str, given: Components) {
         self.require(
             given.iter().any(|c| c != 0.0),
             key,

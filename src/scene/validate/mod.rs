@@ -5,6 +5,7 @@ mod geometry;
 mod material;
 mod parts;
 mod program;
+mod rigid;
 
 use super::{History, Scene};
 use crate::error::{Error, Result};
@@ -156,6 +157,7 @@ impl Checks {
             geometry(&mut checks, scene);
             checks.materials(scene);
             checks.boundary(scene);
+            checks.rigid(scene);
             checks.program(scene);
             checks.references(scene);
             checks.require(

@@ -1,0 +1,341 @@
+//! A rigid surface by its heights: `y = h(x)` in plane models, `z = h(x, y)` in solids, `z = h(r)`
+//! in axisymmetric ones, given at the points of a grid.
+//!
+//! Between them Hermite's cubics run, one direction after the other, with the slopes of the
+//! parabolas through three neighbours (at the ends of the line: of the first and last three).
+//! Values and slopes are continuous, and a paraboloid is met exactly.
+//!
+//! The point `(u, v, h)` closest to `x` is where the way to it is at right angles to both tangents:
+//!
+//! ```text
+//!     T = [1 0 h,u; 0 1 h,v],    T (x - (u, v, h)) = 0,    T T' d(u, v) = T (x - (u, v, h))
+//! ```
+
+use crate::error::{Error, Result};
+use crate::files;
+use crate::number::exact;
+use crate::space::{Vector, difference, direction, dot};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Steps to the closest point: each takes off more than half of what is left where the surface is
+/// less curved than the point is near.
+const STEPS: usize = 100;
+/// Share of the largest coordinate by which a closest point may be off.
+const EXACT: f64 = 1e-13;
+
+/// Heights on a grid.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::model) struct Heights {
+    /// Places along x and y, ascending; in the plane one along y.
+    places: [Vec<f64>; 2],
+    /// Row by row, x first.
+    values: Vec<f64>,
+    /// The axis along which heights are measured.
+    up: usize,
+    /// Whether the line goes on as its image beyond its first place: it begins on an axis.
+    is_mirrored: bool,
+    /// 1 where the rigid body is above, -1 where it is below.
+    side: f64,
+}
+
+impl Heights {
+    /// Reads a file of `x,y` (plane) or `x,y,z` in any order, below a line of names.
+    ///
+    /// # Errors
+    /// `Io`, and `Input` naming line or place: no number, a place that has two heights or none, a
+    /// grid of fewer than three places.
+    pub fn read(path: &Path, dimension: usize, axisymmetric: bool, above: bool) -> Result<Self> {
+        let text = files::read_text("read the heights", path, None)?;
+        let parsed = parse(&text, dimension).and_then(|points| grid(&points, dimension - 1));
+        let (places, values) = parsed.map_err(|error| error.within(path.display()))?;
+        Ok(Heights {
+            is_mirrored: axisymmetric && places[0][0] == 0.0,
+            places,
+            values,
+            up: dimension - 1,
+            side: if above { 1.0 } else { -1.0 },
+        })
+    }
+
+    /// As [`super::Form::near`]; `None` also where the closest point is beyond the grid.
+    pub fn near(&self, x: Vector) -> Option<(f64, Vector)> {
+        let flat = self.up == 1;
+        let scale = x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        let scale = self.values.iter().fold(scale, |most, h| most.max(h.abs()));
+        let [mut u, mut v] = [x[0], if flat { 0.0 } else { x[1] }];
+        for _ in 0..STEPS {
+            // At the border a way that leads beyond it has no end.
+            [u, v] = self.within([u, v]);
+            let [h, of_u, of_v] = self.at(u, v)?;
+            let rest = x[self.up] - h;
+            let b = [
+                x[0] - u + of_u * rest,
+                if flat { 0.0 } else { x[1] - v + of_v * rest },
+            ];
+            let [a, c, d] = [1.0 + of_u * of_u, of_u * of_v, 1.0 + of_v * of_v];
+            let det = a * d - c * c;
+            let step = [(d * b[0] - c * b[1]) / det, (a * b[1] - c * b[0]) / det];
+            u += step[0];
+            v += step[1];
+            if step[0].hypot(step[1]) <= EXACT * scale {
+                return self.seen_from(x, [u, v]);
+            }
+        }
+        None
+    }
+
+    /// A place, or the closest one on the border of the grid.
+    fn within(&self, place: [f64; 2]) -> [f64; 2] {
+        let [low, high] = [0, 1].map(|end| {
+            let ends = self.places.each_ref();
+            ends.map(|x| x[end * (x.len() - 1)])
+        });
+        let low = [if self.is_mirrored { -high[0] } else { low[0] }, low[1]];
+        [0, 1].map(|axis| place[axis].clamp(low[axis], high[axis]))
+    }
+
+    /// Distance and normal at the closest point.
+    fn seen_from(&self, x: Vector, [u, v]: [f64; 2]) -> Option<(f64, Vector)> {
+        let [h, of_u, of_v] = self.at(u, v)?;
+        let mut foot = [u, v, 0.0];
+        let mut normal = [of_u, of_v, 0.0];
+        foot[self.up] = h;
+        normal[self.up] = -1.0;
+        let normal = direction(normal).map(|n| self.side * n);
+        Some((dot(difference(x, foot), normal), normal))
+    }
+
+    /// Height and slopes; `None` beyond the grid.
+    fn at(&self, u: f64, v: f64) -> Option<[f64; 3]> {
+        let [xs, ys] = &self.places;
+        let u_mirrored = if self.is_mirrored && u < 0.0 { -u } else { u };
+        let turned = if u < 0.0 && self.is_mirrored {
+            -1.0
+        } else {
+            1.0
+        };
+        let along = Line::of(xs, u_mirrored, self.is_mirrored)?;
+        let row = |j: usize| along.values(|i| self.values[j * xs.len() + i]);
+        if ys.len() == 1 {
+            let [h, slope] = row(0);
+            return Some([h, turned * slope, 0.0]);
+        }
+        let across = Line::of(ys, v, false)?;
+        let [h, of_v] = across.values(|j| row(j)[0]);
+        let [of_u, _] = across.values(|j| row(j)[1]);
+        Some([h, turned * of_u, of_v])
+    }
+}
+
+/// Where a place stands on a line of the grid: the values there and the slope are sums over these
+/// points.
+struct Line {
+    first: usize,
+    value: [f64; 4],
+    slope: [f64; 4],
+}
+
+impl Line {
+    /// `None` beyond the ends.
+    fn of(x: &[f64], at: f64, is_mirrored: bool) -> Option<Self> {
+        let n = x.len();
+        let round_off = 1e-12 * (x[n - 1] - x[0]);
+        if !(at >= x[0] - round_off && at <= x[n - 1] + round_off) {
+            return None;
+        }
+        let k = x.partition_point(|x| *x <= at).clamp(1, n - 1) - 1;
+        let first = k.saturating_sub(1).min(n.saturating_sub(4));
+        let h = x[k + 1] - x[k];
+        let t = (at - x[k]) / h;
+        let [of_ends, of_slopes] = [
+            [(1.0 + 2.0 * t) * (1.0 - t).powi(2), t * t * (3.0 - 2.0 * t)],
+            [h * t * (1.0 - t).powi(2), h * t * t * (t - 1.0)],
+        ];
+        let [d_ends, d_slopes] = [
+            [-6.0 * t * (1.0 - t) / h, 6.0 * t * (1.0 - t) / h],
+            [(1.0 - t) * (1.0 - 3.0 * t), t * (3.0 * t - 2.0)],
+        ];
+        let mut line = Line {
+            first,
+            value: [0.0; 4],
+            slope: [0.0; 4],
+        };
+        for end in 0..2 {
+            let node = k + end;
+            line.value[node - first] += of_ends[end];
+            line.slope[node - first] += d_ends[end];
+            if node == 0 && is_mirrored {
+                continue;
+            }
+            for (i, weight) in slope(x, node) {
+                line.value[i - first] += of_slopes[end] * weight;
+                line.slope[i - first] += d_slopes[end] * weight;
+            }
+        }
+        Some(line)
+    }
+
+    fn values(&self, of: impl Fn(usize) -> f64) -> [f64; 2] {
+        let mut sums = [0.0; 2];
+        for (i, weights) in self.value.iter().zip(&self.slope).enumerate() {
+            if *weights.0 != 0.0 || *weights.1 != 0.0 {
+                let value = of(self.first + i);
+                sums[0] += weights.0 * value;
+                sums[1] += weights.1 * value;
+            }
+        }
+        sums
+    }
+}
+
+/// The slope at a point of the parabola through it and its neighbours, as a sum over these.
+fn slope(x: &[f64], at: usize) -> [(usize, f64); 3] {
+    let middle = at.clamp(1, x.len() - 2);
+    let p = [middle - 1, middle, middle + 1];
+    let weight = |i: usize| {
+        let [a, b] = [(i + 1) % 3, (i + 2) % 3];
+        let [xi, xa, xb] = [x[p[i]], x[p[a]], x[p[b]]];
+        (2.0 * x[at] - xa - xb) / ((xi - xa) * (xi - xb))
+    };
+    [0, 1, 2].map(|i| (p[i], weight(i)))
+}
+
+/// The points of a file, with their lines.
+fn parse(text: &str, dimension: usize) -> Result<Vec<(usize, Vector)>> {
+    let mut points = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let line = line.trim();
+        let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+        let numbers: Option<Vec<f64>> = cells.iter().map(|cell| cell.parse().ok()).collect();
+        let number = index + 1;
+        match numbers {
+            _ if line.is_empty() || line.starts_with('#') => {}
+            Some(numbers)
+                if numbers.len() == dimension && numbers.iter().all(|x| x.is_finite()) =>
+            {
+                let mut point = [0.0; 3];
+                point[..dimension].copy_from_slice(&numbers);
+                points.push((number, point));
+            }
+            None if points.is_empty() && cells.iter().all(|cell| cell.parse::<f64>().is_err()) => {}
+            _ => {
+                return Err(Error::input(format!(
+                    "line {number}: `{line}` is not {dimension} finite numbers with commas between"
+                )));
+            }
+        }
+    }
+    Ok(points)
+}
+
+/// Places and heights of points on a grid along as many axes.
+fn grid(points: &[(usize, Vector)], axes: usize) -> Result<([Vec<f64>; 2], Vec<f64>)> {
+    let mut places = [Vec::new(), vec![0.0]];
+    for (axis, places) in places.iter_mut().enumerate().take(axes) {
+        *places = points.iter().map(|(_, x)| x[axis]).collect();
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        if places.len() < 3 {
+            return Err(Error::input(format!(
+                "{} different values of {}: a grid has at least 3",
+                places.len(),
+                ["x", "y"][axis]
+            )));
+        }
+    }
+    let [xs, ys] = &places;
+    let key = |x: f64, y: f64| [x, y].map(|x| (x + 0.0).to_bits());
+    let mut known: BTreeMap<[u64; 2], f64> = BTreeMap::new();
+    for &(line, x) in points {
+        let [y, height] = if axes == 1 { [0.0, x[1]] } else { [x[1], x[2]] };
+        if known.insert(key(x[0], y), height).is_some() {
+            return Err(Error::input(format!(
+                "line {line}: a place that has a height already"
+            )));
+        }
+    }
+    let mut values = Vec::with_capacity(xs.len() * ys.len());
+    for &y in ys {
+        for &x in xs {
+            let Some(&height) = known.get(&key(x, y)) else {
+                return Err(Error::input(format!(
+                    "no height at x = {}, y = {}: a grid of {} by {} places has one at each, this \
+                     file has {} of {}; fill the holes",
+                    exact(x),
+                    exact(y),
+                    xs.len(),
+                    ys.len(),
+                    points.len(),
+                    xs.len() * ys.len()
+                )));
+            };
+            values.push(height);
+        }
+    }
+    Ok((places, values))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::space::length;
+
+    fn read(text: &str, dimension: usize) -> Result<Heights> {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("heights.csv");
+        std::fs::write(&path, text).unwrap();
+        Heights::read(&path, dimension, false, true)
+    }
+
+    #[test]
+    fn a_paraboloid_on_an_uneven_grid_is_met_exactly() {
+        let height = |x: f64, y: f64| 0.5 + 0.1 * x * x - 0.05 * x * y + 0.02 * y * y;
+        let mut text = "x,y,z\n".to_string();
+        for x in [-2.0, -1.2, -0.3, 0.4, 1.5, 2.5] {
+            for y in [-1.0, 0.0, 0.7, 2.0] {
+                text += &format!("{x},{y},{}\n", height(x, y));
+            }
+        }
+        let heights = read(&text, 3).unwrap();
+        for (x, y) in [(0.1, 0.2), (-1.9, 1.9), (2.2, -0.9), (-0.3, 0.7)] {
+            let [h, of_x, of_y] = heights.at(x, y).unwrap();
+            assert!((h - height(x, y)).abs() < 1e-14);
+            assert!((of_x - (0.2 * x - 0.05 * y)).abs() < 1e-13);
+            assert!((of_y - (0.04 * y - 0.05 * x)).abs() < 1e-13);
+            // From a point below along the normal back to it.
+            let normal = direction([of_x, of_y, -1.0]);
+            let from = crate::space::along([x, y, h], 0.3, normal);
+            if let Some((distance, found)) = heights.near(from) {
+                assert!((distance - 0.3).abs() < 1e-12, "{distance}");
+                assert!(length(difference(found, normal)) < 1e-11);
+            }
+        }
+        assert_eq!(heights.near([9.0, 0.0, 0.0]), None);
+    }
+
+    #[test]
+    fn holes_and_other_faults_are_named() {
+        let refused = |text: &str, dimension, fragment: &str| {
+            let error = read(text, dimension).unwrap_err().to_string();
+            assert!(error.contains(fragment), "{error}");
+        };
+        let mut grid = String::new();
+        for x in 0..3 {
+            for y in 0..3 {
+                grid += &format!("{x},{y},0.5\n");
+            }
+        }
+        assert!(read(&grid, 3).is_ok());
+        refused(
+            &grid.replace("1,2,0.5\n", ""),
+            3,
+            "no height at x = 1, y = 2",
+        );
+        refused(&format!("{grid}1,1,0.4\n"), 3, "line 10");
+        refused(&grid.replace("1,2,0.5", "1,2,none"), 3, "line 6");
+        refused(&grid.replace("1,2,0.5", "1,2,nan"), 3, "line 6");
+        refused("0,1\n1,1\n", 2, "at least 3");
+        refused(&grid, 2, "line 1");
+    }
+}
