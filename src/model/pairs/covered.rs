@@ -68,8 +68,8 @@ impl Pieces {
     }
 }
 
-/// [`super::ContactSurface::extent`]: of facets that are covered in part the ends of what is covered, of
-/// others those of their pairs.
+/// [`super::ContactSurface::extent`]: of facets that are covered in part the ends of what is
+/// covered, of others those of their pairs.
 pub(super) fn extent(
     mesh: &Mesh,
     surface: &Surface,
