@@ -260,7 +260,7 @@ impl Model {
         let mut contact = Contact {
             first: first.to_string(),
             second: second.to_string(),
-            interference,
+            interference: interference.into(),
             slave: match slave {
                 "auto" => SlaveSide::Auto,
                 "first" => SlaveSide::First,
@@ -274,7 +274,8 @@ impl Model {
             ..Contact::default()
         };
         let Some(pairs) = pairs else {
-            contact.gap = gap.map(|g| g.extract()).transpose()?;
+            let number = gap.map(|g| g.extract::<f64>()).transpose()?;
+            contact.gap = number.map(Into::into);
             let given = normal.map(|n| n.extract::<Vec<f64>>()).transpose()?;
             contact.normal = given
                 .map(|n| n.try_into().map_err(|why: String| wrong(py, why)))
