@@ -50,7 +50,7 @@ use std::collections::BTreeMap;
 ///     .contact(Contact { first: "opposite".into(), second: "face".into(), ..Contact::default() })
 ///     .support(Support { on: "floor".into(), fix: vec![Direction::Y], ..Support::default() })
 ///     .support(Support { on: "left".into(), fix: vec![Direction::X], ..Support::default() })
-///     .load(Load { on: "top".into(), pressure: Some(10.0), ..Load::default() });
+///     .load(Load { on: "top".into(), pressure: Some(10.0.into()), ..Load::default() });
 /// let results = Analysis::new(builder.build()?, Backend::default())?.run(&mut Silent)?;
 /// assert!((results.states[0].max_pressure - 10.0).abs() < 1e-9);
 /// # Ok(())
