@@ -1,10 +1,10 @@
 //! The elastic stress at the program's largest loads by a coarser mesh, so that a solid is factored
 //! once.
 //!
-//! How far yielding spreads is known after first yield, and a zone that was not factored as one
-//! costs the factorisation of a solid once more. The member of the mesh's family with elements
-//! twice as large has a sixty-fourth of the operations; what it leaves out of the stress the margin
-//! of the zone covers, and a zone that proves too small is grown as any other.
+//! Where a solid will yield is known after first yield only, and to factor it again for that zone
+//! costs as much as the first time. A mesh of the same family with elements twice as large shows
+//! the stress beforehand for a sixty-fourth of the operations. Its error is covered by the margin
+//! of the zone; a zone that still proves too small is enlarged like any other.
 
 use super::Analysis;
 use super::position::Purpose;

@@ -14,6 +14,7 @@ use crate::error::{Error, Result};
 use crate::mesh::{Facet, Mesh, Shape, Surface};
 use crate::model::openings::Opening;
 use crate::scene::{Load, Scene};
+use crate::shape::CORNERS_OF_CUBE;
 use crate::space::{Vector, along, direction, dot, length, unit};
 pub(super) use form::Form;
 use std::ops::Range;
@@ -237,8 +238,8 @@ fn add_element(mesh: &mut Mesh, name: &str, form: &Form, half: f64, scene: &Scen
         center[0] = center[0].max(2.0 * half);
     }
     let (shape, signs): (Shape, &[[f64; 3]]) = match mesh.dimension {
-        2 => (Shape::Quad4, &CORNERS[..4]),
-        _ => (Shape::Hex8, &CORNERS),
+        2 => (Shape::Quad4, &CORNERS_OF_CUBE[..4]),
+        _ => (Shape::Hex8, &CORNERS_OF_CUBE),
     };
     let first = mesh.n_nodes();
     for sign in signs {
@@ -268,15 +269,3 @@ fn add_element(mesh: &mut Mesh, name: &str, form: &Form, half: f64, scene: &Scen
     );
     nodes
 }
-
-/// Corners of a cube in the order of an element's nodes; the first four are those of a square.
-const CORNERS: [[f64; 3]; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];

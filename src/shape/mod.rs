@@ -15,6 +15,7 @@ pub use extrapolation::Extrapolation;
 pub use facets::FacetReference;
 pub use functions::Functions;
 pub use integration::Integration;
+pub use rows::CORNERS_OF_CUBE;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

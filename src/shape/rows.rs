@@ -4,6 +4,7 @@ mod plane;
 mod solid;
 
 pub(super) use plane::{SQUARE, TRIANGLE};
+pub use solid::CORNERS_OF_CUBE;
 pub(super) use solid::{CUBE, EDGES_OF_TETRAHEDRON};
 
 use super::Reference;

@@ -6,14 +6,14 @@ use std::path::Path;
 use std::process::Output;
 
 /// Two blocks of one element each: a run takes no time.
-fn patch(folder: &Path) -> String {
+pub(super) fn patch(folder: &Path) -> String {
     let scene = folder.join("patch.toml");
     let text = include_str!("../../data/scenes/contact_patch.toml");
     std::fs::write(&scene, text).unwrap();
     scene.to_str().unwrap().to_string()
 }
 
-fn told(output: &Output) -> String {
+pub(super) fn told(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 

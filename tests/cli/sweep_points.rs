@@ -1,21 +1,9 @@
 //! Points of a sweep from a table, taken together, in shares, and what they will cost.
 
+use super::sweep::{patch, told};
 use super::{brinell, stdout};
 use serde_json::Value;
-use std::path::Path;
 use std::process::Output;
-
-/// Two blocks of one element each: a run takes no time.
-fn patch(folder: &Path) -> String {
-    let scene = folder.join("patch.toml");
-    let text = include_str!("../../data/scenes/contact_patch.toml");
-    std::fs::write(&scene, text).unwrap();
-    scene.to_str().unwrap().to_string()
-}
-
-fn told(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
 
 fn swept(scene: &str, more: &[&str]) -> Output {
     brinell(&[&["sweep", scene, "--no-estimate", "--no-report"], more].concat())

@@ -1,19 +1,7 @@
 //! What an element is searched by: images of a square or cube.
 
-use crate::shape::{Place, Shape};
+use crate::shape::{CORNERS_OF_CUBE, Place, Shape};
 use crate::space::along;
-
-/// Corners of `[-1, 1]^3`, of which the first four have the order of a square's.
-const CORNERS: [[f64; 3]; 8] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-];
 
 /// An element, or the part of a triangle, prism or tetrahedron round one of its corners, as the
 /// image of `[-1, 1]^D`.
@@ -21,7 +9,7 @@ pub(super) struct Cell<const D: usize, const N: usize> {
     pub(super) element: u32,
     shape: Shape,
     nodes: [[f64; D]; N],
-    /// Reference coordinates of its corners, in the order of [`CORNERS`].
+    /// Reference coordinates of its corners, in the order of [`CORNERS_OF_CUBE`].
     corners: [Place; 8],
 }
 
@@ -37,7 +25,7 @@ impl<const D: usize, const N: usize> Cell<D, N> {
         let row = shape.reference();
         if row.n_corners == 1 << D {
             return vec![cell(
-                CORNERS.map(|[x, y, z]| [x, y, if D == 2 { 0.0 } else { z }]),
+                CORNERS_OF_CUBE.map(|[x, y, z]| [x, y, if D == 2 { 0.0 } else { z }]),
             )];
         }
         let mean = |of: &[usize]| {
@@ -75,7 +63,7 @@ impl<const D: usize, const N: usize> Cell<D, N> {
     /// The coordinates of a point.
     pub(super) fn point(&self, at: [f64; D]) -> [f64; D] {
         let mut place = [0.0; 3];
-        for (corner, sign) in self.corners.iter().zip(CORNERS).take(1 << D) {
+        for (corner, sign) in self.corners.iter().zip(CORNERS_OF_CUBE).take(1 << D) {
             let weight: f64 = (0..D).map(|d| 0.5 * (1.0 + sign[d] * at[d])).product();
             place = along(place, weight, *corner);
         }

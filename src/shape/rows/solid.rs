@@ -56,19 +56,20 @@ pub(in crate::shape) const PRISM: [Place; 15] = with_middles(
     EDGES_OF_PRISM,
 );
 
-pub(in crate::shape) const CUBE: [Place; 20] = with_middles(
-    [
-        [-1.0, -1.0, -1.0],
-        [1.0, -1.0, -1.0],
-        [1.0, 1.0, -1.0],
-        [-1.0, 1.0, -1.0],
-        [-1.0, -1.0, 1.0],
-        [1.0, -1.0, 1.0],
-        [1.0, 1.0, 1.0],
-        [-1.0, 1.0, 1.0],
-    ],
-    EDGES_OF_CUBE,
-);
+/// Corners of `[-1, 1]^3` in the order of a hexahedron's nodes; the first four have the order of a
+/// square's.
+pub const CORNERS_OF_CUBE: [Place; 8] = [
+    [-1.0, -1.0, -1.0],
+    [1.0, -1.0, -1.0],
+    [1.0, 1.0, -1.0],
+    [-1.0, 1.0, -1.0],
+    [-1.0, -1.0, 1.0],
+    [1.0, -1.0, 1.0],
+    [1.0, 1.0, 1.0],
+    [-1.0, 1.0, 1.0],
+];
+
+pub(in crate::shape) const CUBE: [Place; 20] = with_middles(CORNERS_OF_CUBE, EDGES_OF_CUBE);
 
 /// The corners, then the middle of each edge.
 const fn with_middles<const C: usize, const E: usize, const N: usize>(
