@@ -10,7 +10,7 @@
 //! | `tangent`, `acceleration` | acceleration of the plastic iteration | |
 //! | `collapse` | limit load, or an iteration that did not converge | |
 //! | `program`, `position`, `first_yield`, `targets`, `target_search`, `awaited`, `unloading`, `cycles` | the program, step by step; where it is | 5.1, 5.2 |
-//! | `drive`, `elastic`, `plastic`, `stretch`, `stepping`, `landing` | along a straight piece of the load path | 4.7 to 4.23 |
+//! | `drive`, `elastic`, `plastic`, `flow`, `stretch`, `stepping`, `landing` | along a straight piece of the load path | 4.7 to 4.23 |
 //! | `state`, `restart`, `packed` | a committed state; checkpoints, and going on from them | |
 //! | `starting` | the state that an earlier run left, and that this one leaves | |
 //! | `outgrown` | contact that reaches the end of its candidates | |
@@ -44,6 +44,7 @@ mod figures;
 mod finish;
 mod first_yield;
 mod fitted;
+mod flow;
 mod free_strain;
 mod gather;
 mod gauges;

@@ -15,17 +15,6 @@ use std::ops::ControlFlow;
 /// means nothing there.
 const ARRIVED: f64 = 1e-9;
 
-/// Length of increments with `stepping = "auto"` in the square root of the load since flow began,
-/// over that at the end of the piece, at the path error [`AT_STEP`]; the error falls with its
-/// square. Found on the ball of `data/speed.md`, where other scenes judge it.
-const STEP: f64 = 0.07;
-const AT_STEP: f64 = 1e-3;
-
-/// Increments from where flow begins to the end of a piece, for a path error.
-pub(super) fn increments_of_a_leg(path_error: f64) -> f64 {
-    (AT_STEP / path_error).sqrt() / STEP
-}
-
 /// An elastoplastic drive between two increments.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PlasticDrive {
@@ -72,7 +61,13 @@ impl PlasticDrive {
         }
         if solver.turns_back(end) {
             solver.assume_elastic();
-            solver.predictor.onset = solver.at.clone();
+            // The first elastoplastic increment after elastic ones that watch for first yield.
+            let begins = solver.predictor.last_step.iter().all(|step| *step == 0.0);
+            if begins {
+                solver.predictor.flow.begins(&solver.at);
+            } else {
+                solver.predictor.flow.turns(&solver.at);
+            }
         }
         let monitored = monitor.map(|m| m(solver)).transpose()?;
         if is_hit(monitored) {
@@ -120,7 +115,7 @@ impl PlasticDrive {
             }
         }
         if follows {
-            solver.predictor.onset = solver.at.clone();
+            solver.predictor.flow.begins(&solver.at);
         }
         self.ahead = Ahead::Unknown;
         self.increment(solver, end, monitor, rules)
@@ -148,20 +143,6 @@ impl PlasticDrive {
         Ok(step)
     }
 
-    /// The share of what is `left` of the way to the end of the piece that an increment may be
-    /// long, `gone` having been gone since flow began: increments are of equal length in the square
-    /// root of the load beyond that. Where flow begins little of the load makes much of it.
-    fn share_by_path_error(gone: f64, left: f64, path_error: f64) -> f64 {
-        let whole = gone + left;
-        let behind = (gone / whole).sqrt();
-        let n = ((1.0 - behind) * increments_of_a_leg(path_error))
-            .ceil()
-            .max(1.0);
-        let next = (behind + (1.0 - behind) / n).powi(2);
-        let share = (next - gone / whole) * whole / left;
-        if n > 1.0 && share < 1.0 { share } else { 1.0 }
-    }
-
     /// An elastoplastic increment.
     fn increment(
         &mut self,
@@ -173,9 +154,7 @@ impl PlasticDrive {
         let left = match rules.stepping {
             Stepping::Events => 1.0,
             Stepping::Auto => {
-                let gone = solver.predictor.onset.distance(&solver.at);
-                let left = solver.at.distance(end);
-                Self::share_by_path_error(gone, left, rules.program.path_error)
+                (solver.predictor.flow).share(&solver.at, end, rules.program.path_error)
             }
             Stepping::Steps => 1.0 / rules.program.steps.saturating_sub(self.taken).max(1) as f64,
         };

@@ -1,10 +1,10 @@
 //! Roughly how long a run will take, before it begins.
 
-use super::plastic::increments_of_a_leg;
+use super::flow;
 use crate::linalg::{Backend, Prediction};
 use crate::model::{Model, Pair};
 use crate::results::Sizes;
-use crate::scene::{Program, Stepping, Target};
+use crate::scene::{Program, Stepping, Target, Unit};
 use crate::substructure::ContactCost;
 
 /// Floating point operations per second of large supernodes on one thread, and the same of faer:
@@ -86,7 +86,8 @@ fn solves(model: &Model) -> f64 {
         Stepping::Steps => SOLVES_OF_LONG[kind] * program.steps as f64 * n_targets,
         // Every other way unloads, elastically for the most part: from change to change.
         Stepping::Auto => {
-            let loading = loading_increments(&goals, increments_of_a_leg(program.path_error));
+            let measured = program.unit == Unit::Yield;
+            let loading = loading_increments(&goals, measured, program.path_error);
             let back = ways - (0.5 * ways).ceil();
             SOLVES_OF_LONG[kind] * loading + back * changes
         }
@@ -138,14 +139,16 @@ fn ways(goals: &[f64]) -> f64 {
     count
 }
 
-/// Increments with more load than ever before in its direction, where the way from zero has `each`:
-/// they are of equal length in the square root of the load, and those up to a goal begin anew.
-fn loading_increments(goals: &[f64], each: f64) -> f64 {
+/// Increments with more load than ever before in its direction (`flow.rs`), by the load at first
+/// yield where it is the `unit` of the goals.
+fn loading_increments(goals: &[f64], unit: bool, path_error: f64) -> f64 {
     let (mut reached, mut count) = ([0.0f64; 2], 0.0);
     for to in goals {
         let reached = &mut reached[usize::from(*to < 0.0)];
         if to.abs() > *reached {
-            count += ((1.0 - (*reached / to.abs()).sqrt()) * each).ceil();
+            let range = if unit { 1.0 } else { to.abs() };
+            let [from, until] = [*reached, to.abs()].map(|load| flow::length(load / range));
+            count += flow::increments(from, until, path_error).ceil();
             *reached = to.abs();
         }
     }
@@ -178,17 +181,21 @@ pub(super) fn of_run(
 mod tests {
     use super::*;
 
-    /// Only load beyond what was there before makes increments, the fewer the less it adds.
+    /// Only load beyond what was there before makes increments, the fewer the less it adds, and
+    /// more far beyond the load at first yield.
     #[test]
     fn increments_are_of_equal_length_in_the_root_of_the_load() {
-        for (goals, count) in [
-            (&[1.0][..], 16.0),
-            (&[0.25, 1.0], 24.0),
-            (&[1.0, 0.0, 1.0], 16.0),
-            (&[1.0, -1.0], 32.0),
-            (&[0.0], 0.0),
+        for (goals, unit, count) in [
+            (&[1.0][..], false, 15.0),
+            (&[0.25, 1.0], false, 23.0),
+            (&[1.0, 0.0, 1.0], false, 15.0),
+            (&[1.0, -1.0], false, 30.0),
+            (&[0.0], false, 0.0),
+            (&[9.0], true, 15.0),
+            (&[144.0], false, 15.0),
+            (&[144.0], true, 58.0),
         ] {
-            assert_eq!(loading_increments(goals, 16.0), count, "{goals:?}");
+            assert_eq!(loading_increments(goals, unit, 1e-3), count, "{goals:?}");
         }
         assert_eq!(ways(&[1.0, 0.5, 2.0, 0.0]), 4.0);
     }

@@ -5,6 +5,7 @@ mod record;
 pub(super) use record::SolverRecord;
 
 use super::equilibrium::{EliminatedLoad, Equilibrium};
+use super::flow::Flow;
 use super::load_point::LoadPoint;
 use super::quality::LOOSEST;
 use super::structure::{Cost, Structure};
@@ -56,7 +57,7 @@ pub struct Predictor {
     /// unloading.
     pub last_step: Vec<f64>,
     /// Where flow began last, after a stretch on which there was none.
-    pub onset: LoadPoint,
+    pub flow: Flow,
     /// How initial loads changed over the last increment: over the next one much the same.
     pub pace: Option<Pace>,
 }
@@ -114,7 +115,7 @@ impl<'m> Solver<'m> {
             tangent: None,
             predictor: Predictor {
                 last_step: vec![0.0; model.loads.len() + 1],
-                onset: LoadPoint::unloaded(model.loads.len()),
+                flow: Flow::none(model.loads.len()),
                 pace: None,
             },
             scales: Scales::default(),
@@ -138,7 +139,7 @@ impl<'m> Solver<'m> {
         self.tableau.reset(&open);
         self.border.clear();
         self.predictor.last_step.fill(0.0);
-        self.predictor.onset = self.at.clone();
+        self.predictor.flow = Flow::none(self.at.factors.len());
         self.predictor.pace = None;
         self.fresh = true;
     }

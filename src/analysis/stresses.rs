@@ -4,9 +4,10 @@
 use super::element_stresses::{ElementStresses, Shown};
 use super::zone::ZoneOf;
 use super::zone_border::{self, Yielded};
+use crate::balls::Balls;
 use crate::material::PlasticState;
-use crate::model::{Model, Pair, Slot};
-use crate::space::{Vector, difference, dot};
+use crate::model::{Model, Slot};
+use crate::space::{Vector, dot};
 
 /// Sums and largest values over all elements.
 pub(super) struct Stresses {
@@ -83,6 +84,11 @@ impl Stresses {
         elements: &[usize],
     ) {
         let has_yielded = |past: &PlasticState<S>| past.equivalent > 0.0;
+        let slaves = model
+            .pairs
+            .iter()
+            .map(|pair| (model.mesh.point(pair.slave), 0.0));
+        let slaves = Balls::new(slaves.collect());
         let mut yielded = Vec::new();
         for (place, &e) in elements.iter().enumerate() {
             let history = zone.states(place);
@@ -91,7 +97,7 @@ impl Stresses {
             }
             let gradients = zone.gradients(place);
             let body = model.mesh.element_body[e] as usize;
-            let surface = nearest_pair(model, e);
+            let surface = nearest_pair(model, &slaves, e);
             let places = gradients.positions(&model.mesh.element_coordinates(e));
             for (g, (past, weight)) in history.iter().zip(gradients.weights()).enumerate() {
                 if has_yielded(past) {
@@ -114,14 +120,11 @@ impl Stresses {
     }
 }
 
-/// Place and normal of the pair of contact nearest to an element's first node.
-fn nearest_pair(model: &Model, element: usize) -> Option<(Vector, Vector)> {
+/// Place and normal of the pair of contact nearest to an element's first node, `slaves` being those
+/// of all pairs.
+fn nearest_pair(model: &Model, slaves: &Balls, element: usize) -> Option<(Vector, Vector)> {
     let x = model.mesh.point(model.mesh.nodes(element)[0] as usize);
-    let off = |pair: &Pair| {
-        let way = difference(model.mesh.point(pair.slave), x);
-        dot(way, way)
-    };
-    let nearest = model.pairs.iter().map(|pair| (off(pair), pair));
-    let (_, pair) = nearest.min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let (_, nearest) = *slaves.nearest_few(x, 1).first()?;
+    let pair = &model.pairs[nearest];
     Some((model.mesh.point(pair.slave), pair.normal))
 }

@@ -104,6 +104,32 @@ fn elastoplastic_increments_over_fourteen_orders_of_magnitude() {
     assert!((b.max_equivalent_plastic_strain / strain - 1.0).abs() < 1e-2);
 }
 
+/// A hundred times the load at first yield in one leg: as long as increments were counted by the
+/// leg, approach and dent were off by more than a hundredth.
+#[test]
+fn the_path_to_a_deep_dent_is_as_exact_as_that_to_a_shallow_one() {
+    let dent = |path_error: &str| {
+        let mut all = vec!["program.targets=[{ load_factor = 100.0 }, { load_factor = 0.0 }]"];
+        all.push("mesh.cylinder_on_half_plane.resolution=1");
+        let widths = ["fine_width", "fine_depth", "contact_width"]
+            .map(|width| format!("mesh.cylinder_on_half_plane.{width}=14"));
+        all.extend(widths.iter().map(String::as_str));
+        all.push(path_error);
+        let results = run(&load("../peers/deep", &all));
+        healthy(&results);
+        let [pressed, off] = [0, 1].map(|state| &results.states[state]);
+        [pressed.approach, off.residual_depth]
+    };
+    let [asked, exact] = ["program.path_error=1e-3", "program.path_error=2e-5"].map(dent);
+    for (asked, exact) in asked.iter().zip(exact) {
+        // Twice what is asked for: it is found on another scene.
+        assert!(
+            (asked / exact - 1.0).abs() < 2e-3,
+            "{asked:e} for {exact:e}"
+        );
+    }
+}
+
 /// Elastoplastic: states of coarse increments are off by O(increment) at most. Fixed steps and
 /// events converge to one answer.
 #[test]

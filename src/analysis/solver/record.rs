@@ -95,7 +95,7 @@ impl<'m> Solver<'m> {
             && record.load_forces.len() == solver.structure.loads.forces.len()
             && record.load_forces.iter().all(|forces| forces.len() == n)
             && record.predictor.last_step.len() == model.loads.len() + 1
-            && record.predictor.onset.factors.len() == model.loads.len();
+            && record.predictor.flow.fits(model.loads.len());
         if !fits {
             return Err(unfit());
         }

@@ -5,22 +5,26 @@
 //! parabolas through three neighbours (at the ends of the line: of the first and last three).
 //! Values and slopes are continuous, and a paraboloid is met exactly.
 //!
-//! The point `(u, v, h)` closest to `x` is where the way to it is at right angles to both tangents:
+//! The point `(u, v, h)` closest to `x` is where the way to it is at right angles to both tangents.
+//! Newton's steps lead there, without the curvature where that makes the matrix indefinite, and
+//! halved until the point is nearer:
 //!
 //! ```text
-//!     T = [1 0 h,u; 0 1 h,v],    T (x - (u, v, h)) = 0,    T T' d(u, v) = T (x - (u, v, h))
+//!     T = [1 0 h,u; 0 1 h,v],    T (x - (u, v, h)) = 0
+//!     (T T' - (x_up - h) [h,uu h,uv; h,uv h,vv]) d(u, v) = T (x - (u, v, h))
 //! ```
 
 use crate::error::{Error, Result};
 use crate::files;
 use crate::number::exact;
-use crate::space::{Vector, difference, direction, dot};
+use crate::space::{Vector, difference, direction, dot, length};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Steps to the closest point: each takes off more than half of what is left where the surface is
-/// less curved than the point is near.
+/// Steps to the closest point; Newton's take a handful, those without curvature some dozens.
 const STEPS: usize = 100;
+/// Halvings of a step that leads away.
+const HALVINGS: usize = 40;
 /// Share of the largest coordinate by which a closest point may be off.
 const EXACT: f64 = 1e-13;
 
@@ -63,26 +67,54 @@ impl Heights {
         let flat = self.up == 1;
         let scale = x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let scale = self.values.iter().fold(scale, |most, h| most.max(h.abs()));
-        let [mut u, mut v] = [x[0], if flat { 0.0 } else { x[1] }];
+        // At the border a way that leads beyond it has no end.
+        let mut place = self.within([x[0], if flat { 0.0 } else { x[1] }]);
         for _ in 0..STEPS {
-            // At the border a way that leads beyond it has no end.
-            [u, v] = self.within([u, v]);
-            let [h, of_u, of_v] = self.at(u, v)?;
+            let [h, of_u, of_v, uu, uv, vv] = self.at(place)?;
             let rest = x[self.up] - h;
             let b = [
-                x[0] - u + of_u * rest,
-                if flat { 0.0 } else { x[1] - v + of_v * rest },
+                x[0] - place[0] + of_u * rest,
+                if flat {
+                    0.0
+                } else {
+                    x[1] - place[1] + of_v * rest
+                },
             ];
-            let [a, c, d] = [1.0 + of_u * of_u, of_u * of_v, 1.0 + of_v * of_v];
-            let det = a * d - c * c;
-            let step = [(d * b[0] - c * b[1]) / det, (a * b[1] - c * b[0]) / det];
-            u += step[0];
-            v += step[1];
+            let tangents = [1.0 + of_u * of_u, of_u * of_v, 1.0 + of_v * of_v];
+            let curved = [uu, uv, vv].map(|second| rest * second);
+            let [a, c, d]: [f64; 3] = std::array::from_fn(|k| tangents[k] - curved[k]);
+            let step = match a > 0.0 && a * d > c * c {
+                true => solve([a, c, d], b),
+                false => solve(tangents, b),
+            };
             if step[0].hypot(step[1]) <= EXACT * scale {
-                return self.seen_from(x, [u, v]);
+                return self.seen_from(x, place);
+            }
+            let off = |place| self.distance(x, place);
+            let here = off(place)? * (1.0 + f64::EPSILON);
+            let ways = std::iter::successors(Some(1.0), |share| Some(0.5 * share));
+            let gone = |share: f64| [0, 1].map(|axis| place[axis] + share * step[axis]);
+            let mut tried = ways.take(HALVINGS).map(|share| self.within(gone(share)));
+            let next = tried.find(|next| off(*next).is_some_and(|there| there <= here));
+            match next {
+                Some(next) if next != place => place = next,
+                // At the border, and the way leads beyond it.
+                _ if self.within(gone(1.0)) != gone(1.0) => return None,
+                _ => return self.seen_from(x, place),
             }
         }
         None
+    }
+
+    /// Distance of a point from that above a place of the grid.
+    fn distance(&self, x: Vector, place: [f64; 2]) -> Option<f64> {
+        Some(length(difference(x, self.foot(place, self.at(place)?[0]))))
+    }
+
+    fn foot(&self, [u, v]: [f64; 2], h: f64) -> Vector {
+        let mut foot = [u, v, 0.0];
+        foot[self.up] = h;
+        foot
     }
 
     /// A place, or the closest one on the border of the grid.
@@ -95,45 +127,45 @@ impl Heights {
         [0, 1].map(|axis| place[axis].clamp(low[axis], high[axis]))
     }
 
-    /// Distance and normal at the closest point.
-    fn seen_from(&self, x: Vector, [u, v]: [f64; 2]) -> Option<(f64, Vector)> {
-        let [h, of_u, of_v] = self.at(u, v)?;
-        let mut foot = [u, v, 0.0];
+    /// Distance and normal at the closest point; none where the way to it leaves the grid.
+    fn seen_from(&self, x: Vector, place: [f64; 2]) -> Option<(f64, Vector)> {
+        let [h, of_u, of_v, ..] = self.at(place)?;
         let mut normal = [of_u, of_v, 0.0];
-        foot[self.up] = h;
         normal[self.up] = -1.0;
         let normal = direction(normal).map(|n| self.side * n);
-        Some((dot(difference(x, foot), normal), normal))
+        Some((dot(difference(x, self.foot(place, h)), normal), normal))
     }
 
-    /// Height and slopes; `None` beyond the grid.
-    fn at(&self, u: f64, v: f64) -> Option<[f64; 3]> {
+    /// Height, slopes and second derivatives `uu`, `uv`, `vv`; `None` beyond the grid.
+    fn at(&self, [u, v]: [f64; 2]) -> Option<[f64; 6]> {
         let [xs, ys] = &self.places;
-        let u_mirrored = if self.is_mirrored && u < 0.0 { -u } else { u };
-        let turned = if u < 0.0 && self.is_mirrored {
-            -1.0
-        } else {
-            1.0
-        };
-        let along = Line::of(xs, u_mirrored, self.is_mirrored)?;
+        let is_image = self.is_mirrored && u < 0.0;
+        let turned = if is_image { -1.0 } else { 1.0 };
+        let along = Line::of(xs, turned * u, self.is_mirrored)?;
         let row = |j: usize| along.values(|i| self.values[j * xs.len() + i]);
         if ys.len() == 1 {
-            let [h, slope] = row(0);
-            return Some([h, turned * slope, 0.0]);
+            let [h, of_u, uu] = row(0);
+            return Some([h, turned * of_u, 0.0, uu, 0.0, 0.0]);
         }
         let across = Line::of(ys, v, false)?;
-        let [h, of_v] = across.values(|j| row(j)[0]);
-        let [of_u, _] = across.values(|j| row(j)[1]);
-        Some([h, turned * of_u, of_v])
+        let [h, of_v, vv] = across.values(|j| row(j)[0]);
+        let [of_u, uv, _] = across.values(|j| row(j)[1]);
+        let [uu, ..] = across.values(|j| row(j)[2]);
+        Some([h, turned * of_u, of_v, uu, turned * uv, vv])
     }
 }
 
-/// Where a place stands on a line of the grid: the values there and the slope are sums over these
-/// points.
+/// The solution of `[a c; c d] x = b`.
+fn solve([a, c, d]: [f64; 3], b: [f64; 2]) -> [f64; 2] {
+    let det = a * d - c * c;
+    [(d * b[0] - c * b[1]) / det, (a * b[1] - c * b[0]) / det]
+}
+
+/// Where a place stands on a line of the grid: value and first two derivatives there are sums over
+/// these points.
 struct Line {
     first: usize,
-    value: [f64; 4],
-    slope: [f64; 4],
+    weights: [[f64; 4]; 3],
 }
 
 impl Line {
@@ -148,41 +180,42 @@ impl Line {
         let first = k.saturating_sub(1).min(n.saturating_sub(4));
         let h = x[k + 1] - x[k];
         let t = (at - x[k]) / h;
-        let [of_ends, of_slopes] = [
+        // Hermite's polynomials and their derivatives: of the values at both ends, of the slopes.
+        let of_ends = [
             [(1.0 + 2.0 * t) * (1.0 - t).powi(2), t * t * (3.0 - 2.0 * t)],
-            [h * t * (1.0 - t).powi(2), h * t * t * (t - 1.0)],
-        ];
-        let [d_ends, d_slopes] = [
             [-6.0 * t * (1.0 - t) / h, 6.0 * t * (1.0 - t) / h],
-            [(1.0 - t) * (1.0 - 3.0 * t), t * (3.0 * t - 2.0)],
+            [(12.0 * t - 6.0) / (h * h), (6.0 - 12.0 * t) / (h * h)],
         ];
-        let mut line = Line {
-            first,
-            value: [0.0; 4],
-            slope: [0.0; 4],
-        };
-        for end in 0..2 {
-            let node = k + end;
-            line.value[node - first] += of_ends[end];
-            line.slope[node - first] += d_ends[end];
-            if node == 0 && is_mirrored {
-                continue;
-            }
-            for (i, weight) in slope(x, node) {
-                line.value[i - first] += of_slopes[end] * weight;
-                line.slope[i - first] += d_slopes[end] * weight;
+        let of_slopes = [
+            [h * t * (1.0 - t).powi(2), h * t * t * (t - 1.0)],
+            [(1.0 - t) * (1.0 - 3.0 * t), t * (3.0 * t - 2.0)],
+            [(6.0 * t - 4.0) / h, (6.0 * t - 2.0) / h],
+        ];
+        let mut weights = [[0.0; 4]; 3];
+        for ((weights, of_ends), of_slopes) in weights.iter_mut().zip(of_ends).zip(of_slopes) {
+            for end in 0..2 {
+                let node = k + end;
+                weights[node - first] += of_ends[end];
+                if node == 0 && is_mirrored {
+                    continue;
+                }
+                for (i, weight) in slope(x, node) {
+                    weights[i - first] += of_slopes[end] * weight;
+                }
             }
         }
-        Some(line)
+        Some(Line { first, weights })
     }
 
-    fn values(&self, of: impl Fn(usize) -> f64) -> [f64; 2] {
-        let mut sums = [0.0; 2];
-        for (i, weights) in self.value.iter().zip(&self.slope).enumerate() {
-            if *weights.0 != 0.0 || *weights.1 != 0.0 {
+    fn values(&self, of: impl Fn(usize) -> f64) -> [f64; 3] {
+        let mut sums = [0.0; 3];
+        for i in 0..4 {
+            let weights = self.weights.map(|weights| weights[i]);
+            if weights.iter().any(|weight| *weight != 0.0) {
                 let value = of(self.first + i);
-                sums[0] += weights.0 * value;
-                sums[1] += weights.1 * value;
+                for (sum, weight) in sums.iter_mut().zip(weights) {
+                    *sum += weight * value;
+                }
             }
         }
         sums
@@ -279,7 +312,6 @@ fn grid(points: &[(usize, Vector)], axes: usize) -> Result<([Vec<f64>; 2], Vec<f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::space::length;
 
     fn read(text: &str, dimension: usize) -> Result<Heights> {
         let folder = tempfile::tempdir().unwrap();
@@ -299,10 +331,13 @@ mod tests {
         }
         let heights = read(&text, 3).unwrap();
         for (x, y) in [(0.1, 0.2), (-1.9, 1.9), (2.2, -0.9), (-0.3, 0.7)] {
-            let [h, of_x, of_y] = heights.at(x, y).unwrap();
+            let [h, of_x, of_y, xx, xy, yy] = heights.at([x, y]).unwrap();
             assert!((h - height(x, y)).abs() < 1e-14);
             assert!((of_x - (0.2 * x - 0.05 * y)).abs() < 1e-13);
             assert!((of_y - (0.04 * y - 0.05 * x)).abs() < 1e-13);
+            for (found, exact) in [(xx, 0.2), (xy, -0.05), (yy, 0.04)] {
+                assert!((found - exact).abs() < 1e-12, "{found} for {exact}");
+            }
             // From a point below along the normal back to it.
             let normal = direction([of_x, of_y, -1.0]);
             let from = crate::space::along([x, y, h], 0.3, normal);
@@ -311,7 +346,32 @@ mod tests {
                 assert!(length(difference(found, normal)) < 1e-11);
             }
         }
+        // Beyond the grid.
         assert_eq!(heights.near([9.0, 0.0, 0.0]), None);
+    }
+
+    /// Tips that are more curved than they are near, which steps along the tangents run away from.
+    #[test]
+    fn a_sharp_tip_is_seen_from_afar() {
+        let sharp = |x: f64, y: f64| 20.0 * x * x + 5.0 * x * y + 10.0 * y * y;
+        let places = || (-6..=6).map(|k| 0.1 * f64::from(k));
+        let points = places().flat_map(|x| places().map(move |y| (x, y)));
+        let text: String = points
+            .map(|(x, y)| format!("{x},{y},{}\n", sharp(x, y)))
+            .collect();
+        let heights = read(&text, 3).unwrap();
+        for (x, y) in [(0.0, 0.0), (0.1, 0.05), (-0.2, 0.3), (0.35, -0.25)] {
+            let normal = direction([40.0 * x + 5.0 * y, 5.0 * x + 20.0 * y, -1.0]);
+            for away in [0.01, 0.3, 5.0] {
+                let from = crate::space::along([x, y, sharp(x, y)], away, normal);
+                let (distance, found) = heights.near(from).unwrap();
+                assert!(
+                    (distance - away).abs() < 1e-12 * away.max(1.0),
+                    "{distance}"
+                );
+                assert!(length(difference(found, normal)) < 1e-9, "{found:?}");
+            }
+        }
     }
 
     #[test]

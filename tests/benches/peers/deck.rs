@@ -17,7 +17,7 @@ pub struct Settings {
     pub increments: usize,
     /// `SURFACE TO SURFACE` or `NODE TO SURFACE`.
     pub kind: &'static str,
-    /// What follows `*STATIC`: nothing, or a solver.
+    /// Name of a solver; empty for the default.
     pub solver: &'static str,
 }
 
@@ -177,11 +177,14 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
         }
     };
     let step = 1.0 / settings.increments as f64;
+    let solver = match settings.solver {
+        "" => String::new(),
+        name => format!(", SOLVER={name}"),
+    };
     for &alpha in legs {
         say(format!(
-            "*STEP, INC=1000\n*STATIC{}\n{step}, 1., 1e-6, {step}\n{}\n*NODE FILE\nU\n*CONTACT \
+            "*STEP, INC=1000\n*STATIC{solver}\n{step}, 1., 1e-6, {step}\n{}\n*NODE FILE\nU\n*CONTACT\x20\
              FILE\nCDIS, CSTR\n*END STEP",
-            settings.solver,
             applied(alpha)
         ));
     }

@@ -1,5 +1,6 @@
-//! A ball in three dimensions beside CalculiX on the same mesh: C3D8 and C3D20R, its iterative
-//! Cholesky solver.
+//! A ball in three dimensions beside CalculiX on the same mesh: C3D8 with its iterative Cholesky
+//! solver and with SPOOLES, which Debian's takes where a deck names none; C3D20R. And beside
+//! Tamaas, boundary elements by Fourier transforms, on grids of its own.
 //!
 //! Errors are those of the largest pressure at 0.8 of the yield load against Hertz, and at five
 //! times the yield load and of the dent against brinell's values extrapolated from its two finest
@@ -18,8 +19,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/peers/ball_contact.toml");
-/// Elements over the contact radius at first yield, and their shape.
-const CASES: [(usize, &str); 3] = [(4, "hex8"), (6, "hex8"), (4, "hex20")];
+/// Elements over the contact radius at first yield, their shape, and CalculiX' solvers.
+const CASES: [(usize, &str, &[&str]); 2] = [
+    (4, "hex8", &["ITERATIVE CHOLESKY", "SPOOLES"]),
+    (6, "hex8", &["ITERATIVE CHOLESKY"]),
+];
+const QUADRATIC: [(usize, &str, &[&str]); 1] = [(4, "hex20", &["ITERATIVE CHOLESKY"])];
 /// brinell's own meshes from which the reference is extrapolated.
 const FINEST: [usize; 2] = [6, 9];
 /// Load factors of the program, in the order of its states.
@@ -102,7 +107,12 @@ fn brinell(case: (usize, &str), dir: &Path, elastic_only: bool) -> Result<Outcom
     })
 }
 
-fn calculix(case: (usize, &str), dir: &Path, elastic_only: bool) -> Result<Outcome, Failure> {
+fn calculix(
+    case: (usize, &str),
+    solver: &'static str,
+    dir: &Path,
+    elastic_only: bool,
+) -> Result<Outcome, Failure> {
     let mut scene = Scene::load_with(SCENE, &overrides(case))?;
     if elastic_only {
         scene.materials.values_mut().for_each(|m| {
@@ -127,7 +137,7 @@ fn calculix(case: (usize, &str), dir: &Path, elastic_only: bool) -> Result<Outco
         overlap,
         increments: 5,
         kind: "SURFACE TO SURFACE",
-        solver: ", SOLVER=ITERATIVE CHOLESKY",
+        solver,
     };
     let legs = if elastic_only { &LEGS[..1] } else { &LEGS[..] };
     let name = format!("ball_{}_{}", case.0, case.1);
@@ -171,68 +181,170 @@ fn extrapolated(coarse: f64, fine: f64) -> f64 {
     fine + (fine - coarse) / (ratio - 1.0)
 }
 
-/// The table goes to the terminal and to `bench-results/peers_solid.md` and `.json`.
-pub fn compare() -> Result<(), Failure> {
-    let folder = tempfile::tempdir()?;
-    let dir = folder.path();
+/// brinell's values, extrapolated; Hertz' where nothing flows.
+fn reference(dir: &Path) -> Result<Outcome, Failure> {
     let [coarse, fine] = [
         brinell((FINEST[0], "hex8"), dir, false)?,
         brinell((FINEST[1], "hex8"), dir, false)?,
     ];
-    let exact = Outcome {
+    Ok(Outcome {
         elastic: hertz()?.max_pressure(0.8 * hertz()?.yield_load(0.3, 500.0)),
         five: extrapolated(coarse.five, fine.five),
         dent: extrapolated(coarse.dent, fine.dent),
         seconds: 0.0,
-    };
+    })
+}
+
+fn percent(value: f64, exact: f64) -> f64 {
+    100.0 * (value / exact - 1.0).abs()
+}
+
+/// The table goes to the terminal and to `bench-results/peers_solid.md` and `.json`.
+pub fn compare(quadratic: bool) -> Result<(), Failure> {
+    let folder = tempfile::tempdir()?;
+    let dir = folder.path();
+    let exact = reference(dir)?;
     let mut table = String::from(
-        "| elements over a | shape | program | processor seconds,
-        history | elastic load | pressure at 0.8 P* | at 5 P* | dent |\n\
-        |---|---|---|---|---|---|---|---|\n",
+        "| elements over a* | shape | program | history, s | elastic load, s | pressure at 0.8 P* \
+         | at 5 P* | dent |\n|---|---|---|---|---|---|---|---|\n",
     );
     let mut rows = Vec::new();
-    for case in CASES {
-        let mut both = Vec::new();
-        for program in ["brinell", "CalculiX"] {
-            let run = if program == "brinell" {
-                brinell
-            } else {
-                calculix
+    let cases: &[_] = if quadratic { &QUADRATIC } else { &CASES };
+    for (size, shape, solvers) in cases {
+        let case = (*size, *shape);
+        let mut ours = None;
+        for program in std::iter::once("brinell").chain(solvers.iter().copied()) {
+            let run = |elastic_only| match program {
+                "brinell" => brinell(case, dir, elastic_only),
+                solver => calculix(case, solver, dir, elastic_only),
             };
-            let (history, elastic) = (run(case, dir, false)?, run(case, dir, true)?);
-            let percent = |value: f64, exact: f64| 100.0 * (value / exact - 1.0).abs();
+            let (history, elastic) = (run(false)?, run(true)?);
             let [a, b, c] = [
                 percent(history.elastic, exact.elastic),
                 percent(history.five, exact.five),
                 percent(history.dent, exact.dent),
             ];
+            let seconds = [history.seconds, elastic.seconds];
+            let times = |k: usize| match ours {
+                Some(ours) => {
+                    let ours: [f64; 2] = ours;
+                    format!("{:.2} ({:.0} times)", seconds[k], seconds[k] / ours[k])
+                }
+                None => format!("{:.2}", seconds[k]),
+            };
+            let name = match program {
+                "brinell" => program.to_string(),
+                solver => format!("CalculiX, {}", solver.to_lowercase()),
+            };
             let row = format!(
-                "| {} | {} | {program} | {:.2} | {:.2} | {a:.2} % | {b:.2} % | {c:.2} % |",
-                case.0, case.1, history.seconds, elastic.seconds
+                "| {size} | {shape} | {name} | {} | {} | {a:.2} % | {b:.2} % | {c:.2} % |",
+                times(0),
+                times(1)
             );
             println!("{row}");
             writeln!(table, "{row}")?;
             rows.push(json!({
-                "elements": case.0, "shape": case.1, "program": program,
-                "history_seconds": history.seconds,
-                "elastic_seconds": elastic.seconds, "errors_percent": [a, b, c],
+                "elements": size, "shape": shape, "program": name,
+                "history_seconds": seconds[0], "elastic_seconds": seconds[1],
+                "errors_percent": [a, b, c],
             }));
-            both.push((history.seconds, elastic.seconds));
+            ours = ours.or(Some(seconds));
         }
-        let (ours, theirs) = (both[0], both[1]);
-        writeln!(
-            table,
-            "| {} | {} | ratio | {:.0} | {:.0} | | | |",
-            case.0,
-            case.1,
-            theirs.0 / ours.0,
-            theirs.1 / ours.1
+    }
+    let name = if quadratic {
+        "peers_quadratic"
+    } else {
+        "peers_solid"
+    };
+    keep(name, &table, &rows)
+}
+
+/// Cells over the surface of Tamaas' elastic half spaces; cells, layers and steps where it flows.
+const ELASTIC: [usize; 3] = [32, 64, 128];
+const PLASTIC: [[usize; 3]; 2] = [[32, 16, 4], [48, 24, 4]];
+
+/// The same loads by Tamaas, in an environment of Python that is made for it in `target/tamaas`.
+pub fn spectral() -> Result<(), Failure> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let environment = root.join("target/tamaas");
+    let python = environment.join("bin/python");
+    if !python.exists() {
+        let mut made = Command::new("python3");
+        made.args(["-m", "venv"]).arg(&environment);
+        let installed = [
+            "-m",
+            "pip",
+            "install",
+            "-q",
+            "tamaas==2.9.0",
+            "numpy",
+            "scipy",
+        ];
+        if !made.status()?.success() || !Command::new(&python).args(installed).status()?.success() {
+            return Err("Tamaas could not be installed from PyPI".into());
+        }
+    }
+    let folder = tempfile::tempdir()?;
+    let exact = reference(folder.path())?;
+    let load = hertz()?.yield_load(0.3, 500.0);
+    let mut rows = Vec::new();
+    for cells in ELASTIC {
+        let arguments = format!("elastic {} {cells}", 0.8 * load);
+        rows.push((
+            format!("Tamaas, elastic, {cells} x {cells}"),
+            arguments,
+            exact.elastic,
+        ));
+    }
+    for [cells, layers, steps] in PLASTIC {
+        let name = format!("Tamaas, 5 P*, {cells} x {cells} x {layers}, {steps} steps");
+        let arguments = format!("plastic {} {cells} {layers} {steps}", 5.0 * load);
+        rows.push((name, arguments, exact.five));
+    }
+    let mut table = String::from("| program | seconds | pressure |\n|---|---|---|\n");
+    let mut kept = Vec::new();
+    let mut add = |name: &str, seconds: f64, error: f64| -> Result<(), Failure> {
+        let row = format!("| {name} | {seconds:.2} | {error:.2} % |");
+        println!("{row}");
+        writeln!(table, "{row}")?;
+        kept.push(json!({ "program": name, "seconds": seconds, "error_percent": error }));
+        Ok(())
+    };
+    for (size, shape, _) in CASES {
+        let elastic = brinell((size, shape), folder.path(), true)?;
+        let error = percent(elastic.elastic, exact.elastic);
+        add(
+            &format!("brinell, elastic, {size} elements over a*"),
+            elastic.seconds,
+            error,
         )?;
     }
+    for (name, arguments, exact) in rows {
+        let script = root.join("tests/benches/peers/spectral.py");
+        let mut command = Command::new(&python);
+        command
+            .arg(script)
+            .args(arguments.split(' '))
+            .env("OMP_NUM_THREADS", "1");
+        let printed: Value = serde_json::from_slice(&command.output()?.stdout)?;
+        let [seconds, pressure] = ["seconds", "pressure"].map(|key| printed[key].as_f64());
+        let pressure = pressure.ok_or("Tamaas gave no pressure")?;
+        add(&name, seconds.unwrap_or(f64::NAN), percent(pressure, exact))?;
+    }
+    for (size, shape, _) in CASES {
+        let history = brinell((size, shape), folder.path(), false)?;
+        let name = format!("brinell, 0.8, 5 P* and off, {size} elements over a*");
+        add(&name, history.seconds, percent(history.five, exact.five))?;
+    }
+    keep("peers_tamaas", &table, &kept)
+}
+
+/// Writes a table and its figures to `bench-results`.
+fn keep(name: &str, table: &str, rows: &[Value]) -> Result<(), Failure> {
     println!("{table}");
     let results = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("bench-results");
     std::fs::create_dir_all(&results)?;
-    std::fs::write(results.join("peers_solid.md"), &table)?;
-    let text = serde_json::to_string_pretty(&rows)? + "\n";
-    Ok(std::fs::write(results.join("peers_solid.json"), text)?)
+    std::fs::write(results.join(format!("{name}.md")), table)?;
+    let text = serde_json::to_string_pretty(rows)? + "\n";
+    Ok(std::fs::write(results.join(format!("{name}.json")), text)?)
 }
