@@ -1,6 +1,7 @@
 //! Rigid surfaces on solids: parts of symmetric bodies, and slices that are plane strain.
 
 use super::rigid_surfaces::{along, ball, block, near, only, run, same};
+use brinell::results::Results;
 
 /// A support.
 fn held(side: &str, axis: &str) -> String {
@@ -58,6 +59,13 @@ targets = [{{ load_factor = 1.0 }}]
         );
         near(only(&quarter).max_pressure, only(&whole).max_pressure, 1e-8);
         near(only(&quarter).approach, only(&whole).approach, 1e-8);
+        let patch = |results: &Results| {
+            let patch = &only(results).patches[0];
+            [patch.area, patch.force, patch.semi_axes[0]]
+        };
+        for (part, all) in patch(&quarter).into_iter().zip(patch(&whole)) {
+            near(part, all, 1e-6);
+        }
         let depth = only(&whole).approach;
         let moved = sphere.replace(
             "force = [0.0, 0.0, -8000.0]",
