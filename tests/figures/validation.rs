@@ -47,11 +47,11 @@ differ by 1.7 and 3.3 % from each other.
   With elements half as large (`mesh.subdivisions = 1`) the displacement here is 0.05 % more, the \
 stress 0.01 % less; its meshes
   are coarse at the rounded edge: likely, not shown.
-- SSNV506: 9 to 12 % less than a formula whose own source meets it within 5 to 15 %. At 1 mm the \
-contact is 1.5 (2 R h)^(1/2) wide and
-  the mean pressure some 2.6 Y, where 3 Y on 1.36 (2 R h) pi makes the published force. At the \
-source's 20 mm, a/R = 0.3, small strains
-  give 0.67 of it on a mesh of another size: not explained beyond that.
+- SSNV506: 9 to 12 % less than a formula whose own source meets it within 5 to 15 %; about the \
+stated error. On twice the elements 0.862
+  and 0.904 of it: at 1 mm a^2 = 1.41 (2 R h) and a mean pressure of 2.6 Y, where 1.36 and 3 Y make \
+the published force. At the source's
+  20 mm, a/R = 0.3, small strains give 0.67 of it (another mesh): not explained beyond that.
 - deal.II: one step of Hencky's law, linear hexahedra integrated at all points. With the mean \
 dilatation (`mesh.formulation = \"mean\"`)
   the same step takes 52.8, the path in small increments 61.0 (`stepping = \"auto\"`, on a finer \

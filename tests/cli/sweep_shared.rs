@@ -1,0 +1,97 @@
+//! Points of one elastic structure share its factorisation.
+
+use super::{brinell, stdout};
+use crate::cli::sweep::told;
+use serde_json::Value;
+use std::path::Path;
+
+/// A ball on a flat whose mesh does not depend on the yield stress.
+fn ball(folder: &Path) -> String {
+    let scene = folder.join("ball.toml");
+    let text = std::fs::read_to_string(super::scene("ball_on_half_space")).unwrap();
+    let mesh = "resolution = 4\nhalf_width = 0.16\ncontact_width = 4.0";
+    let text = text.replace("resolution = 12", mesh);
+    let text = text.replace("far_size = 200.0", "far_size = 40.0");
+    let (text, _) = text.split_once("[program]").unwrap();
+    let program = "[program]\ntargets = [{ name = \"pressed\", load_factor = 1.0 }, \
+                   { name = \"off\", load_factor = 0.0 }]\n";
+    std::fs::write(&scene, format!("{text}{program}")).unwrap();
+    scene.to_str().unwrap().to_string()
+}
+
+fn swept(scene: &str, more: &[&str]) -> Vec<Value> {
+    let all = ["sweep", scene, "--no-estimate", "--no-report", "--json"];
+    let run = brinell(&[&all[..], more].concat());
+    assert!(run.status.success(), "{}", told(&run));
+    let found: Value = serde_json::from_slice(&run.stdout).unwrap();
+    found["points"].as_array().unwrap().clone()
+}
+
+fn made(points: &[Value]) -> Vec<u64> {
+    let of_point = |point: &Value| point["factorizations"].as_u64().unwrap();
+    points.iter().map(of_point).collect()
+}
+
+/// Figures are those of a run by itself, the points stand in their order, and only the one that
+/// yields furthest, which is run first, is factored for.
+#[test]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn yield_stresses_and_loads_share_a_factorisation() {
+    for (key, values, furthest) in [
+        ("materials.steel.yield_stress", ["600", "450", "500"], 1),
+        ("load.press.plane_force.total", ["-300", "-400", "-500"], 2),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = ball(folder.path());
+        let load = ["--set", "load.press.plane_force.total=-500"];
+        let vary = format!("{key}={}", values.join(","));
+        let points = swept(&scene, &[&load[..], &["--vary", &vary]].concat());
+        let made = made(&points);
+        for (k, (point, value)) in points.iter().zip(values).enumerate() {
+            assert_eq!(point["values"][key], value);
+            assert_eq!(made[k] > 0, k == furthest, "{key}: {made:?}");
+            let alone = brinell(&[
+                "run",
+                &scene,
+                "-q",
+                "--no-estimate",
+                "--no-report",
+                "--json",
+                load[0],
+                load[1],
+                "--set",
+                &format!("{key}={value}"),
+            ]);
+            assert!(alone.status.success(), "{}", told(&alone));
+            let alone: Value = serde_json::from_str(&stdout(&alone)).unwrap();
+            assert!(alone["counts"]["factorizations"].as_u64() >= Some(1));
+            for (state, name) in [(0, "pressed"), (1, "off")] {
+                for figure in [
+                    "approach",
+                    "residual_depth",
+                    "max_equivalent_plastic_strain",
+                ] {
+                    let found = &point["figures"][format!("states.{name}.{figure}")];
+                    let expected = alone["states"][state][figure].as_f64().unwrap();
+                    let off = found.as_f64().unwrap() - expected;
+                    let size = alone["states"][0][figure].as_f64().unwrap();
+                    assert!(
+                        off.abs() <= 1e-9 * size,
+                        "{key} {value} {name} {figure}: {off:e}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Another modulus is another structure; and a point that fails leaves the others as they are.
+#[test]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn other_structures_have_factors_of_their_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = ball(folder.path());
+    let vary = "materials.steel.youngs_modulus=200e3,210e3";
+    let points = swept(&scene, &["--vary", vary]);
+    assert!(made(&points).iter().all(|made| *made > 0), "{points:?}");
+}
