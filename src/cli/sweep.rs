@@ -430,7 +430,7 @@ fn shared(sweep: &Sweep, outcome: &Outcome<'_>) -> String {
         0 | 1 => String::new(),
         n => {
             let made: usize = of_points.iter().sum();
-            format!("{n} points took {made} factorisations.\n")
+            format!("Factorisations of these {n} points: {made}.\n")
         }
     }
 }
