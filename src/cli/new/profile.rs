@@ -119,6 +119,7 @@ brick = {{ x = [0.0, {end}], y = [0.0, {size}], z = [-{size}, 0.0], elements = [
 [[contact]]
 first = \"roller.bottom\"
 second = \"race.top\"
+slave = \"first\"             # the gap is known below the roller alone
 gap = \"{gap}\"
 
 # Symmetry: nothing crosses the planes x = 0 and y = 0.
