@@ -48,8 +48,8 @@ pub(crate) struct Point {
     pub folder: String,
     /// Stands for all that its results depend on.
     pub identity: String,
-    /// Loads over yield stress, larger the further the material yields: what is largest is run first,
-    /// so that its factor serves the others.
+    /// Loads over yield stress, larger the further the material yields: what is largest is run
+    /// first, so that its factor serves the others.
     #[serde(skip)]
     pub demand: f64,
     /// How its run ended; `None` where it has not.

@@ -167,8 +167,8 @@ fn a_groove_yields_where_no_larger_load_is_known() {
     near(summary["yield"]["load"].as_f64().unwrap(), hertz, 0.1);
 }
 
-/// Below the rated contact of a ball on a flat the largest shear is 0.310 p_0 at 0.481 a, and rolling
-/// changes the orthogonal shear by +-0.214 p_0 at 0.350 a (Johnson, Contact Mechanics, section 3.4;
+/// Below the rated contact of a ball on a flat the largest shear is 0.310 p_0 at 0.481 a, and
+/// rolling changes the orthogonal shear by +-0.214 p_0 at 0.350 a (Johnson, Contact Mechanics, section 3.4;
 /// Lundberg and Palmgren 1947); the crown of a roller makes its contact a point.
 #[test]
 fn shear_below_the_contact_is_told() {
@@ -206,7 +206,8 @@ fn shear_below_the_contact_is_told() {
     assert_eq!((bodies.upper, bodies.lower), ([500.0, 5.0], [0.0, 20.0]));
 }
 
-/// Under the load of its profile a roller presses evenly along its axis, a cylinder most at its end.
+/// Under the load of its profile a roller presses evenly along its axis, a cylinder most at its
+/// end.
 #[test]
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 fn a_logarithmic_profile_presses_evenly() {

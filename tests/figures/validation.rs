@@ -26,8 +26,8 @@ load and 3 % in the radius.
 
 const TAIL: &str = "\
 \n## Shakedown in rolling\n
-A row of five line contacts, 0.87 a apart and pressed one after the other, as rolling does it step by \
-step. Published (Johnson,
+A row of five line contacts, 0.87 a apart and pressed one after the other, as rolling does it step \
+by step. Published (Johnson,
 *Contact Mechanics*, section 9.2): elastic up to p_0 = 3.1 k, shakedown up to 4 k, k the yield \
 stress in shear. Computed with a/4:
 elastic at 3.0, elastic shakedown at 3.2 and at 3.9, lasting flow at 4.1; with a/8 at 3.05, 3.15, \
@@ -49,8 +49,8 @@ stress 0.01 % less; its meshes
   are coarse at the rounded edge: likely, not shown.
 - SSNV506: 9 to 12 % less than a formula whose own source meets it within 5 to 15 %; about the \
 stated error. On twice the elements 0.862
-  and 0.904 of it: at 1 mm a^2 = 1.41 (2 R h) and a mean pressure of 2.6 Y, where 1.36 and 3 Y make \
-the published force. At the source's
+  and 0.904 of it: at 1 mm a^2 = 1.41 (2 R h) and a mean pressure of 2.6 Y, where 1.36 and 3 Y \
+make the published force. At the source's
   20 mm, a/R = 0.3, small strains give 0.67 of it (another mesh): not explained beyond that.
 - deal.II: one step of Hencky's law, linear hexahedra integrated at all points. With the mean \
 dilatation (`mesh.formulation = \"mean\"`)

@@ -129,8 +129,8 @@ fn the_columns_are_written_and_read_back() {
     assert!(path.lines().count() > 1 && path.lines().all(|line| commas(line) == commas(head)));
 }
 
-/// A shim between two blocks: each contact carries the load, and what the two bring together adds up
-/// to the way of the stamp's loaded surface, also where the shim is held by nothing else.
+/// A shim between two blocks: each contact carries the load, and what the two bring together adds
+/// up to the way of the stamp's loaded surface, also where the shim is held by nothing else.
 #[test]
 fn approaches_of_a_stack_add_up() {
     let results = run(&load(

@@ -70,8 +70,8 @@ fn a_stack_of_bodies_is_that_of_code_aster() {
     }
 }
 
-/// The two models of the source are 1.7 % and 3.3 % apart; the stress in the middle of the punch has
-/// converged here, to 7 % less than theirs (`data/validation.md`).
+/// The two models of the source are 1.7 % and 3.3 % apart; the stress in the middle of the punch
+/// has converged here, to 7 % less than theirs (`data/validation.md`).
 #[test]
 fn a_punch_with_a_rounded_edge_is_that_of_nafems() {
     let rows = rows("punch");

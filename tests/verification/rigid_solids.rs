@@ -99,8 +99,8 @@ targets = [{{ load_factor = 1.0 }}]
     near(only(&slice).approach, only(&plane).approach, 1e-8);
 }
 
-/// A barrel, a torus about an axis across, on a quarter of a brick: Hertz' ellipse of the two radii,
-/// along the axis that of the tube, across it tube and ring together.
+/// A barrel, a torus about an axis across, on a quarter of a brick: Hertz' ellipse of the two
+/// radii, along the axis that of the tube, across it tube and ring together.
 ///
 /// Source: K. L. Johnson, Contact Mechanics (1985), section 4.2. The brick is five half axes large
 /// (the approach of half spaces is therefore not asked for), an element 0.16 of the smaller one.
@@ -114,7 +114,12 @@ symmetry = 4
 [[mesh.parts]]
 body = "block"
 element = "hex8"
-brick = {{ x = [0.0, 2.0], y = [0.0, 2.0], z = [-2.0, 0.0], elements = [13, 13, 13], bias = [6.0, 6.0, 0.16] }}
+[mesh.parts.brick]
+x = [0.0, 2.0]
+y = [0.0, 2.0]
+z = [-2.0, 0.0]
+elements = [13, 13, 13]
+bias = [6.0, 6.0, 0.16]
 [materials.steel]
 youngs_modulus = 210e3
 poissons_ratio = 0.3

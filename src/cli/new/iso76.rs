@@ -154,8 +154,8 @@ impl StaticLoad {
         }
     }
 
-    /// What loads per length of the closed forms are multiplied by: the length of a roller whose ends
-    /// are in the scene.
+    /// What loads per length of the closed forms are multiplied by: the length of a roller whose
+    /// ends are in the scene.
     fn length(&self) -> f64 {
         self.length.unwrap_or(1.0)
     }
@@ -293,8 +293,8 @@ impl Loads<'_> {
             format!("{stress} MPa, {depth} mm below the surface")
         };
         format!(
-            "Below a contact of {stress} MPa:\n  largest shear {}\n  orthogonal shear, amplitude in \
-             rolling, {}\n",
+            "Below a contact of {stress} MPa:\n  largest shear {}\n  orthogonal shear, amplitude \
+             in rolling, {}\n",
             told(shear.stress, shear.depth),
             told(orthogonal.stress, orthogonal.depth)
         )

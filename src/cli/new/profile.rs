@@ -51,10 +51,10 @@ pub(super) struct Roller<'m> {
 }
 
 impl Roller<'_> {
-    /// Drop of the profile over the logarithm: a load `q` per length on a strip of the length `l`
-    /// presses a half space down by `q/(pi E*) ln(l^2/4 - x^2)` and a constant, as long as the strip
-    /// is narrow, and a roller that lacks as much towards its ends presses evenly: `q/(pi E*)
-    /// ln(1/(1 - (2 x/l)^2))`, both bodies together.
+    /// Drop of the profile over the logarithm: a load `q` per length on a narrow strip of the length
+    /// `l` presses a half space down by `q/(pi E*) ln(l^2/4 - x^2)` and a constant, and a roller
+    /// that lacks as much towards its ends presses evenly: `q/(pi E*) ln(1/(1 - (2 x/l)^2))`, both
+    /// bodies together.
     ///
     /// # Source
     /// G. Lundberg, *Elastische Beruehrung zweier Halbraeume*, Forschung auf dem Gebiete des
@@ -85,17 +85,55 @@ impl Roller<'_> {
         }
     }
 
-    /// The scene.
-    pub fn text(&self, asked: &Asked) -> String {
+    /// The two blocks.
+    fn mesh(&self) -> String {
         let b = self.half_width;
         let (size, half) = (SIZE * b, 0.5 * self.length);
         // First element b/resolution, each next one larger, up to the size.
         let sum = 1.0 + SIZE * self.resolution as f64 * (GROWTH - 1.0);
-        let across = sum.ln() / GROWTH.ln();
-        let across = (across.round() as usize).max(4);
+        let across = ((sum.ln() / GROWTH.ln()).round() as usize).max(4);
         let bias = GROWTH.powi(across as i32 - 1);
         let end = half + BEYOND * b;
         let beyond = ((end - half) / (half / ALONG as f64)).ceil() as usize;
+        format!(
+            "\
+# x is the axis of the roller, y the direction of rolling. Blocks: the roller's shape is in the gap
+# of the contact. The first of the elements across is 1/{resolution} of the half width.
+[[mesh.parts]]
+body = \"roller\"
+element = \"hex8\"
+
+[mesh.parts.brick]
+x = [0.0, {half}]
+y = [0.0, {size}]
+z = [0.0, {size}]
+elements = [{ALONG}, {across}, {across}]
+bias = [{along}, {bias}, {bias}]
+
+[[mesh.parts]]
+body = \"race\"
+element = \"hex8\"
+
+[mesh.parts.brick]
+x = [0.0, {end}]
+y = [0.0, {size}]
+z = [-{size}, 0.0]
+elements = [{more}, {across}, {across}]
+bias = [1.0, {bias}, {against}]
+",
+            resolution = self.resolution,
+            half = toml(half),
+            size = toml(size),
+            end = toml(end),
+            along = toml(1.0 / FIRST_OVER_LAST),
+            bias = toml(bias),
+            against = toml(1.0 / bias),
+            more = ALONG + beyond,
+        )
+    }
+
+    /// The scene.
+    pub fn text(&self, asked: &Asked) -> String {
         format!(
             "{HEAD}#
 {about}title = \"Static load of a roller of finite length on its race\"
@@ -103,18 +141,7 @@ kind = \"solid\"
 {UNITS}
 symmetry = 4                 # x and y >= 0 are meshed; loads and results are those of the whole
 
-# x is the axis of the roller, y the direction of rolling. Blocks of so many half widths: the roller's
-# shape is in the gap of the contact. {resolution} elements over the half width at its middle.
-[[mesh.parts]]
-body = \"roller\"
-element = \"hex8\"
-brick = {{ x = [0.0, {half}], y = [0.0, {size}], z = [0.0, {size}], elements = [{ALONG}, {across}, {across}], bias = [{along}, {bias}, {bias}] }}
-
-[[mesh.parts]]
-body = \"race\"
-element = \"hex8\"
-brick = {{ x = [0.0, {end}], y = [0.0, {size}], z = [-{size}, 0.0], elements = [{more}, {across}, {across}], bias = [1.0, {bias}, {against}] }}
-
+{mesh}
 {material}# {told}
 [[contact]]
 first = \"roller.bottom\"
@@ -150,14 +177,7 @@ plane_force = {{ direction = \"z\", total = {total} }}   # N, all of the roller;
 
 {program}",
             about = asked.about,
-            resolution = self.resolution,
-            half = toml(half),
-            size = toml(size),
-            end = toml(end),
-            along = toml(1.0 / FIRST_OVER_LAST),
-            bias = toml(bias),
-            against = toml(1.0 / bias),
-            more = ALONG + beyond,
+            mesh = self.mesh(),
             material = section(&[("roller", &self.made[0]), ("race", &self.made[1])]),
             told = match self.profile {
                 Profile::Logarithmic => format!(
