@@ -168,8 +168,8 @@ fn a_groove_yields_where_no_larger_load_is_known() {
 }
 
 /// Below the rated contact of a ball on a flat the largest shear is 0.310 p_0 at 0.481 a, and
-/// rolling changes the orthogonal shear by +-0.214 p_0 at 0.350 a (Johnson, Contact Mechanics, section 3.4;
-/// Lundberg and Palmgren 1947); the crown of a roller makes its contact a point.
+/// rolling changes the orthogonal shear by +-0.214 p_0 at 0.350 a (Johnson, Contact Mechanics,
+/// section 3.4; Lundberg and Palmgren 1947); the crown of a roller makes its contact a point.
 #[test]
 fn shear_below_the_contact_is_told() {
     let folder = tempfile::tempdir().unwrap();

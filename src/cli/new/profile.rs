@@ -51,7 +51,7 @@ pub(super) struct Roller<'m> {
 }
 
 impl Roller<'_> {
-    /// Drop of the profile over the logarithm: a load `q` per length on a narrow strip of the length
+    /// Drop of the profile over the logarithm: a load `q` per length on a narrow strip of length
     /// `l` presses a half space down by `q/(pi E*) ln(l^2/4 - x^2)` and a constant, and a roller
     /// that lacks as much towards its ends presses evenly: `q/(pi E*) ln(1/(1 - (2 x/l)^2))`, both
     /// bodies together.
