@@ -95,3 +95,53 @@ fn other_structures_have_factors_of_their_own() {
     let points = swept(&scene, &["--vary", vary]);
     assert!(made(&points).iter().all(|made| *made > 0), "{points:?}");
 }
+
+/// A process that ends amid a point takes that point with it; another one runs the rest.
+#[test]
+#[cfg(target_os = "linux")]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn a_killed_process_takes_one_point_with_it() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+    let folder = tempfile::tempdir().unwrap();
+    let scene = ball(folder.path());
+    let out = folder.path().join("swept");
+    let child = Command::new(env!("CARGO_BIN_EXE_brinell"))
+        .args(["sweep", &scene, "--no-estimate", "--no-report", "--json"])
+        .args(["--vary", "materials.steel.yield_stress=450,600,650"])
+        .args(["--out", out.to_str().unwrap()])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // Its worker is the process that it is the parent of.
+    let worker = || {
+        let path = format!("/proc/{0}/task/{0}/children", child.id());
+        let children = std::fs::read_to_string(path).unwrap_or_default();
+        let of_main = children.split_whitespace().next().map(str::to_string);
+        of_main.or_else(|| {
+            let tasks = std::fs::read_dir(format!("/proc/{}/task", child.id())).ok()?;
+            let files = tasks.flatten().map(|task| task.path().join("children"));
+            let mut lists = files.filter_map(|file| std::fs::read_to_string(file).ok());
+            lists.find_map(|list| list.split_whitespace().next().map(str::to_string))
+        })
+    };
+    let start = Instant::now();
+    let id = loop {
+        // The first point is under way as soon as its directory is in the making.
+        let is_under_way = std::fs::read_dir(&out).map_or(0, |d| d.count()) > 0;
+        if let Some(id) = worker().filter(|_| is_under_way) {
+            break id.parse().unwrap();
+        }
+        assert!(start.elapsed() < Duration::from_secs(60));
+        std::thread::sleep(Duration::from_millis(5));
+    };
+    let pid = rustix::process::Pid::from_raw(id).unwrap();
+    rustix::process::kill_process(pid, rustix::process::Signal::KILL).unwrap();
+    let ended = child.wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(5));
+    let found: Value = serde_json::from_slice(&ended.stdout).unwrap();
+    let codes = found["points"].as_array().unwrap().iter();
+    let codes: Vec<Option<i64>> = codes.map(|point| point["exit_code"].as_i64()).collect();
+    assert_eq!(codes, [None, Some(0), Some(0)]);
+}
