@@ -9,9 +9,9 @@ use std::path::Path;
 fn ball(folder: &Path) -> String {
     let scene = folder.join("ball.toml");
     let text = std::fs::read_to_string(super::scene("ball_on_half_space")).unwrap();
-    let mesh = "resolution = 4\nhalf_width = 0.16\ncontact_width = 4.0";
+    let mesh = "resolution = 3\nhalf_width = 0.16\ncontact_width = 4.0";
     let text = text.replace("resolution = 12", mesh);
-    let text = text.replace("far_size = 200.0", "far_size = 40.0");
+    let text = text.replace("far_size = 200.0", "far_size = 20.0");
     let (text, _) = text.split_once("[program]").unwrap();
     let program = "[program]\ntargets = [{ name = \"pressed\", load_factor = 1.0 }, \
                    { name = \"off\", load_factor = 0.0 }]\n";
@@ -38,12 +38,12 @@ fn made(points: &[Value]) -> Vec<u64> {
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 fn yield_stresses_and_loads_share_a_factorisation() {
     for (key, values, furthest) in [
-        ("materials.steel.yield_stress", ["600", "450", "500"], 1),
-        ("load.press.plane_force.total", ["-300", "-400", "-500"], 2),
+        ("materials.steel.yield_stress", ["600", "450"], 1),
+        ("load.press.plane_force.total", ["-70", "-100"], 1),
     ] {
         let folder = tempfile::tempdir().unwrap();
         let scene = ball(folder.path());
-        let load = ["--set", "load.press.plane_force.total=-500"];
+        let load = ["--set", "load.press.plane_force.total=-100"];
         let vary = format!("{key}={}", values.join(","));
         let points = swept(&scene, &[&load[..], &["--vary", &vary]].concat());
         let made = made(&points);
