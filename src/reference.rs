@@ -1,6 +1,7 @@
 //! Published and exact values compared with the computed ones: what a scene's `[[reference]]` asks
 //! for. Nothing that computes, estimates or chooses knows of them.
 
+mod place;
 mod pressure;
 
 pub use pressure::hertz_pressure;
@@ -31,8 +32,12 @@ fn rows(model: &Model, results: &Results) -> Vec<ReferenceRow> {
         if entry.disc_in_plate.is_some() {
             rows.extend(disc_in_plate(model, results).unwrap_or_default());
         }
+        let computed = || match &entry.at {
+            Some(_) => place::value(model, results, entry),
+            None => value(results, entry.quantity.as_ref()?),
+        };
         if let (Some(quantity), Some(exact)) = (&entry.quantity, entry.value)
-            && let Some(computed) = value(results, quantity)
+            && let Some(computed) = computed()
         {
             let source = entry.source.as_deref().unwrap_or("scene");
             rows.push(row(quantity, exact, computed, None, source));

@@ -70,7 +70,8 @@ pub struct Results {
     /// One row per accepted increment.
     pub history: Vec<HistoryRow>,
     /// Names of what each row has besides, where the scene asks for it: `approach`,
-    /// `contact_1.force`, `contact_1.area`, `top.displacement_y`, `top.force_y`, ...
+    /// `contact_1.approach`, `contact_1.force`, `contact_1.area`, `top.displacement_y`,
+    /// `top.force_y`, ...
     pub history_columns: Vec<String>,
     /// Points of the path between the rows of the history, where its figures bend: for curves.
     pub path: Vec<PathPoint>,

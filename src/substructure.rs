@@ -18,108 +18,37 @@
 mod groups;
 mod rigid_slips;
 mod rows;
+mod sharing;
 mod singular;
 mod softened;
 mod tied;
 mod tied_stiffness;
+mod trailing;
 
 pub(crate) use rows::{Entries, Rows};
+pub use sharing::sharing_factors;
 pub(crate) use softened::Softened;
 pub(crate) use tied::{Tied, Trace};
+pub use trailing::Trailing;
 
 use crate::assembly::System;
 use crate::contact::{PairBlock, PairMatrix, Tableau};
 use crate::error::Result;
-use crate::linalg::{self, Backend, Condensed, ContactStiffness, Partition, Recovered, ZonePart};
+use crate::linalg::{self, Backend, ContactStiffness, Partition, Recovered, ZonePart};
 use crate::memory;
 use crate::model::{Model, Work};
 use groups::Groups;
 use nalgebra::DMatrix;
+use sharing::{Condensation, Held};
 use singular::name_freedom;
-
-/// A load (or displacement) on zone and contact freedoms, these in the order of
-/// [`crate::model::ContactRows::freedoms`].
-#[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
-pub struct Trailing {
-    /// On the zone freedoms.
-    pub zone: Vec<f64>,
-    /// On the contact freedoms.
-    pub contact: Vec<f64>,
-}
-
-impl Trailing {
-    /// All zeros.
-    pub fn zeros(n_zone: usize, n_contact: usize) -> Self {
-        Trailing {
-            zone: vec![0.0; n_zone],
-            contact: vec![0.0; n_contact],
-        }
-    }
-
-    /// Both parts, one after the other.
-    pub fn iter(&self) -> impl Iterator<Item = &f64> {
-        self.zone.iter().chain(&self.contact)
-    }
-
-    /// Both parts, one after the other.
-    pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut f64> {
-        self.zone.iter_mut().chain(&mut self.contact)
-    }
-
-    /// `self += factor * other`.
-    pub fn add(&mut self, factor: f64, other: &Trailing) {
-        if factor != 0.0 {
-            let add = |own: &mut [f64], other: &[f64]| {
-                for (a, b) in own.iter_mut().zip(other) {
-                    *a += factor * b;
-                }
-            };
-            add(&mut self.zone, &other.zone);
-            add(&mut self.contact, &other.contact);
-        }
-    }
-
-    /// `self = other + factor * self`.
-    pub(crate) fn scale_and_add(&mut self, factor: f64, other: &Trailing) {
-        for (own, other) in self.iter_mut().zip(other.iter()) {
-            *own = other + factor * *own;
-        }
-    }
-
-    /// Inner product.
-    pub fn dot(&self, other: &Trailing) -> f64 {
-        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-        sum(&self.zone, &other.zone) + sum(&self.contact, &other.contact)
-    }
-
-    /// Largest absolute value; NaN where there is one.
-    pub fn largest(&self) -> f64 {
-        let [zone, contact] = [&self.zone, &self.contact].map(|part| linalg::largest(part));
-        if zone > contact || zone.is_nan() {
-            zone
-        } else {
-            contact
-        }
-    }
-
-    /// Takes over the values of another vector of the same size.
-    pub(crate) fn copy_from(&mut self, other: &Trailing) {
-        self.zone.copy_from_slice(&other.zone);
-        self.contact.copy_from_slice(&other.contact);
-    }
-
-    /// Sets all values.
-    pub fn fill(&mut self, value: f64) {
-        self.zone.fill(value);
-        self.contact.fill(value);
-    }
-}
 
 /// The condensed structure.
 pub struct Substructure {
     /// Which freedoms are zone and contact.
     pub partition: Partition,
-    condensed: Box<dyn Condensed>,
+    condensed: Held,
+    /// Whether the factor was made for it.
+    is_new: bool,
     n_pairs: usize,
     tied: Option<Groups>,
     contact_matrix: PairMatrix,
@@ -132,7 +61,7 @@ impl Substructure {
     /// # Errors
     /// A matrix that is not positive definite, with body, node and direction; backend limits.
     pub fn new(model: &Model, system: &System, zone: Vec<usize>, backend: Backend) -> Result<Self> {
-        let partition = Partition {
+        let mut partition = Partition {
             n: model.freedoms.n,
             zone,
             contact: model.rows.freedoms.clone(),
@@ -140,10 +69,13 @@ impl Substructure {
         let shift = shift(model, system, &partition);
         let cost = ContactCost::of(model);
         cost.require()?;
-        let condensed = system
-            .stiffness
-            .condense(backend, &partition, &shift)
+        let Condensation {
+            condensed,
+            zone,
+            is_new,
+        } = sharing::condense(&system.stiffness, backend, &partition, &shift)
             .map_err(|e| name_freedom(e, model))?;
+        partition.zone = zone;
         let n = model.pairs.len();
         let (tied, contact_matrix) = if n > 0 {
             // What the factor left of the memory.
@@ -156,6 +88,7 @@ impl Substructure {
         Ok(Substructure {
             partition,
             condensed,
+            is_new,
             n_pairs: n,
             tied,
             contact_matrix,
@@ -163,7 +96,7 @@ impl Substructure {
     }
 
     /// Changes the zone: freedoms that were factored as zone are chosen among (the backend may keep
-    /// more of them), for others the structure is factored again. Returns whether it was.
+    /// more of them), for others the structure is condensed anew. Returns whether it was.
     ///
     /// # Errors
     /// Those of [`Substructure::new`].
@@ -191,8 +124,13 @@ impl Substructure {
             n: 1,
             ..Partition::default()
         };
-        self.condensed = linalg::condense(Backend::Dense, &one, &partition, &[])?;
+        self.condensed = Held::alone(linalg::condense(Backend::Dense, &one, &partition, &[])?);
         Ok(())
+    }
+
+    /// How many factorisations it took: none where it took over the factor of an earlier run.
+    pub fn factorizations(&self) -> usize {
+        usize::from(self.is_new)
     }
 
     /// The matrix T of the contact problem, all pairs closed.
@@ -372,7 +310,7 @@ impl Substructure {
         let Trailing { zone, contact } = &mut condensed;
         self.condensed.recover_zone(zone, contact);
         let recovered = linalg::recover_refined(
-            self.condensed.as_ref(),
+            &*self.condensed,
             &system.stiffness,
             system.norm,
             load,

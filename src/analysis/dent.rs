@@ -120,7 +120,7 @@ fn places_of(
 }
 
 /// The body that a surface bounds.
-fn body_of(mesh: &Mesh, surface: &str) -> Option<usize> {
+pub(super) fn body_of(mesh: &Mesh, surface: &str) -> Option<usize> {
     let facet = mesh.surfaces.get(surface)?.facets.first()?;
     Some(mesh.element_body[facet.element] as usize)
 }

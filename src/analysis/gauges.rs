@@ -1,6 +1,7 @@
 //! What each row of the history has besides its own figures, where the scene asks for it: motion
 //! and force of sets of nodes, approach, force and area of each contact.
 
+use super::approaches::Approach;
 use super::reactions;
 use super::solver::Solver;
 use crate::error::{Error, Result};
@@ -14,6 +15,8 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(super) struct Gauges {
     /// Nodes of each set.
     sets: Vec<Vec<usize>>,
+    /// Of each contact, how far its bodies have come together.
+    approaches: Vec<Option<Approach>>,
 }
 
 impl Gauges {
@@ -28,7 +31,10 @@ impl Gauges {
             nodes.ok_or_else(|| Error::input(format!("program.history: no nodes in `{name}`")))
         };
         let sets = names.iter().map(nodes).collect::<Result<Vec<_>>>()?;
-        Ok((!sets.is_empty()).then_some(Gauges { sets }))
+        Ok((!sets.is_empty()).then(|| Gauges {
+            sets,
+            approaches: Approach::of_contacts(model),
+        }))
     }
 
     /// Names of the columns, in the order of [`Gauges::read`]; none where the scene asks for none.
@@ -39,7 +45,7 @@ impl Gauges {
         }
         let mut out = vec!["approach".to_string()];
         for number in 1..=model.contacts.len() {
-            out.extend(["force", "area"].map(|key| format!("contact_{number}.{key}")));
+            out.extend(["approach", "force", "area"].map(|key| format!("contact_{number}.{key}")));
         }
         for name in names {
             for key in ["displacement", "force"] {
@@ -60,11 +66,12 @@ impl Gauges {
         let displacements = reading.displacements()?;
         let stresses = reading.stresses(displacements.deformation(), false)?;
         let mut out = vec![reading.approach(&displacements.total)];
-        for contact in 0..model.contacts.len() {
-            let figures = solver.contact_figures_of(contact);
-            out.extend([figures.force * model.symmetry, figures.area]);
-        }
         let moved = model.nodal(&displacements.total, &solver.at.factors);
+        for (contact, approach) in self.approaches.iter().enumerate() {
+            let figures = solver.contact_figures_of(contact);
+            let approach = approach.as_ref().map_or(f64::NAN, |a| a.at(&moved));
+            out.extend([approach, figures.force * model.symmetry, figures.area]);
+        }
         let forces = reactions::on_nodes(model, stresses.nodal, &solver.contact_forces());
         let d = model.mesh.dimension;
         let sum = |nodes: &[usize], of: &dyn Fn(usize) -> Vector| -> Vector {

@@ -15,7 +15,7 @@
 //! | `starting` | the state that an earlier run left, and that this one leaves | |
 //! | `outgrown` | contact that reaches the end of its candidates | |
 //! | `path` | the path between increments | |
-//! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `gauges`, `quality` | pressure, half width, dent, quality of a state | 5 |
+//! | `measure`, `contact_edge`, `reading`, `dent`, `figures`, `gauges`, `approaches`, `quality` | pressure, half width, dent, quality of a state | 5 |
 //! | `stress_field`, `element_stresses`, `stresses`, `point_values` | stresses of all elements, the forces they exert | |
 //! | `driving_force` | the force that moves what a load displaces | |
 //! | `local_yield` | yield stresses from place to place | |
@@ -26,6 +26,7 @@
 //! | `stopwatch` | what the time of a run was spent on | |
 
 mod acceleration;
+mod approaches;
 mod awaited;
 mod check;
 mod collapse;

@@ -118,7 +118,7 @@ impl<'m> Structure<'m> {
         cost: &mut Cost,
     ) -> Result<Self> {
         let sub = Substructure::new(model, system, zone_freedoms(model, within), backend)?;
-        cost.counts.factorizations += 1;
+        cost.counts.factorizations += sub.factorizations();
         let initial: Vec<f64> = model.pairs.iter().map(|p| p.gap).collect();
         let mut structure = Structure {
             condition: sub.condition(),
@@ -167,7 +167,7 @@ impl<'m> Structure<'m> {
         let sub = &mut self.sub;
         let factored = sub.set_zone(self.model, self.system, freedoms, self.backend)?;
         if factored {
-            cost.counts.factorizations += 1;
+            cost.counts.factorizations += sub.factorizations();
             self.condition = sub.condition().max(self.condition);
             self.factored = Arc::clone(&self.elements);
         }

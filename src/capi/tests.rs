@@ -3,6 +3,7 @@
 
 mod arrival;
 mod quantities;
+mod rigid;
 mod solid;
 
 use super::*;

@@ -119,6 +119,9 @@ pub(super) enum Command {
     /// Every point is a run with a directory of its own. Ctrl-C ends the sweep and keeps what it
     /// has; the same command goes on where it was.
     Sweep(super::sweep::SweepArguments),
+    /// Do the runs that standard input asks for, one after the other, for `brinell sweep`
+    #[command(hide = true)]
+    Runs,
     /// List steels and alloys that a scene takes by name, with the sources of their numbers
     Materials(super::materials::MaterialsArguments),
     /// Print Hertz's closed forms for two bodies: pressure, half axes, approach, stresses below the

@@ -1,6 +1,6 @@
 //! The commands that compute: the one place where the command line calls the analysis.
 
-use super::arguments::{Arguments, Command, CommonArguments, RunArguments};
+use super::arguments::{Arguments, Command, CommonArguments, ProgramArguments, RunArguments};
 use super::progress::Progress;
 use super::restart::{self, RestartArguments};
 use super::{completions, example, interrupt, new, print, report, schema, study, view};
@@ -17,28 +17,28 @@ use crate::results::Results;
 use crate::scene::Scene;
 use crate::text::shown_json;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Does what the user asked for.
 pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
     match &arguments.command {
         Command::Run(program) => {
-            let run = &program.run;
-            let out = (run.out.clone()).unwrap_or_else(|| run.common.scene.with_extension("out"));
-            analyse(
-                run,
-                Some(&program.restart),
-                Some(out),
-                Extent::Program,
-                start,
-            )
+            let (text, results) = run(program, start)?;
+            print(&text)?;
+            output::ending(&results)
         }
-        Command::Yield(run) => analyse(run, None, run.out.clone(), Extent::Yield, start),
+        Command::Yield(run) => {
+            let (text, results) = analyse(run, None, run.out.clone(), Extent::Yield, start)?;
+            print(&text)?;
+            output::ending(&results)
+        }
         Command::Check(check) => predict(&check.common, check.effects),
         Command::Convert(convert) => super::convert::run(convert),
         Command::Selftest(selftest) => super::selftest::execute(selftest),
         Command::Accuracy(arguments) => study::execute(arguments),
         Command::Sweep(sweep) => super::sweep::execute(sweep),
+        Command::Runs => super::sweep::runs(),
         Command::Materials(materials) => super::materials::run(materials),
         Command::Hertz(hertz) => super::hertz::run(hertz),
         Command::Hardness(hardness) => super::hardness::run(hardness),
@@ -53,6 +53,14 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
     }
 }
 
+/// The load program: what is to be printed, and the results.
+pub(super) fn run(program: &ProgramArguments, start: Instant) -> Result<(String, Results)> {
+    let run = &program.run;
+    let out = (run.out.clone()).unwrap_or_else(|| run.common.scene.with_extension("out"));
+    let restart = Some(&program.restart);
+    analyse(run, restart, Some(out), Extent::Program, start)
+}
+
 /// Scene, model, analysis, files, summary. Where a run fails before it has results of its own,
 /// those of an earlier one are marked.
 fn analyse(
@@ -61,7 +69,7 @@ fn analyse(
     out: Option<PathBuf>,
     extent: Extent,
     start: Instant,
-) -> Result<()> {
+) -> Result<(String, Results)> {
     let common = &arguments.common;
     let demand = arguments.accuracy.as_ref();
     let without_demand =
@@ -83,10 +91,7 @@ fn analyse(
     // A directory that cannot be written is better found before an hour's run than after it.
     let claim = out.as_deref().map(Claim::new).transpose()?;
     let places = restart.zip(out.as_deref());
-    let (text, results) =
-        compute(arguments, scene, places, claim, extent, start).map_err(marked)?;
-    print(&text)?;
-    output::ending(&results)
+    compute(arguments, scene, places, claim, extent, start).map_err(marked)
 }
 
 /// Results in the formats of CalculiX that the command line asks for.
@@ -290,8 +295,12 @@ pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<
 }
 
 /// This thread becomes one of the `threads` (all processors if not said): it works on small pieces
-/// itself where it would otherwise wake another one and wait.
+/// itself where it would otherwise wake another one and wait. Later calls change nothing.
 pub(super) fn start_threads(threads: Option<usize>) -> Result<()> {
+    static STARTED: AtomicBool = AtomicBool::new(false);
+    if STARTED.swap(true, Ordering::Relaxed) {
+        return Ok(());
+    }
     let start = |threads: usize| {
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

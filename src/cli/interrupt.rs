@@ -5,8 +5,8 @@ use super::progress::json_line;
 use crate::error::{Error, ErrorKind, Result};
 use serde_json::json;
 use std::io::Write;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicI32, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// The signal that was heard first, 0 before that.
@@ -43,9 +43,14 @@ pub(super) fn name() -> Option<&'static str> {
     }
 }
 
-/// Starts listening. What is heard is reported on standard error: as a line for a reader, or where
-/// progress goes there as JSON since `json` as an event of its own. `at_once` is done before a
-/// second signal ends the program.
+/// What is done before a second signal ends the program, and how the first is reported; `None`
+/// before anything listens.
+type Wish = (Option<Instant>, Box<dyn Fn() + Send + Sync>);
+static WISH: Mutex<Option<Wish>> = Mutex::new(None);
+
+/// Starts listening; where something listens already, for that from now on. What is heard is
+/// reported on standard error: as a line for a reader, or where progress goes there as JSON since
+/// `json` as an event of its own. `at_once` is done before a second signal ends the program.
 ///
 /// # Errors
 /// The system refuses the signal handler.
@@ -53,9 +58,22 @@ pub(super) fn listen(
     json: Option<Instant>,
     at_once: impl Fn() + Send + Sync + 'static,
 ) -> Result<()> {
+    let wish: Wish = (json, Box::new(at_once));
+    let before = WISH
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .replace(wish);
+    if before.is_some() {
+        return Ok(());
+    }
     let first: Mutex<Option<Instant>> = Mutex::new(None);
     let hear = move |signal: i32| {
-        let Ok(mut first) = first.lock() else { return };
+        let (Ok(mut first), Ok(wish)) = (first.lock(), WISH.lock()) else {
+            return;
+        };
+        let Some((json, at_once)) = &*wish else {
+            return;
+        };
         match *first {
             Some(first) if first.elapsed() > SAME_WISH => {
                 at_once();
@@ -65,7 +83,7 @@ pub(super) fn listen(
             None => {
                 HEARD.store(signal, Ordering::Relaxed);
                 *first = Some(Instant::now());
-                tell(json);
+                tell(*json);
             }
         }
     };

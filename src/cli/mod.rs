@@ -101,11 +101,7 @@ fn program(mut words: Vec<OsString>) -> u8 {
     match ended {
         Ok(()) => 0,
         Err(error) => {
-            let exit_code = match error.kind() {
-                ErrorKind::Stopped => interrupt::exit_code(),
-                kind => kind.exit_code(),
-            };
-            let text = explain(&error);
+            let (exit_code, text) = ending(&error);
             if arguments.command.progress_is_json() {
                 let message = text.trim_start_matches("error: ").trim_end();
                 let content = json!({ "message": message, "exit_code": exit_code });
@@ -116,6 +112,15 @@ fn program(mut words: Vec<OsString>) -> u8 {
             exit_code
         }
     }
+}
+
+/// The exit code of an error, and what is said of it.
+fn ending(error: &Error) -> (u8, String) {
+    let exit_code = match error.kind() {
+        ErrorKind::Stopped => interrupt::exit_code(),
+        kind => kind.exit_code(),
+    };
+    (exit_code, explain(error))
 }
 
 /// What clap has to say: help and version, or a usage error (exit code 2), which repeats what was

@@ -7,6 +7,7 @@ mod hardness;
 mod iso76;
 mod materials;
 mod pressed;
+mod profile;
 mod punch;
 mod raceways;
 mod size;

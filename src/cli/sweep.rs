@@ -1,8 +1,11 @@
-//! `brinell sweep`: the same scene with other values of some keys, each point in a process of its
-//! own.
+//! `brinell sweep`: the same scene with other values of some keys, in processes beside this one.
 
 mod cost;
+mod demand;
 mod points;
+mod worker;
+
+pub(super) use worker::serve as runs;
 
 use super::arguments::CommonArguments;
 use super::commands::json;
@@ -17,11 +20,11 @@ use crate::scene::Field;
 use clap::{Args, ValueEnum};
 use points::{Points, Shard, Varied, varied};
 use std::collections::BTreeSet;
-use std::io::{Read, Write};
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
+use worker::{Ended, Worker};
 use xxhash_rust::xxh3::xxh3_128;
 
 const VARY_HELP: &str = "\
@@ -124,6 +127,7 @@ pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
     let work = Work {
         arguments,
         dir: &dir,
+        order: demand::order(&sweep.points),
         running: &running,
         sweep: Mutex::new(&mut sweep),
         next: Mutex::new(0),
@@ -143,10 +147,11 @@ pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
     print(&match common.json {
         true => json(&outcome.json())?,
         false => format!(
-            "{}\nSweep in {}: {}\n",
+            "{}\nSweep in {}: {}\n{}",
             table(&sweep, &outcome, &shown).render(page_width()),
             dir.display(),
-            written.join(", ")
+            written.join(", "),
+            shared(&sweep, &outcome)
         ),
     })?;
     ending(&sweep)
@@ -186,6 +191,7 @@ fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Re
         folder: folder(keys, &values),
         values,
         identity: format!("{:032x}", xxh3_128(&content)),
+        demand: demand::of(&scene),
         ..Point::default()
     })
 }
@@ -217,6 +223,8 @@ fn overrides(common: &CommonArguments, keys: &[String], values: &[String]) -> Ve
 struct Work<'w> {
     arguments: &'w SweepArguments,
     dir: &'w Path,
+    /// Numbers of the points as they are run.
+    order: Vec<usize>,
     /// Processes that run.
     running: &'w Mutex<Vec<u32>>,
     sweep: Mutex<&'w mut Sweep>,
@@ -243,9 +251,10 @@ impl Work<'_> {
 
     /// Runs one point after the other until none is left or the user has asked to stop.
     fn work(&self) -> Result<()> {
+        let mut worker = None;
         while let Some((index, point)) = self.take().filter(|_| !interrupt::requested()) {
             let start = Instant::now();
-            let (exit_code, message) = self.run_point(&point)?;
+            let Ended { exit_code, message } = self.run_point(&mut worker, &point)?;
             let mut sweep = lock(&self.sweep);
             sweep.points[index].exit_code = exit_code;
             sweep.points[index].message = message.clone();
@@ -268,8 +277,7 @@ impl Work<'_> {
     fn take(&self) -> Option<(usize, Point)> {
         let sweep = lock(&self.sweep);
         let mut next = lock(&self.next);
-        while *next < sweep.points.len() {
-            let index = *next;
+        while let Some(&index) = self.order.get(*next) {
             *next += 1;
             let point = &sweep.points[index];
             if !point.is_finished() {
@@ -290,87 +298,66 @@ impl Work<'_> {
         }
     }
 
-    /// Runs a point in a process of its own: how it ended, and what it says.
-    fn run_point(&self, point: &Point) -> Result<(Option<i32>, String)> {
-        let failed = |cause| Error::analysis("cannot start the run of a point").because(cause);
-        let mut child = self.command(point)?.spawn().map_err(failed)?;
-        let id = child.id();
-        lock(self.running).push(id);
-        let said = child.stderr.take().map(|mut stderr| {
-            std::thread::spawn(move || {
-                let mut text = Vec::new();
-                let _ = stderr.read_to_end(&mut text);
-                String::from_utf8_lossy(&text).into_owned()
-            })
-        });
-        let status = wait(&mut child).map_err(failed);
-        lock(self.running).retain(|running| *running != id);
-        let text = said.and_then(|said| said.join().ok()).unwrap_or_default();
-        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
-        let message = lines.collect::<Vec<_>>().join(" ");
-        let message = message.strip_prefix("error: ").unwrap_or(&message);
-        Ok((status?, message.to_string()))
+    /// Runs a point in a worker, which is started where there is none.
+    fn run_point(&self, worker: &mut Option<Worker>, point: &Point) -> Result<Ended> {
+        if worker.is_none() {
+            let new = Worker::start()?;
+            lock(self.running).push(new.id());
+            *worker = Some(new);
+        }
+        let Some(at_work) = worker else {
+            return Err(Error::internal("no worker was started"));
+        };
+        let id = at_work.id();
+        let (ended, is_there) = at_work.run(&self.words(point))?;
+        if !is_there {
+            lock(self.running).retain(|running| *running != id);
+            *worker = None;
+        }
+        Ok(ended)
     }
 
-    fn command(&self, point: &Point) -> Result<Command> {
+    /// The words of the command that runs a point.
+    fn words(&self, point: &Point) -> Vec<String> {
         let SweepArguments { common, jobs, .. } = self.arguments;
         let processors = std::thread::available_parallelism().map_or(1, usize::from);
         let share = (processors / usize::from(*jobs)).max(1);
         let threads = common.threads.map_or(share, usize::from);
-        let mut command = super::itself()
-            .map_err(|cause| Error::analysis("cannot find this program").because(cause))?;
-        command
-            .arg("run")
-            .arg(&common.scene)
-            .arg("--quiet")
-            .arg("--json");
-        command.arg("--out").arg(self.dir.join(&point.folder));
-        command.arg("--threads").arg(threads.to_string());
+        let path = |path: &Path| path.to_string_lossy().into_owned();
+        let mut words = vec![
+            "brinell".to_string(),
+            "run".to_string(),
+            path(&common.scene),
+            "--quiet".to_string(),
+            "--json".to_string(),
+            "--out".to_string(),
+            path(&self.dir.join(&point.folder)),
+            "--threads".to_string(),
+            threads.to_string(),
+        ];
         if let Some(solver) = common.solver.to_possible_value() {
-            command.arg("--solver").arg(solver.get_name());
+            words.extend(["--solver".to_string(), solver.get_name().to_string()]);
         }
         let keys = &lock(&self.sweep).keys;
         for change in overrides(common, keys, &point.values) {
-            command.arg("--set").arg(change);
+            words.extend(["--set".to_string(), change]);
         }
         if let Some(demand) = &self.arguments.accuracy {
-            command.arg("--accuracy").arg(demand);
+            words.extend(["--accuracy".to_string(), demand.clone()]);
         }
         for (is_asked, flag) in [
             (self.arguments.no_estimate, "--no-estimate"),
             (self.arguments.no_report, "--no-report"),
             (common.small_strain, "--small-strain"),
         ] {
-            command.args(is_asked.then_some(flag));
+            words.extend(is_asked.then(|| flag.to_string()));
         }
-        command
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped());
-        // Ctrl-C in a terminal goes to the group: the runs hear of it from here, once.
-        #[cfg(unix)]
-        std::os::unix::process::CommandExt::process_group(&mut command, 0);
-        Ok(command)
+        words
     }
 }
 
 /// How often a run is looked after.
 const PATIENCE: Duration = Duration::from_millis(20);
-
-/// Waits for a run, and passes on that the user has asked to stop.
-fn wait(child: &mut Child) -> std::io::Result<Option<i32>> {
-    let mut is_asked = false;
-    loop {
-        if let Some(status) = child.try_wait()? {
-            return Ok(status.code());
-        }
-        if interrupt::requested() && !is_asked {
-            is_asked = true;
-            ask_to_stop(child.id());
-        }
-        std::thread::sleep(PATIENCE);
-    }
-}
 
 /// A second signal ends the runs at once, too.
 fn stop(running: &Mutex<Vec<u32>>) {
@@ -433,6 +420,19 @@ fn table(sweep: &Sweep, outcome: &Outcome<'_>, shown: &[String]) -> Table {
         table.row(point.values.iter().cloned().chain(figures).chain([note]));
     }
     table
+}
+
+/// How many factorisations the points took, where several ran.
+fn shared(sweep: &Sweep, outcome: &Outcome<'_>) -> String {
+    let of_points = (0..sweep.points.len()).filter_map(|point| outcome.factorizations(point));
+    let of_points: Vec<usize> = of_points.collect();
+    match of_points.len() {
+        0 | 1 => String::new(),
+        n => {
+            let made: usize = of_points.iter().sum();
+            format!("Factorisations of these {n} points: {made}.\n")
+        }
+    }
 }
 
 /// How the program ends.

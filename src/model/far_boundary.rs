@@ -121,7 +121,7 @@ impl FarBoundary<'_> {
 }
 
 /// Each node's share in the volume of its elements: equal ones, which no node's is below zero.
-pub(super) fn volumes_of_nodes(space: Space, mesh: &Mesh) -> Vec<f64> {
+pub(crate) fn volumes_of_nodes(space: Space, mesh: &Mesh) -> Vec<f64> {
     let mut out = vec![0.0; mesh.n_nodes()];
     for (element, &shape) in mesh.shapes.iter().enumerate() {
         let nodes = mesh.nodes(element);

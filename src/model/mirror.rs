@@ -324,8 +324,14 @@ fn bodies_at(model: &Model, contact: &ContactSurface) -> BTreeSet<u32> {
         let mut own = model.mesh.nodes(*element).iter();
         own.any(|node| in_contact[*node as usize])
     };
+    let is_meshed = |element: &usize| {
+        let mut own = model.mesh.nodes(*element).iter();
+        !own.any(|node| model.freedoms.is_rigid(*node as usize))
+    };
     let elements = (0..model.mesh.n_elements()).filter(touches);
-    let bodies = elements.map(|element| model.mesh.element_body[element]);
+    let bodies = elements
+        .filter(is_meshed)
+        .map(|element| model.mesh.element_body[element]);
     bodies.collect()
 }
 

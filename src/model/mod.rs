@@ -62,6 +62,7 @@ use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
 use crate::shape::Integration;
 use crate::space::Vector;
+pub(crate) use far_boundary::volumes_of_nodes;
 use given::Given;
 pub(crate) use mirror::Mirror;
 use names::Entry;

@@ -48,6 +48,10 @@ pub(crate) struct Point {
     pub folder: String,
     /// Stands for all that its results depend on.
     pub identity: String,
+    /// Loads over yield stress, larger the further the material yields: what is largest is run
+    /// first, so that its factor serves the others.
+    #[serde(skip)]
+    pub demand: f64,
     /// How its run ended; `None` where it has not.
     pub exit_code: Option<i32>,
     /// Why, where it did not end well.
@@ -92,7 +96,11 @@ impl Sweep {
                 folder.join(super::SUMMARY_FILE).exists() && super::stale(&folder).is_none()
             };
             if let Some(old) = ended.into_iter().find(has_results) {
-                *point = old.clone();
+                let demand = point.demand;
+                *point = Point {
+                    demand,
+                    ..old.clone()
+                };
             }
         }
         Ok(sweep)
@@ -256,6 +264,11 @@ impl Outcome<'_> {
         found.filter(|value| value.is_finite())
     }
 
+    /// How many factorisations the run of a point made: none where it took over another's factor.
+    pub(crate) fn factorizations(&self, point: usize) -> Option<usize> {
+        Some(self.results.get(point)?.as_ref()?.counts.factorizations)
+    }
+
     /// What a figure is called, in lines, with its unit in the last.
     pub(crate) fn heading(&self, path: &str) -> String {
         let (place, key) = path.rsplit_once('.').unwrap_or(("", path));
@@ -289,7 +302,8 @@ impl Outcome<'_> {
                 .collect();
             json!({
                 "values": values, "folder": point.folder, "exit_code": point.exit_code,
-                "message": point.message, "figures": figures,
+                "message": point.message, "factorizations": self.factorizations(index),
+                "figures": figures,
             })
         });
         json!({ "keys": self.sweep.keys, "points": points.collect::<Vec<_>>() })
@@ -319,7 +333,7 @@ impl Outcome<'_> {
         let mut csv = csv::Writer::from_writer(Vec::new());
         let failed = |cause| Error::internal("a sweep is not plain data").because(cause);
         let keys = self.sweep.keys.iter().map(String::as_str);
-        let head = keys.chain(["exit_code", "message"]);
+        let head = keys.chain(["exit_code", "message", "factorizations"]);
         csv.write_record(head.chain(paths.iter().map(String::as_str)))
             .map_err(failed)?;
         for (index, point) in self.sweep.points.iter().enumerate() {
@@ -330,7 +344,9 @@ impl Outcome<'_> {
                 self.figure(index, path)
                     .map_or(String::new(), |v| json!(v).to_string())
             });
-            let ended = [code, point.message.replace('\n', " ")];
+            let made = self.factorizations(index);
+            let made = made.map_or(String::new(), |made| made.to_string());
+            let ended = [code, point.message.replace('\n', " "), made];
             let cells = point.values.iter().cloned().chain(ended).chain(figures);
             csv.write_record(cells).map_err(failed)?;
         }

@@ -55,6 +55,7 @@ pub use program::{
     LEAST_PATH_ERROR, PlasticIteration, Program, Settings, Stepping, Unit, YieldMethod,
 };
 pub(crate) use read::closest;
+pub(crate) use reference::PlaceQuantity;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
 pub use requests::{
     ContactForce, FileRequest, Moment, NamedSet, Print, Requests, ResultItem, Totals,

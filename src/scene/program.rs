@@ -33,8 +33,8 @@ pub struct Program {
     pub targets: Vec<Target>,
     /// Node sets or surfaces that every row of the history follows: mean displacement of the nodes
     /// and the force that acts on them from outside (loads and supports, the modelled sum times
-    /// `symmetry`). The approach and each contact's force and area come with them. It takes a solve
-    /// for each increment.
+    /// `symmetry`). The approach of all bodies and each contact's approach, force and area come
+    /// with them. It takes a solve for each increment.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<String>,
     /// The targets again and again, at most so often: until the next cycle would be like the last.

@@ -1,5 +1,6 @@
 //! Published or exact values to compare with the computed ones.
 
+use crate::space::Space;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,12 +17,48 @@ pub struct Reference {
     /// Disc in a plate with a hole (paper 5.2, Table II).
     pub disc_in_plate: Option<NoParameters>,
     /// The quantity a single value is for: a path in `summary.json`, such as `yield.load` or
-    /// `states.NAME.max_pressure`.
+    /// `states.NAME.max_pressure`; with `at` also one of a place, `states.NAME.` and `pressure`,
+    /// `displacement_x`, ... or a stress, `stress_xx`, ... (axisymmetric: `stress_rr`, `stress_zz`,
+    /// `stress_tt`, `stress_rz`).
     pub quantity: Option<String>,
+    /// Coordinates of the place, whose nearest node it is (of a pressure the nearest contact pair).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<Vec<f64>>,
+    /// The body whose node it is; of all bodies if it is not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<String>,
     /// The single value.
     pub value: Option<f64>,
     /// Where it comes from.
     pub source: Option<String>,
+}
+
+/// A quantity of a place in a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PlaceQuantity {
+    /// Contact pressure.
+    Pressure,
+    /// Displacement along an axis, by its index.
+    Displacement(usize),
+    /// A component of stress, by its index in [`Space::components`].
+    Stress(usize),
+}
+
+impl PlaceQuantity {
+    /// Name of the state, and the quantity, of a path `states.NAME.KEY`.
+    pub(crate) fn of(path: &str, space: Space) -> Option<(&str, Self)> {
+        let (state, key) = path.strip_prefix("states.")?.rsplit_once('.')?;
+        let index = |of: &[&str], name| of.iter().position(|of| *of == name);
+        let quantity = if key == "pressure" {
+            PlaceQuantity::Pressure
+        } else if let Some(axis) = key.strip_prefix("displacement_") {
+            PlaceQuantity::Displacement(index(&["x", "y", "z"][..space.dimension()], axis)?)
+        } else {
+            let component = key.strip_prefix("stress_")?;
+            PlaceQuantity::Stress(index(space.components(), component)?)
+        };
+        Some((state, quantity))
+    }
 }
 
 /// A closed form whose only geometric parameter is a radius.

@@ -147,6 +147,11 @@ fn blocks_bodies_and_rings() {
 }
 
 #[test]
+fn rigid_surface() {
+    runs("hard/rigid_ball", &[]);
+}
+
+#[test]
 fn shim_between_blocks() {
     runs(
         "three_bodies",

@@ -241,6 +241,18 @@ fn the_sweep_runs_as_its_page_says() {
         .map(|r| r.unwrap()[dent].parse().unwrap())
         .collect();
     assert!(depths.is_sorted_by(|a, b| a > b), "{depths:?}");
+    // "Three points, one factorisation".
+    let mut rows = csv::Reader::from_path(folder.path().join("shared.sweep/sweep.csv")).unwrap();
+    let column = rows
+        .headers()
+        .unwrap()
+        .iter()
+        .position(|c| c == "factorizations")
+        .unwrap();
+    let made = rows
+        .records()
+        .map(|r| r.unwrap()[column].parse::<usize>().unwrap());
+    assert_eq!(made.collect::<Vec<_>>(), [1, 0, 0]);
 }
 
 /// The words of the page on ParaView are the names in the files.

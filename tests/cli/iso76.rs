@@ -167,6 +167,94 @@ fn a_groove_yields_where_no_larger_load_is_known() {
     near(summary["yield"]["load"].as_f64().unwrap(), hertz, 0.1);
 }
 
+/// Below the rated contact of a ball on a flat the largest shear is 0.310 p_0 at 0.481 a, and
+/// rolling changes the orthogonal shear by +-0.214 p_0 at 0.350 a (Johnson, Contact Mechanics,
+/// section 3.4; Lundberg and Palmgren 1947); the crown of a roller makes its contact a point.
+#[test]
+fn shear_below_the_contact_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let [told_by_new, _] = made(folder.path(), &format!("{STEEL} --diameter 10"));
+    let ball = hertz([5.0; 2], [f64::INFINITY; 2]);
+    let [a, _] = ball.semi_axes(ball.load_for_max_pressure(4200.0));
+    for (phrase, stress, depth) in [
+        ("largest shear ", 0.310 * 4200.0, 0.481 * a),
+        (
+            "orthogonal shear, amplitude in rolling, ",
+            0.214 * 4200.0,
+            0.350 * a,
+        ),
+    ] {
+        let (_, rest) = told_by_new.split_once(phrase).unwrap();
+        let words: Vec<&str> = rest.split_whitespace().collect();
+        near(words[0].parse().unwrap(), stress, 5e-3);
+        near(words[2].parse().unwrap(), depth, 5e-3);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let line = format!("{STEEL} --roller --diameter 10 --race 20 --crown 500");
+    let [told_by_new, text] = made(folder.path(), &line);
+    let rated = hertz([500.0, 5.0], [f64::INFINITY, 20.0]).load_for_max_pressure(4000.0);
+    near(
+        told(&told_by_new, "4000 MPa (ISO 76:2006, roller"),
+        rated,
+        1e-3,
+    );
+    let bodies = Scene::parse(&text, "made")
+        .unwrap()
+        .mesh
+        .curved_bodies
+        .unwrap();
+    assert_eq!((bodies.upper, bodies.lower), ([500.0, 5.0], [0.0, 20.0]));
+}
+
+/// Under the load of its profile a roller presses evenly along its axis, a cylinder most at its
+/// end.
+#[test]
+#[cfg(any(feature = "cholmod", feature = "faer"))]
+fn a_logarithmic_profile_presses_evenly() {
+    for (profile, is_even) in [("logarithmic", true), ("straight", false)] {
+        let folder = tempfile::tempdir().unwrap();
+        let line = format!("{STEEL} --roller --diameter 10 --race 20 --length 8");
+        made(folder.path(), &format!("{line} --profile {profile}"));
+        let scene = folder.path().join("c0.toml");
+        let out = folder.path().join("out");
+        let mut arguments = vec!["run", "-q", "--no-report", "--no-estimate"];
+        arguments.extend([scene.to_str().unwrap(), "--out", out.to_str().unwrap()]);
+        for set in [
+            "program.targets=[{ load_factor = 1.0, fields = false }]",
+            "bodies.roller.plastic=false",
+            "bodies.race.plastic=false",
+            // Coarse, as the question is coarse.
+            "mesh.parts.0.brick.elements=[8, 11, 8]",
+            "mesh.parts.1.brick.elements=[16, 11, 8]",
+        ] {
+            arguments.extend(["--set", set]);
+        }
+        let run = brinell(&arguments);
+        let why = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert!(run.status.success(), "{why}");
+        let mut rows = csv::Reader::from_path(out.join("contact.csv")).unwrap();
+        let head = rows.headers().unwrap().clone();
+        let column = |name: &str| head.iter().position(|key| key == name).unwrap();
+        let [x, y, pressure] = ["x", "y", "pressure"].map(column);
+        let number = |row: &csv::StringRecord, k: usize| row[k].parse::<f64>().unwrap();
+        let mut along: Vec<[f64; 2]> = rows
+            .records()
+            .map(Result::unwrap)
+            .filter(|row| number(row, y).abs() < 1e-9)
+            .map(|row| [number(&row, x), number(&row, pressure)])
+            .collect();
+        along.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let middle = along[0][1];
+        near(middle, 4000.0, 0.2);
+        let most = along.iter().fold(0.0f64, |m, place| m.max(place[1]));
+        assert_eq!(most < 1.05 * middle, is_even, "{profile}: {along:?}");
+        // Even as far as nine tenths of its length.
+        let inside = along.iter().filter(|place| place[0] < 3.6);
+        let least = inside.fold(f64::INFINITY, |m, place| m.min(place[1]));
+        assert!(least > 0.9 * middle, "{profile}: {along:?}");
+    }
+}
+
 #[test]
 fn what_leaves_no_dent_is_refused() {
     for (line, part) in [
@@ -177,6 +265,12 @@ fn what_leaves_no_dent_is_refused() {
         ("--yield-stress 2000 --race 0", "other than 0"),
         (
             "--yield-stress 2000 --roller --groove 6",
+            "cannot be used with",
+        ),
+        ("--yield-stress 2000 --crown 500", "--roller"),
+        ("--yield-stress 2000 --length 8", "--roller"),
+        (
+            "--yield-stress 2000 --roller --crown 500 --length 8",
             "cannot be used with",
         ),
         (

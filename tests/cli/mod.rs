@@ -21,6 +21,7 @@ mod solids;
 mod solvers;
 mod sweep;
 mod sweep_points;
+mod sweep_shared;
 mod targets;
 mod watching;
 

@@ -47,6 +47,21 @@ fn a_sweep_shows_the_loads_that_are_found() {
         first_figure.is_some_and(|line| line.contains("load")),
         "{printed}"
     );
+    // Asked for alone, it is the one chart.
+    let out = folder.path().join("one");
+    let more = ["--show", "states.hit.load", "--out", out.to_str().unwrap()];
+    let one = sweep(
+        &scene,
+        &[&["--no-estimate", "--set", target], &more[..]].concat(),
+    );
+    assert!(one.status.success(), "{}", told(&one));
+    let names = std::fs::read_dir(out)
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name());
+    let charts: Vec<_> = names
+        .filter(|name| name.to_str().unwrap().ends_with(".svg"))
+        .collect();
+    assert_eq!(charts, ["sweep_states_hit_load.svg"]);
 }
 
 #[test]

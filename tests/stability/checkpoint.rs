@@ -115,6 +115,13 @@ fn same_from_everywhere(scene: &Scene, every: usize) -> usize {
     tried
 }
 
+/// A rigid surface without a mesh, whose way the history follows.
+#[test]
+fn a_rigid_surface_goes_on_from_every_increment() {
+    let scene = load("hard/rigid_ball", &[]);
+    assert!(same_from_everywhere(&scene, either(4, 1)) >= 3);
+}
+
 /// Loading by events with a zone that follows the load, a search for a half width, unloading on
 /// elastic stretches, other targets after it.
 #[test]

@@ -36,12 +36,19 @@ fn follows_the_load(results: &Results, [top, bottom]: [&str; 2], axis: &str, tot
         column(results, "contact_1.force"),
         column(results, "approach"),
     );
+    let of_contact = column(results, "contact_1.approach");
     let deepest = approach.iter().fold(0.0f64, |m, a| m.max(*a));
     for (k, row) in results.history.iter().enumerate() {
         close(-force[k], row.load, total, "pressed");
         close(held[k], row.load, total, "held");
         close(carried[k], row.contact_force, total, "carried");
         close(-moved[k], approach[k], deepest, "approach");
+        close(
+            of_contact[k],
+            approach[k],
+            deepest,
+            "approach of the contact",
+        );
     }
     assert!(of(bottom, "displacement").iter().all(|u| *u == 0.0));
     for state in &results.states {
@@ -120,4 +127,28 @@ fn the_columns_are_written_and_read_back() {
     );
     let commas = |line: &str| line.matches(',').count();
     assert!(path.lines().count() > 1 && path.lines().all(|line| commas(line) == commas(head)));
+}
+
+/// A shim between two blocks: each contact carries the load, and what the two bring together adds
+/// up to the way of the stamp's loaded surface, also where the shim is held by nothing else.
+#[test]
+fn approaches_of_a_stack_add_up() {
+    let results = run(&load(
+        "three_bodies",
+        &[
+            "mesh.parts.0.block.elements=[10, 5]",
+            "mesh.parts.1.block.elements=[10, 2]",
+            "mesh.parts.2.block.elements=[10, 4]",
+            "load=[{ on = \"stamp.pad\", pressure = 100.0 }]",
+            "program={ targets = [{ load_factor = 1.0 }], history = [\"stamp.pad\"] }",
+        ],
+    ));
+    let [one, two] = [1, 2].map(|n| column(&results, &format!("contact_{n}.approach")));
+    let whole = column(&results, "approach");
+    let largest = whole.iter().fold(0.0f64, |m, a| m.max(*a));
+    assert!(largest > 0.0);
+    for (k, whole) in whole.iter().enumerate() {
+        close(one[k] + two[k], *whole, largest, "sum");
+        assert!(one[k] > 0.0 && two[k] > 0.0, "{k}: {} {}", one[k], two[k]);
+    }
 }

@@ -1,6 +1,8 @@
 //! Rigid surfaces on solids: parts of symmetric bodies, and slices that are plane strain.
 
 use super::rigid_surfaces::{along, ball, block, near, only, run, same};
+use brinell::analytical::HertzEllipse;
+use brinell::results::Results;
 
 /// A support.
 fn held(side: &str, axis: &str) -> String {
@@ -58,6 +60,13 @@ targets = [{{ load_factor = 1.0 }}]
         );
         near(only(&quarter).max_pressure, only(&whole).max_pressure, 1e-8);
         near(only(&quarter).approach, only(&whole).approach, 1e-8);
+        let patch = |results: &Results| {
+            let patch = &only(results).patches[0];
+            [patch.area, patch.force, patch.semi_axes[0]]
+        };
+        for (part, all) in patch(&quarter).into_iter().zip(patch(&whole)) {
+            near(part, all, 1e-6);
+        }
         let depth = only(&whole).approach;
         let moved = sphere.replace(
             "force = [0.0, 0.0, -8000.0]",
@@ -88,4 +97,60 @@ targets = [{{ load_factor = 1.0 }}]
     let plane = run(&plane.replace(", bias = [20.0, 0.05]", ""));
     near(only(&slice).max_pressure, only(&plane).max_pressure, 1e-8);
     near(only(&slice).approach, only(&plane).approach, 1e-8);
+}
+
+/// A barrel, a torus about an axis across, on a quarter of a brick: Hertz' ellipse of the two
+/// radii, along the axis that of the tube, across it tube and ring together.
+///
+/// Source: K. L. Johnson, Contact Mechanics (1985), section 4.2. The brick is five half axes large
+/// (the approach of half spaces is therefore not asked for), an element 0.16 of the smaller one.
+#[test]
+fn a_torus_presses_as_the_ellipse_of_hertz() {
+    let hertz = HertzEllipse::new([6.0, 12.0], 210e3 / (1.0 - 0.09)).unwrap();
+    let load = 2500.0;
+    let results = run(&format!(
+        r#"kind = "solid"
+symmetry = 4
+[[mesh.parts]]
+body = "block"
+element = "hex8"
+[mesh.parts.brick]
+x = [0.0, 2.0]
+y = [0.0, 2.0]
+z = [-2.0, 0.0]
+elements = [13, 13, 13]
+bias = [6.0, 6.0, 0.16]
+[materials.steel]
+youngs_modulus = 210e3
+poissons_ratio = 0.3
+[bodies]
+block = {{ material = "steel" }}
+[[support]]
+on = "block.bottom"
+fix = ["z"]
+{}{}
+[rigid.barrel]
+torus = {{ center = [0.0, 0.0, 12.0], axis = [1.0, 0.0, 0.0], ring_radius = 6.0, radius = 6.0 }}
+[[contact]]
+first = "barrel"
+second = "block.top"
+[[load]]
+on = "barrel"
+force = [0.0, 0.0, -{load}]
+[program]
+targets = [{{ load_factor = 1.0 }}]
+"#,
+        held("left", "x"),
+        held("front", "y"),
+    ));
+    let state = only(&results);
+    near(state.max_pressure, hertz.max_pressure(load), 0.03);
+    let [short, long] = hertz.semi_axes(load);
+    assert!(long > 1.4 * short);
+    for (found, exact) in state.patches[0].semi_axes.into_iter().zip([long, short]) {
+        near(found, exact, 0.05);
+    }
+    // The longer half axis lies across the axis of the barrel, where its radius is larger.
+    near(state.patches[0].direction[1].abs(), 1.0, 1e-6);
+    near(state.contact_force, load, 1e-3);
 }

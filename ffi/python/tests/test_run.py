@@ -548,3 +548,13 @@ def test_a_new_scene_runs_and_is_written_once(tmp_path):
         brinell.new("ball-on-flt")
     with pytest.raises(brinell.InputError, match="--radius"):
         brinell.new("ball-on-flat", radius=-5)
+
+
+def test_a_rigid_surface_is_followed():
+    result = brinell.run(SCENES / "hard" / "rigid_ball.toml")
+    history = result.history
+    assert result["unloaded"].residual_depth > 0.0
+    pushed = -history["ball.force_y"]
+    assert np.allclose(pushed, history["contact_1.force"], rtol=0.0, atol=5e-3 * max(pushed))
+    assert np.allclose(history["contact_1.approach"], history["approach"], rtol=1e-9, atol=1e-15)
+    assert np.allclose(-history["ball.displacement_y"], history["approach"], rtol=1e-9, atol=1e-15)

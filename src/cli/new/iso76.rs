@@ -4,6 +4,7 @@
 
 use super::materials::{First, Made, Second};
 use super::pressed::{self, OnFlat};
+use super::profile::{self, Profile, Roller};
 use super::size::Size;
 use super::solid::{self, Bodies};
 use super::{Asked, Started, not_zero, positive, toml, weaker};
@@ -60,6 +61,39 @@ pub(in crate::cli) struct StaticLoad {
     /// A cylindrical roller in place of a ball
     #[arg(long, conflicts_with = "self_aligning")]
     pub roller: bool,
+    /// Radius of a roller's crown along its axis [mm]: the contact is a point (three dimensions,
+    /// loads in N)
+    #[arg(
+        long,
+        value_name = "R",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        requires = "roller",
+        conflicts_with_all = ["length", "profile", "design_load"]
+    )]
+    pub crown: Option<f64>,
+    /// Length of a roller [mm], whose ends and profile are in the scene (three dimensions, loads in
+    /// N)
+    #[arg(
+        long,
+        value_name = "L",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        requires = "roller"
+    )]
+    pub length: Option<f64>,
+    /// Profile of a roller of finite length
+    #[arg(long, value_enum, requires = "length", default_value_t)]
+    pub profile: Profile,
+    /// Load for which a logarithmic profile is made [N]; by default that of 4000 MPa
+    #[arg(
+        long,
+        value_name = "P",
+        value_parser = positive,
+        allow_negative_numbers = true,
+        requires = "length"
+    )]
+    pub design_load: Option<f64>,
     /// Of a self-aligning ball bearing, which ISO 76 rates at 4600 MPa
     #[arg(long)]
     pub self_aligning: bool,
@@ -96,11 +130,12 @@ pub(super) fn scene(given: &StaticLoad) -> Result<Started> {
         given,
         contact,
         first,
+        poisson: made[0].elastic()[1],
     };
     let note = loads.about();
     let asked = Asked {
         about: commented(&note),
-        load: contact.load_for_max_pressure(given.rated().0),
+        load: contact.load_for_max_pressure(given.rated().0) * given.length(),
         program: program(2.0 * radius),
     };
     Ok(Started {
@@ -119,6 +154,12 @@ impl StaticLoad {
         }
     }
 
+    /// What loads per length of the closed forms are multiplied by: the length of a roller whose
+    /// ends are in the scene.
+    fn length(&self) -> f64 {
+        self.length.unwrap_or(1.0)
+    }
+
     /// The race's radii across and along.
     fn race(&self) -> [f64; 2] {
         let across = self.groove.map_or(f64::INFINITY, |groove| -groove);
@@ -127,21 +168,48 @@ impl StaticLoad {
 
     fn contact(&self, radius: f64, made: &[Made; 2]) -> Result<HertzContact> {
         let [[e1, nu1], [e2, nu2]] = [made[0].elastic(), made[1].elastic()];
-        let across = if self.roller { f64::INFINITY } else { radius };
+        let across = match self.roller {
+            true => self.crown.unwrap_or(f64::INFINITY),
+            false => radius,
+        };
         let relative = RelativeRadii::new([across, radius], self.race(), 0.0)?;
         HertzContact::new(relative, contact_modulus(e1, nu1, e2, nu2))
     }
 
     fn text(&self, radius: f64, made: &[Made; 2], contact: &HertzContact, asked: &Asked) -> String {
         let is_flat = self.groove.is_none() && self.race.is_none();
+        // A roller on a curved race has the gap of one with the relative radius on a flat.
+        let relative = self
+            .race
+            .map_or(radius, |race| 1.0 / (1.0 / radius + 1.0 / race));
+        if let (Some(length), HertzContact::Line(line)) = (self.length, contact) {
+            let [[e1, nu1], [e2, nu2]] = [made[0].elastic(), made[1].elastic()];
+            let roller = Roller {
+                radius: relative,
+                length,
+                profile: self.profile,
+                design_load: self.design_load.unwrap_or(asked.load),
+                contact_modulus: contact_modulus(e1, nu1, e2, nu2),
+                half_width: line.half_width(asked.load / length),
+                resolution: self.resolution.unwrap_or(profile::RESOLUTION),
+                made,
+            };
+            return roller.text(asked);
+        }
         if let HertzContact::Ellipse(_) = contact
-            && !is_flat
+            && (!is_flat || self.crown.is_some())
         {
             let flat_is_zero = |radius: f64| if radius.is_finite() { radius } else { 0.0 };
             let bodies = Bodies {
-                title: "Static load of a ball on its race",
-                names: ["ball", "race"],
-                upper: ([radius; 2], "ball"),
+                title: match self.crown {
+                    Some(_) => "Static load of a crowned roller on its race",
+                    None => "Static load of a ball on its race",
+                },
+                names: [if self.roller { "roller" } else { "ball" }, "race"],
+                upper: match self.crown {
+                    Some(crown) => ([crown, radius], "crown along the axis, and roller"),
+                    None => ([radius; 2], "ball"),
+                },
                 lower: (
                     self.race().map(flat_is_zero),
                     "across (a groove is hollow) and along (an outer race is hollow)",
@@ -157,10 +225,7 @@ impl StaticLoad {
             },
             name: if self.roller { "roller" } else { "ball" },
             ball: !self.roller,
-            // A roller on a curved race has the gap of one with the relative radius on a flat.
-            radius: self
-                .race
-                .map_or(radius, |race| 1.0 / (1.0 / radius + 1.0 / race)),
+            radius: relative,
             resolution: self.resolution.unwrap_or(pressed::RESOLUTION),
             half_width: None,
             made,
@@ -175,13 +240,18 @@ struct Loads<'g> {
     contact: HertzContact,
     /// Load of first yield.
     first: f64,
+    /// Poisson's ratio of the rolling element.
+    poisson: f64,
 }
 
 impl Loads<'_> {
     /// The loads by Hertz, line by line.
     fn about(&self) -> String {
-        let unit = if self.given.roller { "N/mm" } else { "N" };
-        let load = |load: f64| format!("{} {unit}", significant(load, 4));
+        let is_plane =
+            self.given.roller && self.given.crown.is_none() && self.given.length.is_none();
+        let unit = if is_plane { "N/mm" } else { "N" };
+        let length = self.given.length();
+        let load = |load: f64| format!("{} {unit}", significant(length * load, 4));
         let mut text = format!(
             "By Hertz, elastic:\n  first yield at {}\n",
             load(self.first)
@@ -196,17 +266,38 @@ impl Loads<'_> {
                 "  {stress} MPa (ISO 76:2006, {bearings}) at {at}\n"
             ));
         }
+        text.push_str(&self.below());
         text.push_str(&format!(
             "The load factor of state C0 is its load over that of {} MPa.\n",
             self.given.rated().0
         ));
-        if self.given.roller && self.given.race.is_some() {
+        if is_plane && self.given.race.is_some() {
             text.push_str(
                 "The roller of the scene has the relative radius of roller and race: on a flat it \
                  leaves\nthe gap that they leave.\n",
             );
         }
         text
+    }
+}
+
+impl Loads<'_> {
+    /// The largest shear stresses below the contact under the load that is load factor 1.
+    fn below(&self) -> String {
+        let (stress, _) = self.given.rated();
+        let load = self.contact.load_for_max_pressure(stress);
+        let shear = self.contact.largest_shear(load, self.poisson);
+        let (orthogonal, _) = self.contact.orthogonal_shears(load);
+        let told = |stress: f64, depth: f64| {
+            let (stress, depth) = (significant(stress, 4), significant(depth, 4));
+            format!("{stress} MPa, {depth} mm below the surface")
+        };
+        format!(
+            "Below a contact of {stress} MPa:\n  largest shear {}\n  orthogonal shear, amplitude \
+             in rolling, {}\n",
+            told(shear.stress, shear.depth),
+            told(orthogonal.stress, orthogonal.depth)
+        )
     }
 }
 

@@ -37,6 +37,7 @@ pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
             points,
         ));
     }
+    out.extend(of_contacts(results, labels));
     let loads = results.history.iter().map(|row| row.load.abs());
     let largest = loads.fold(0.0, f64::max);
     for (number, name) in sets(columns).into_iter().enumerate() {
@@ -68,6 +69,40 @@ pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
         }
     }
     out
+}
+
+/// The force of each of several contacts against its approach; a single one carries the load.
+fn of_contacts(results: &Results, labels: &Labels) -> Vec<Titled> {
+    let columns = &results.history_columns;
+    let column = |name: String| columns.iter().position(|column| *column == name);
+    let both = |n: usize| {
+        let [approach, force] = ["approach", "force"].map(|key| format!("contact_{n}.{key}"));
+        Some((n, column(approach)?, column(force)?))
+    };
+    let contacts: Vec<(usize, usize, usize)> = (1..).map_while(both).collect();
+    if contacts.len() < 2 {
+        return Vec::new();
+    }
+    let chart = |(n, approach, force): (usize, usize, usize)| {
+        let rows = results.history.iter();
+        let points = rows.map(|row| [row.measured[approach], row.measured[force]]);
+        // Where the normals of a contact cancel it has no approach.
+        let points: Vec<[f64; 2]> = points.filter(|p| p[0].is_finite()).collect();
+        (!points.is_empty()).then(|| {
+            titled(
+                format!("contact_{n}_against_approach"),
+                format!("Force of contact {n} against its approach"),
+                "How far its two bodies have come together as wholes, increment by increment."
+                    .to_string(),
+                [
+                    labelled("approach", labels.length()),
+                    labelled("force", labels.load()),
+                ],
+                points,
+            )
+        })
+    };
+    contacts.into_iter().filter_map(chart).collect()
 }
 
 /// Names of the sets among the columns, in their order.

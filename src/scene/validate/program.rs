@@ -2,7 +2,9 @@
 
 use super::Checks;
 use crate::number::exact;
-use crate::scene::{Field, History, LEAST_PATH_ERROR, Scene, Target, TargetFigure, Unit};
+use crate::scene::{
+    Field, History, LEAST_PATH_ERROR, PlaceQuantity, Reference, Scene, Target, TargetFigure, Unit,
+};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Each increment leaves a row of the history, and each target a state with all its contact pairs.
@@ -275,6 +277,7 @@ impl Checks {
                     ),
                 ],
             );
+            self.place(&key, reference, scene);
             let single = reference.quantity.is_some();
             for (name, given) in [
                 ("value", reference.value.is_some()),
@@ -324,6 +327,40 @@ impl Checks {
                     || !(scene.kind.is_axisymmetric() || scene.kind.is_solid()),
                 format!("{key}.disc_in_plate"),
                 "is the solution of a plane model, this one is not",
+            );
+        }
+    }
+
+    /// Quantities of a place have one, others have none.
+    fn place(&mut self, key: &str, reference: &Reference, scene: &Scene) {
+        let path = reference.quantity.as_deref();
+        let of_place = path.is_some_and(|path| PlaceQuantity::of(path, scene.kind).is_some());
+        let n = scene.kind.dimension();
+        match (&reference.at, of_place) {
+            (Some(at), true) => self.require(
+                at.len() == n,
+                format!("{key}.at"),
+                format!("needs {n} coordinates, {} are given", at.len()),
+            ),
+            (None, true) => self.problem(
+                format!("{key}.quantity"),
+                "is one of a place: give its coordinates, `at = [...]`",
+            ),
+            (Some(_), false) => self.problem(
+                format!("{key}.at"),
+                format!(
+                    "belongs to a quantity of a place: states.NAME.pressure, .displacement_x, ..., \
+                     .stress_{}, ...",
+                    scene.kind.components()[0]
+                ),
+            ),
+            (None, false) => {}
+        }
+        if let Some(body) = &reference.body {
+            self.require(
+                scene.bodies.contains_key(body),
+                format!("{key}.body"),
+                format!("there is no body `{body}`"),
             );
         }
     }

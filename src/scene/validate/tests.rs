@@ -457,8 +457,34 @@ fn programs_settings_and_references() {
         hertz_ellipse: None,
         disc_in_plate: None,
         quantity: Some("yield.load".into()),
+        at: None,
+        body: None,
         value: Some(1.0),
         source: Some("hand".into()),
     });
     scene.validate().unwrap();
+    // A quantity of a place has one, others have none.
+    let bad = |change: &dyn Fn(&mut Reference)| {
+        let mut scene = scene.clone();
+        change(scene.reference.last_mut().unwrap());
+        scene.validate().unwrap_err().to_string()
+    };
+    let named = bad(&|r| r.quantity = Some("states.a.stress_xx".into()));
+    assert!(named.contains("is one of a place"), "{named}");
+    let named = bad(&|r| r.at = Some(vec![0.0, 0.0]));
+    assert!(
+        named.contains("belongs to a quantity of a place"),
+        "{named}"
+    );
+    let place = |r: &mut Reference| {
+        r.quantity = Some("states.a.pressure".into());
+        r.at = Some(vec![0.0]);
+        r.body = Some("nobody".into());
+    };
+    let named = bad(&place);
+    assert!(
+        named.contains("needs 2 coordinates, 1 are given"),
+        "{named}"
+    );
+    assert!(named.contains("there is no body `nobody`"), "{named}");
 }

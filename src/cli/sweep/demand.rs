@@ -1,0 +1,38 @@
+//! In which order points are run: those that yield furthest first.
+
+use crate::output::sweep::Point;
+use crate::scene::{Load, Scene};
+use crate::space::length;
+
+/// The largest number of a load over the least yield stress; 0 where either is not known. Only the
+/// order of the runs depends on it.
+pub(super) fn of(scene: &Scene) -> f64 {
+    let bodies = scene.bodies.values();
+    let yields = bodies.filter_map(|body| {
+        let material = scene.materials.get(&body.material)?;
+        let curve = material.hardening_curve();
+        (material.yield_stress).or_else(|| Some(curve?.first()?[1]))
+    });
+    let least = yields.fold(f64::INFINITY, f64::min);
+    scene.load.iter().map(size).fold(0.0, f64::max) / least
+}
+
+fn size(load: &Load) -> f64 {
+    let force = load.force.as_ref().map(|force| length(force.vector()));
+    let plane = load.plane_force.map(|plane| plane.total.abs());
+    let pressure = load.pressure.as_ref().and_then(|of| of.uniform());
+    let moved = load.displacement.as_ref().map(|displacement| {
+        let components = displacement.components().into_iter().flatten();
+        let numbers = components.filter_map(|of| of.uniform());
+        numbers.fold(0.0, |most: f64, u| most.max(u.abs()))
+    });
+    let sizes = [force, plane, pressure.map(f64::abs), moved];
+    sizes.into_iter().flatten().fold(0.0, f64::max)
+}
+
+/// Numbers of the points, the largest demand first, else as they come.
+pub(super) fn order(points: &[Point]) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    order.sort_by(|&a, &b| points[b].demand.total_cmp(&points[a].demand));
+    order
+}

@@ -1,0 +1,198 @@
+//! Processes that run the points of a sweep one after the other, so that points of one elastic
+//! structure share its factor ([`crate::substructure::sharing_factors`]).
+//!
+//! A worker is asked on its standard input, a line of JSON for each run: the words of its command.
+//! It answers on its standard output, a line of JSON for each: exit code and message. Where one
+//! ends amid a run, the point has failed, and the next gets another worker.
+
+use super::{PATIENCE, ask_to_stop, lock};
+use crate::cli::arguments::{Arguments, Command};
+use crate::cli::{commands, ending, interrupt, itself};
+use crate::error::{Error, Result};
+use crate::output;
+use crate::substructure::sharing_factors;
+use clap::Parser;
+use serde::{Deserialize, Serialize};
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, ChildStdin, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+
+/// How a run ended.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Ended {
+    /// `None` where a signal ended the process.
+    pub exit_code: Option<i32>,
+    pub message: String,
+}
+
+/// Does the runs that are asked for, until there is no more to ask.
+///
+/// # Errors
+/// Those of the answers' way out.
+pub(in crate::cli) fn serve() -> Result<()> {
+    let failed = |cause| Error::analysis("cannot answer the sweep").because(cause);
+    sharing_factors(|| {
+        for line in std::io::stdin().lock().lines() {
+            let Ok(line) = line else { break };
+            let ended = serde_json::to_string(&answer(&line))
+                .map_err(|cause| Error::internal("an answer is not plain data").because(cause))?;
+            let mut out = std::io::stdout().lock();
+            writeln!(out, "{ended}")
+                .and_then(|()| out.flush())
+                .map_err(failed)?;
+        }
+        Ok(())
+    })
+}
+
+/// Does one run.
+fn answer(line: &str) -> Ended {
+    let of = |error: &Error| {
+        let (exit_code, text) = ending(error);
+        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        let message = lines.collect::<Vec<_>>().join(" ");
+        Ended {
+            exit_code: Some(i32::from(exit_code)),
+            message: message.trim_start_matches("error: ").to_string(),
+        }
+    };
+    let understood = || Error::internal("the sweep asks for what is no run");
+    let words: Result<Vec<String>> =
+        serde_json::from_str(line).map_err(|cause| understood().because(cause));
+    let run = words.and_then(|words| {
+        let arguments = Arguments::try_parse_from(words);
+        match arguments.map(|arguments| arguments.command) {
+            Ok(Command::Run(program)) => {
+                let (_, results) = commands::run(&program, Instant::now())?;
+                output::ending(&results)
+            }
+            Ok(_) => Err(understood()),
+            Err(cause) => Err(understood().because(cause)),
+        }
+    });
+    match run {
+        Ok(()) => Ended {
+            exit_code: Some(0),
+            message: String::new(),
+        },
+        Err(error) => of(&error),
+    }
+}
+
+/// A worker, as the sweep sees it.
+pub(super) struct Worker {
+    child: Child,
+    asked: Option<ChildStdin>,
+    answers: Receiver<String>,
+    said: Arc<Mutex<String>>,
+}
+
+impl Worker {
+    /// Starts one.
+    ///
+    /// # Errors
+    /// The system cannot.
+    pub fn start() -> Result<Self> {
+        let failed = || Error::analysis("cannot start a process for the runs of points");
+        let mut command =
+            itself().map_err(|cause| Error::analysis("cannot find this program").because(cause))?;
+        command
+            .arg("runs")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        // Ctrl-C in a terminal goes to the group: the runs hear of it from here, once.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command.spawn().map_err(|cause| failed().because(cause))?;
+        let pipes = (child.stdin.take(), child.stdout.take(), child.stderr.take());
+        let (Some(asked), Some(stdout), Some(mut stderr)) = pipes else {
+            return Err(failed());
+        };
+        let (tell, answers) = channel();
+        std::thread::spawn(move || {
+            for line in BufReader::new(stdout).lines().map_while(|line| line.ok()) {
+                if tell.send(line).is_err() {
+                    break;
+                }
+            }
+        });
+        let said: Arc<Mutex<String>> = Arc::default();
+        let heard = Arc::clone(&said);
+        std::thread::spawn(move || {
+            let mut part = [0; 4096];
+            while let Ok(n) = stderr.read(&mut part) {
+                if n == 0 {
+                    break;
+                }
+                lock(&heard).push_str(&String::from_utf8_lossy(&part[..n]));
+            }
+        });
+        Ok(Worker {
+            child,
+            asked: Some(asked),
+            answers,
+            said,
+        })
+    }
+
+    /// Its process.
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// Does a run: how it ended, and whether the worker is there for another.
+    ///
+    /// # Errors
+    /// The system does not say how the process ended.
+    pub fn run(&mut self, words: &[String]) -> Result<(Ended, bool)> {
+        lock(&self.said).clear();
+        let line = serde_json::to_string(words)
+            .map_err(|cause| Error::internal("words are not plain data").because(cause))?;
+        // One that has ended says so by its answers.
+        if let Some(asked) = &mut self.asked {
+            let _ = writeln!(asked, "{line}").and_then(|()| asked.flush());
+        }
+        let mut is_asked = false;
+        loop {
+            match self.answers.recv_timeout(PATIENCE) {
+                Ok(answer) => {
+                    let ended = serde_json::from_str(&answer).map_err(|cause| {
+                        Error::internal("a worker's answer is damaged").because(cause)
+                    })?;
+                    return Ok((ended, true));
+                }
+                Err(RecvTimeoutError::Disconnected) => return Ok((self.gone()?, false)),
+                Err(RecvTimeoutError::Timeout) => {
+                    if interrupt::requested() && !is_asked {
+                        is_asked = true;
+                        ask_to_stop(self.id());
+                    }
+                }
+            }
+        }
+    }
+
+    /// How a worker ended that did not answer.
+    fn gone(&mut self) -> Result<Ended> {
+        let failed = |cause| Error::analysis("cannot tell how a run ended").because(cause);
+        let status = self.child.wait().map_err(failed)?;
+        let said = lock(&self.said);
+        let lines = said.lines().map(str::trim).filter(|line| !line.is_empty());
+        let message = lines.collect::<Vec<_>>().join(" ");
+        Ok(Ended {
+            exit_code: status.code(),
+            message: message.trim_start_matches("error: ").to_string(),
+        })
+    }
+}
+
+impl Drop for Worker {
+    /// With nothing more to ask it ends.
+    fn drop(&mut self) {
+        drop(self.asked.take());
+        let _ = self.child.wait();
+    }
+}

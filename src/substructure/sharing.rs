@@ -1,0 +1,226 @@
+//! Factors that runs of one elastic structure share, one run after the other on one thread.
+//!
+//! A factor depends on the stiffness, on where the contact freedoms are and on which freedoms were
+//! factored as zone; not on yield stresses, hardening or loads. Within [`sharing_factors`] one that
+//! is no longer used is kept, and taken by the next run with the same matrix whose zone lies within
+//! the factored one. A run whose zone does not makes a factor of both zones, so that runs of
+//! different demands end up with one factor that serves all.
+
+use crate::error::{Error, Result};
+use crate::linalg::{Backend, Condensed, Partition, Symmetric};
+use std::cell::RefCell;
+use std::ops::Deref;
+use std::sync::Arc;
+use xxhash_rust::xxh3::Xxh3;
+
+/// Factors that are kept at most: of a run and of the meshes by which its errors are estimated.
+const MOST: usize = 4;
+
+thread_local! {
+    /// What is kept on this thread, the last one used at the end; `None` outside of
+    /// [`sharing_factors`].
+    static KEPT: RefCell<Option<Vec<Kept>>> = const { RefCell::new(None) };
+}
+
+/// A factor that nobody uses.
+struct Kept {
+    home: Home,
+    condensed: Arc<dyn Condensed>,
+}
+
+/// Where a factor is kept.
+#[derive(Clone)]
+struct Home {
+    /// Stands for all that it depends on besides its zone.
+    key: u128,
+    /// Zone freedoms that were factored as such.
+    zone: Vec<usize>,
+}
+
+/// Does something in which runs share factors. Figures are those of runs that do not, to round-off;
+/// a run that factors nothing counts none ([`crate::results::Counts::factorizations`]).
+pub fn sharing_factors<T>(body: impl FnOnce() -> T) -> T {
+    let before = KEPT.with(|kept| kept.replace(Some(Vec::new())));
+    let out = body();
+    KEPT.with(|kept| kept.replace(before));
+    out
+}
+
+/// A factor with its zone freedoms from now on, and whether it was made for this.
+pub(super) struct Condensation {
+    pub condensed: Held,
+    pub zone: Vec<usize>,
+    pub is_new: bool,
+}
+
+/// Factors and condenses a matrix, or takes a kept factor of it.
+///
+/// # Errors
+/// Those of [`Symmetric::condense`].
+pub(super) fn condense(
+    matrix: &Symmetric,
+    backend: Backend,
+    partition: &Partition,
+    shift: &[f64],
+) -> Result<Condensation> {
+    let is_shared = KEPT.with_borrow(Option::is_some);
+    let key = match is_shared {
+        true => key(matrix, backend, partition, shift),
+        false => None,
+    };
+    let Some(key) = key else {
+        return Ok(Condensation {
+            condensed: Held::alone(matrix.condense(backend, partition, shift)?),
+            zone: partition.zone.clone(),
+            is_new: true,
+        });
+    };
+    let mut zone = partition.zone.clone();
+    if let Some(mut held) = take(key) {
+        if let Some(chosen) = held.choose_zone(&partition.zone)? {
+            return Ok(Condensation {
+                condensed: held,
+                zone: chosen,
+                is_new: false,
+            });
+        }
+        zone = held.give_up(&zone);
+    }
+    let wider = Partition {
+        zone,
+        ..partition.clone()
+    };
+    let (condensed, zone) = match matrix.condense(backend, &wider, shift) {
+        Ok(condensed) => (condensed, wider.zone),
+        // Kept factors may be what the memory lacks, or the wider zone.
+        Err(_) => {
+            clear();
+            let condensed = matrix.condense(backend, partition, shift)?;
+            (condensed, partition.zone.clone())
+        }
+    };
+    let home = Some(Home { key, zone });
+    let mut held = Held {
+        condensed: Arc::from(condensed),
+        home,
+    };
+    let chosen = held.choose_zone(&partition.zone)?;
+    Ok(Condensation {
+        zone: chosen.unwrap_or_else(|| partition.zone.clone()),
+        condensed: held,
+        is_new: true,
+    })
+}
+
+fn clear() {
+    KEPT.with_borrow_mut(|kept| {
+        if let Some(kept) = kept {
+            kept.clear();
+        }
+    });
+}
+
+fn take(key: u128) -> Option<Held> {
+    KEPT.with_borrow_mut(|kept| {
+        let kept = kept.as_mut()?;
+        let place = kept.iter().position(|kept| kept.home.key == key)?;
+        let Kept { home, condensed } = kept.remove(place);
+        Some(Held {
+            condensed,
+            home: Some(home),
+        })
+    })
+}
+
+/// Ascending freedoms of both.
+fn union(a: &[usize], b: &[usize]) -> Vec<usize> {
+    let mut both = [a, b].concat();
+    both.sort_unstable();
+    both.dedup();
+    both
+}
+
+/// What a factor depends on besides its zone; `None` of a matrix that lies on several ranks.
+fn key(matrix: &Symmetric, backend: Backend, partition: &Partition, shift: &[f64]) -> Option<u128> {
+    let matrix = match matrix {
+        Symmetric::Whole(matrix) => matrix,
+        #[cfg(feature = "mumps")]
+        Symmetric::Shared(_) => return None,
+    };
+    let mut hash = Xxh3::new();
+    hash.update(backend.name().as_bytes());
+    hash.update(&partition.contact.len().to_le_bytes());
+    for k in &partition.contact {
+        hash.update(&k.to_le_bytes());
+    }
+    for list in [matrix.indptr().raw_storage(), matrix.indices()] {
+        hash.update(&list.len().to_le_bytes());
+        list.iter().for_each(|k| hash.update(&k.to_le_bytes()));
+    }
+    for values in [matrix.data(), shift] {
+        hash.update(&values.len().to_le_bytes());
+        values
+            .iter()
+            .for_each(|v| hash.update(&v.to_bits().to_le_bytes()));
+    }
+    Some(hash.digest128())
+}
+
+/// A factor in use, which is kept when it is no longer, where runs share factors.
+pub(super) struct Held {
+    condensed: Arc<dyn Condensed>,
+    home: Option<Home>,
+}
+
+impl Held {
+    /// One that no other run takes over.
+    pub(super) fn alone(condensed: Box<dyn Condensed>) -> Self {
+        Held {
+            condensed: Arc::from(condensed),
+            home: None,
+        }
+    }
+
+    /// [`Condensed::choose_zone`].
+    ///
+    /// # Errors
+    /// As there.
+    pub(super) fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>> {
+        match Arc::get_mut(&mut self.condensed) {
+            Some(condensed) => condensed.choose_zone(wanted),
+            None => Err(Error::internal("a factor is used twice")),
+        }
+    }
+
+    /// Frees the factor: its zone and another.
+    fn give_up(mut self, zone: &[usize]) -> Vec<usize> {
+        let own = self.home.take().map_or(Vec::new(), |home| home.zone);
+        union(&own, zone)
+    }
+}
+
+impl Deref for Held {
+    type Target = dyn Condensed;
+
+    fn deref(&self) -> &(dyn Condensed + 'static) {
+        &*self.condensed
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        let Some(home) = self.home.take() else { return };
+        let condensed = Arc::clone(&self.condensed);
+        // None where the thread ends.
+        let _ = KEPT.try_with(|kept| {
+            if let Ok(mut kept) = kept.try_borrow_mut()
+                && let Some(kept) = kept.as_mut()
+            {
+                kept.push(Kept { home, condensed });
+                if kept.len() > MOST {
+                    kept.remove(0);
+                }
+            }
+        });
+    }
+}
