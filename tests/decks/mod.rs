@@ -9,6 +9,7 @@ mod local_axes;
 mod messages;
 mod programs;
 mod refusals;
+mod sections;
 mod sets;
 mod variants;
 
