@@ -16,7 +16,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 33] = [
+const CASES: [Case; 35] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     // Flow turns, and CalculiX takes each of its increments in one step of the implicit rule; with
@@ -45,6 +45,8 @@ const CASES: [Case; 33] = [
     case("full_slice", &[], 2e-4),
     case("full_plastic", &[], 2e-4),
     case("secant", FULL, PRINTED),
+    case("expanding_bar", &[], PRINTED),
+    case("expanding_ring", &[], 2e-4),
     case("equations", FULL, PRINTED),
     case("rigid", FULL, PRINTED),
     case("rigid_moved", FULL, PRINTED),

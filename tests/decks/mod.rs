@@ -4,6 +4,7 @@
 mod assemblies;
 mod calculix;
 mod converted;
+mod expansion;
 mod frd;
 mod local_axes;
 mod messages;
@@ -11,6 +12,7 @@ mod programs;
 mod refusals;
 mod sections;
 mod sets;
+mod sides;
 mod variants;
 
 use brinell::analysis::Analysis;
