@@ -13,6 +13,7 @@ mod refusals;
 mod sections;
 mod sets;
 mod sides;
+mod table;
 mod variants;
 
 use brinell::analysis::Analysis;
