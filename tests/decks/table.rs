@@ -108,24 +108,40 @@ const ROWS: [Row; 48] = [
     row("CAX8R", "tube", SLICE),
 ];
 
-/// Names of slave and master surface of the first contact pair of a deck.
+/// Names of slave and master surface of the first contact pair of a deck, where CalculiX prints the
+/// force: between surfaces, in all steps.
 fn surfaces(text: &str) -> Option<(&str, &str)> {
     let mut lines = text.lines();
-    lines.find(|line| line.to_uppercase().starts_with("*CONTACT PAIR"))?;
+    let head = lines.find(|line| line.to_uppercase().starts_with("*CONTACT PAIR"))?;
+    let has_force = head.to_uppercase().contains("SURFACE TO SURFACE");
+    if !has_force || text.to_uppercase().contains("*MODEL CHANGE") {
+        return None;
+    }
     let (slave, master) = lines.next()?.split_once(',')?;
     Some((slave.trim(), master.trim()))
 }
 
-/// Runs a program on a deck in a folder of its own: files `.frd` and `.dat`, and the seconds.
-fn job(mut program: Command, text: &str) -> Option<(Frd, String, f64)> {
+/// Runs a program on a deck and the others, changed, in a folder of its own: files `.frd` and `.dat`, and the seconds.
+fn job(
+    mut program: Command,
+    text: &str,
+    change: impl Fn(&str) -> String,
+) -> Option<(Frd, String, f64)> {
     let work = tempfile::tempdir().unwrap();
-    for entry in std::fs::read_dir(folder()).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|end| end == "inc") {
-            std::fs::copy(&path, work.path().join(path.file_name().unwrap())).unwrap();
+    for beside in [folder(), folder().join("programs")] {
+        for entry in std::fs::read_dir(beside).unwrap() {
+            let path = entry.unwrap().path();
+            if path
+                .extension()
+                .is_some_and(|end| end == "inc" || end == "inp")
+            {
+                let text = std::fs::read_to_string(&path).unwrap();
+                let to = work.path().join(path.file_name().unwrap());
+                std::fs::write(to, change(&text)).unwrap();
+            }
         }
     }
-    std::fs::write(work.path().join("deck.inp"), text).unwrap();
+    std::fs::write(work.path().join("deck.inp"), change(text)).unwrap();
     let start = Instant::now();
     let output = limit::output(program.args(["-i", "deck"]).current_dir(work.path()));
     let seconds = start.elapsed().as_secs_f64();
@@ -170,8 +186,8 @@ impl Row {
         let text = self.text();
         let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
         brinell.arg("ccx");
-        let ours = job(brinell, &text);
-        let theirs = job(Command::new("ccx"), &for_ccx(&text));
+        let ours = job(brinell, &text, str::to_string);
+        let theirs = job(Command::new("ccx"), &text, for_ccx);
         let (Some(ours), Some(theirs)) = (ours, theirs) else {
             return format!(
                 "| {} | `{}` | | | | | one of them did not end |",
