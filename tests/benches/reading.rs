@@ -1,10 +1,10 @@
 //! Everything else is small: reading a mesh, starting the program, writing the results.
 //!
 //! `cargo bench --bench reading` prints the speed of reading a mesh of a million nodes in either
-//! version of the format, as text and binary in both orders of bytes, and as a deck, the time of commands that compute nothing, the share
-//! of a factorisation that forming contact rows takes, and the share of a run that the stresses of
-//! its states and its files take; `-- rows` and the like one of them. The figures go to
-//! `bench-results/`, a file for each part.
+//! version of the format, as text and binary in both orders of bytes, and as a deck, the time of
+//! commands that compute nothing, the share of a factorisation that forming contact rows takes, and
+//! the share of a run that the stresses of its states and its files take; `-- rows` and the like
+//! one of them. The figures go to `bench-results/`, a file for each part.
 
 use brinell::analysis::Analysis;
 use brinell::deck::Deck;

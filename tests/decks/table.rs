@@ -121,7 +121,8 @@ fn surfaces(text: &str) -> Option<(&str, &str)> {
     Some((slave.trim(), master.trim()))
 }
 
-/// Runs a program on a deck and the others, changed, in a folder of its own: files `.frd` and `.dat`, and the seconds.
+/// Runs a program on a deck in a folder of its own, with the other decks, all changed: files `.frd`
+/// and `.dat`, and the seconds.
 fn job(
     mut program: Command,
     text: &str,
@@ -256,8 +257,9 @@ fn the_page_of_decks_beside_calculix() {
          contact pair; seconds of the whole process. CalculiX carries stresses to nodes by factors \
          of four\ndigits: 5e-5 is the same. Decks of parts (`programs/cae_blocks`, \
          `p03` of Abaqus/CAE) CalculiX does not read: they are held to their flat twins and to \
-         exact answers\n(`decks::assemblies`, `decks::programs`).\n\n| what | deck | displacement | \
-         stress | contact force | seconds: brinell, ccx | why they differ |\n|---|---|---|---|---|---|---|\n"
+         exact answers\n(`decks::assemblies`, `decks::programs`).\n\n| what | deck | \
+         displacement | stress | contact force | seconds: brinell, ccx | why they differ |\n\
+         |---|---|---|---|---|---|---|\n"
     );
     for row in &ROWS {
         writeln!(page, "{}", row.compared()).unwrap();

@@ -1,5 +1,5 @@
-//! Tables of results as `*NODE PRINT`, `*EL PRINT`, `*CONTACT PRINT` and `*SECTION PRINT` of CalculiX
-//! write them into its `.dat` file.
+//! Tables of results as `*NODE PRINT`, `*EL PRINT`, `*CONTACT PRINT` and `*SECTION PRINT` of
+//! CalculiX write them into its `.dat` file.
 //!
 //! The time of a state is that of the deck, of a scene its load factor. Forces are what acts from
 //! outside: loads and reactions; of an axisymmetric model those on the whole circle, of a plane one

@@ -59,7 +59,8 @@ impl Tables<'_> {
         )?;
         let heads = [
             "total surface force (fx,fy,fz) and moment about the origin(mx,my,mz)",
-            "area, normal force (+ = tension), shear force (size), torque and bending moment (size)",
+            "area, normal force (+ = tension), shear force (size), torque and bending moment \
+             (size)",
         ];
         sums.write(out, heads, &last)
     }
