@@ -340,6 +340,7 @@ pub(super) enum Group {
     Node,
     Element,
     Contact,
+    Section,
 }
 
 /// Results that a step asks for.
@@ -349,7 +350,7 @@ pub(super) struct OutputRequest {
     /// For tables, instead of the result file.
     pub(super) is_print: bool,
     pub(super) items: Vec<ResultItem>,
-    /// The set of nodes or elements; all where none is named.
+    /// The set of nodes or elements, of a section its surface; all where none is named.
     pub(super) set: Option<String>,
     /// Slave and master surface of a contact.
     pub(super) contact: Option<[String; 2]>,

@@ -156,6 +156,11 @@ pub(super) fn facet(shape: Shape, number: usize) -> Option<usize> {
     })
 }
 
+/// The number that a deck has for a local facet, from 1.
+pub(crate) fn face_number(shape: Shape, local: usize) -> Option<usize> {
+    (1..=shape.n_facets()).find(|&number| facet(shape, number) == Some(local))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

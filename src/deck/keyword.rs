@@ -93,7 +93,7 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("PREPRINT", OUTPUT),
     ("PRINT", OUTPUT),
     ("RESTART", OUTPUT),
-    ("SECTION PRINT", OUTPUT),
+    ("SECTION PRINT", Use::Read),
     ("TIME POINTS", Use::Read),
     ("CONTACT CONTROLS", CONTROL),
     ("CONTROLS", CONTROL),

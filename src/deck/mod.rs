@@ -48,6 +48,7 @@ pub(crate) mod words;
 
 pub use conversion::{Conversion, Options};
 pub use data::{Account, Note};
+pub(crate) use element_type::face_number;
 pub use load::{is_deck, load, load_with};
 
 use crate::error::{Error, Result};

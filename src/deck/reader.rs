@@ -167,9 +167,8 @@ impl<'t> Reader<'t> {
             "OUTPUT" => self.output(keyword),
             "TIME POINTS" => self.time_points(keyword),
             "NODE FILE" | "NODE OUTPUT" | "NODE PRINT" | "EL FILE" | "ELEMENT OUTPUT"
-            | "EL PRINT" | "CONTACT FILE" | "CONTACT OUTPUT" | "CONTACT PRINT" => {
-                self.request(keyword)
-            }
+            | "EL PRINT" | "CONTACT FILE" | "CONTACT OUTPUT" | "CONTACT PRINT"
+            | "SECTION PRINT" => self.request(keyword),
             other => Err(crate::Error::internal(format!("nothing reads *{other}"))),
         }
     }

@@ -10,6 +10,7 @@ pub mod gmsh;
 pub mod inp;
 mod jacobian;
 pub(crate) mod node_values;
+mod of_body;
 mod part;
 mod pieces;
 mod round;

@@ -167,6 +167,7 @@ impl Model {
             Origin::Scene => &none,
             Origin::Arrays(given) => given,
         };
+        mesh.name_parts(scene.set_names());
         mesh.integration = integration(scene, &mesh);
         mesh::validate(&mesh).map_err(|error| match (&origin, &scene.mesh.file) {
             (Origin::Scene, Some(file)) => error.within(file.display()),
@@ -299,12 +300,16 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
         Some(_) => scene.places.in_front("mesh.file", error),
         None => scene.places.in_front("mesh", error),
     })?;
-    for (key, on, curve) in mesh::declared(&scene.mesh) {
+    let declared = mesh::declared(&scene.mesh);
+    mesh.name_parts(declared.iter().map(|(_, on, _)| *on));
+    for (key, on, curve) in declared {
         mesh::lay_on(&mut mesh, on, curve).map_err(|error| {
             let error = error.within(format!("{key} (`{on}`)"));
             scene.places.in_front(&key, error)
         })?;
     }
+    // With the shapes of the sets that they are parts of.
+    mesh.name_parts(scene.set_names());
     let times = scene.mesh.subdivisions;
     if times > 0 {
         // What is wrong with the file is stated by its own numbers.

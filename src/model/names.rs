@@ -68,7 +68,7 @@ impl<'s> Entry<'s> {
         match mesh.set_nodes(name) {
             Some(nodes) if !nodes.is_empty() => Ok(nodes),
             Some(_) => Err(Error::input(format!("{what} `{name}`: the set is empty"))),
-            None => Err(unknown(what, name, &mesh.set_names())),
+            None => Err(unknown(what, name, mesh, &mesh.set_names())),
         }
     }
 
@@ -77,7 +77,7 @@ impl<'s> Entry<'s> {
         mesh.surfaces.get(name).ok_or_else(|| {
             let names: Vec<&str> = mesh.surfaces.keys().map(String::as_str).collect();
             let what = format!("{} surface", self.what);
-            self.refused_at(key, unknown(&what, name, &names))
+            self.refused_at(key, unknown(&what, name, mesh, &names))
         })
     }
 
@@ -89,10 +89,33 @@ impl<'s> Entry<'s> {
 }
 
 /// A name that the mesh does not have, with the one that may be meant.
-fn unknown(what: &str, name: &str, known: &[&str]) -> Error {
-    let meant = closest(name, known).map_or(".".to_string(), |k| format!(", did you mean `{k}`?"));
+fn unknown(what: &str, name: &str, mesh: &Mesh, known: &[&str]) -> Error {
+    let has = known.join(", ");
+    if let Some((_, set)) = mesh.body_and_set(name) {
+        let why = match mesh.surfaces.contains_key(set) {
+            true => format!(
+                "the mesh has nothing of surface `{set}` on this body, it is on {}",
+                mesh.bodies_of_set(set).join(", ")
+            ),
+            false if known.contains(&set) => format!(
+                "the mesh has no node of set `{set}` on this body, they are on {}",
+                mesh.bodies_of_set(set).join(", ")
+            ),
+            false => format!("`{set}` is a set of nodes, not a surface; it has the surfaces {has}"),
+        };
+        return Error::input(format!("{what} `{name}`: {why}"));
+    }
+    let is_meant = |body: &&String| name.starts_with(&format!("{body}."));
+    let meant = mesh.bodies.iter().find(is_meant);
+    let of_body = |body: &String| known.iter().map(|set| format!("{body}.{set}")).collect();
+    let parts: Vec<String> = meant.map_or(Vec::new(), of_body);
+    let names = known
+        .iter()
+        .copied()
+        .chain(parts.iter().map(String::as_str));
+    let names: Vec<&str> = names.collect();
+    let meant = closest(name, &names).map_or(".".to_string(), |k| format!(", did you mean `{k}`?"));
     Error::input(format!(
-        "{what} `{name}`: the mesh has no such set{meant} It has: {}",
-        known.join(", ")
+        "{what} `{name}`: the mesh has no such set{meant} It has: {has}"
     ))
 }

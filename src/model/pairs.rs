@@ -9,6 +9,7 @@ mod held;
 mod matching;
 pub(super) mod mortar;
 mod rigid;
+mod sides;
 pub(super) mod stated;
 pub(super) mod ties;
 
@@ -165,6 +166,8 @@ struct Entries<'a> {
     surfaces: [&'a Surface; 2],
     mesh: &'a Mesh,
     space: Space,
+    /// Whether the scene is that of a deck, whose faces have numbers.
+    is_of_deck: bool,
 }
 
 impl Entries<'_> {
@@ -229,6 +232,7 @@ pub(super) fn resolve(
             ],
             mesh,
             space: scene.kind,
+            is_of_deck: scene.requests.is_of_deck(),
         };
         let is_rigid = [&contact.first, &contact.second].map(|name| rigid.named(name));
         let given = given.pairs.get(&index).map(Vec::as_slice);
@@ -236,10 +240,19 @@ pub(super) fn resolve(
             let found = match is_rigid {
                 [Some(body), _] => rigid::pairs(entries, 1, body)?,
                 [_, Some(body)] => rigid::pairs(entries, 0, body)?,
-                _ => match matching::pairs(entries, given)? {
-                    Some(found) => found,
-                    None => mortar::pairs(entries, notes)?,
-                },
+                _ => {
+                    if given.is_none() && entries.contact.normal.is_none() {
+                        entries.check_sides()?;
+                    }
+                    let found = match matching::pairs(entries, given)? {
+                        Some(found) => found,
+                        None => mortar::pairs(entries, notes)?,
+                    };
+                    if given.is_none() {
+                        entries.check_overlap(found.slave, &found.pairs)?;
+                    }
+                    found
+                }
             };
             let shared = |pair: &Pair| Some((pair.slave, *slave_of.get(&pair.slave)?));
             let shared: Vec<(usize, usize)> = found.pairs.iter().filter_map(shared).collect();

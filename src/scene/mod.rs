@@ -185,6 +185,23 @@ impl Scene {
         of_loads.chain(of_contacts.map(|(_, field)| field))
     }
 
+    /// The names of all sets and surfaces of the mesh that it gives, and of the bodies that volume
+    /// loads are on.
+    pub(crate) fn set_names(&self) -> impl Iterator<Item = &str> {
+        let contacts = self.contact.iter().flat_map(|c| [&c.first, &c.second]);
+        let ties = self.tie.iter().flat_map(|tie| [&tie.first, &tie.second]);
+        let terms = self.equation.iter().flat_map(|equation| &equation.terms);
+        let targets = self.program.targets.iter();
+        contacts
+            .chain(ties)
+            .chain(terms.map(|term| &term.on))
+            .chain(self.support.iter().map(|support| &support.on))
+            .chain(self.load.iter().map(|load| &load.on))
+            .chain(targets.filter_map(|target| Some(&target.displacement.as_ref()?.on)))
+            .chain(&self.program.history)
+            .map(String::as_str)
+    }
+
     /// A scene of a kind with nothing in it: the whole of it is meshed, one target at load factor
     /// 1.
     pub(crate) fn of(kind: Space) -> Self {

@@ -62,6 +62,9 @@ pub struct Print {
     pub totals: Totals,
     /// Whether vectors are along x, y, z also where a node has axes of its own.
     pub is_global: bool,
+    /// Of the force through a surface its faces: the number of the element, and its local facet
+    /// ([`crate::mesh::Facet::local`]). Empty otherwise.
+    pub faces: Arc<Vec<(u64, u8)>>,
 }
 
 /// A set of nodes or elements by their numbers.
@@ -106,6 +109,8 @@ pub enum ResultItem {
     StressJump,
     /// Volumes of elements (`EVOL`), in tables only.
     Volume,
+    /// Force and moment through a surface (`SOF`, `SOM`, `SOAREA`), in tables only.
+    Section,
     /// Force of a contact (`CF`, `CFN`, `CFS`), in tables only.
     ContactForce(ContactForce),
 }
@@ -134,8 +139,11 @@ impl ResultItem {
 
     /// Whether it follows from values at integration points.
     pub fn needs_points(self) -> bool {
-        use ResultItem::{PlasticStrain, Stress, StressJump, TotalStrain};
-        matches!(self, Stress | TotalStrain | PlasticStrain | StressJump)
+        use ResultItem::{PlasticStrain, Section, Stress, StressJump, TotalStrain};
+        matches!(
+            self,
+            Stress | TotalStrain | PlasticStrain | StressJump | Section
+        )
     }
 }
 

@@ -1,10 +1,10 @@
 //! Everything else is small: reading a mesh, starting the program, writing the results.
 //!
-//! `cargo bench --bench reading` prints the speed of reading an ASCII mesh of a million nodes in
-//! either version of the format and as a deck, the time of commands that compute nothing, the share
-//! of a factorisation that forming contact rows takes, and the share of a run that the stresses of
-//! its states and its files take; `-- rows` and the like one of them. The figures go to
-//! `bench-results/`, a file for each part.
+//! `cargo bench --bench reading` prints the speed of reading a mesh of a million nodes in either
+//! version of the format, as text and binary in both orders of bytes, and as a deck, the time of
+//! commands that compute nothing, the share of a factorisation that forming contact rows takes, and
+//! the share of a run that the stresses of its states and its files take; `-- rows` and the like
+//! one of them. The figures go to `bench-results/`, a file for each part.
 
 use brinell::analysis::Analysis;
 use brinell::deck::Deck;
@@ -73,7 +73,16 @@ fn reading() -> Result<Value, Failure> {
     let version4 = version4(&mesh)?;
     println!("| format | MB | s | MB/s |\n|---|---|---|---|");
     let mut out = Vec::new();
-    for (name, text) in [("2.2", &version2), ("4.1", &version4)] {
+    let little = [binary2(&mesh, true), binary4(&mesh, true)];
+    let big = [binary2(&mesh, false), binary4(&mesh, false)];
+    for (name, text) in [
+        ("2.2", &version2),
+        ("2.2 binary", &little[0]),
+        ("2.2 binary, big endian", &big[0]),
+        ("4.1", &version4),
+        ("4.1 binary", &little[1]),
+        ("4.1 binary, big endian", &big[1]),
+    ] {
         let read = gmsh::parse(text, name)?;
         assert_eq!(read.coordinates, mesh.coordinates, "read back bit for bit");
         assert_eq!(read.connectivity, mesh.connectivity);
@@ -219,6 +228,105 @@ fn version4(mesh: &Mesh) -> Result<Vec<u8>, Failure> {
     }
     text += "$EndElements\n";
     Ok(text.into_bytes())
+}
+
+/// Numbers of a binary file, in one order of bytes or the other.
+struct Binary {
+    bytes: Vec<u8>,
+    is_little: bool,
+}
+
+impl Binary {
+    /// A file that begins with its version, and the number that tells the order.
+    fn new(version: &str, is_little: bool) -> Self {
+        let bytes = format!("$MeshFormat\n{version} 1 8\n").into_bytes();
+        let mut out = Binary { bytes, is_little };
+        out.ints([1]);
+        out.text("\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"square\"\n$EndPhysicalNames\n");
+        out
+    }
+
+    fn text(&mut self, text: &str) {
+        self.bytes.extend(text.as_bytes());
+    }
+
+    fn put<const N: usize>(&mut self, little: [u8; N]) {
+        match self.is_little {
+            true => self.bytes.extend(little),
+            false => self.bytes.extend(little.iter().rev()),
+        }
+    }
+
+    fn ints(&mut self, values: impl IntoIterator<Item = i32>) {
+        values
+            .into_iter()
+            .for_each(|value| self.put(value.to_le_bytes()));
+    }
+
+    fn sizes(&mut self, values: impl IntoIterator<Item = usize>) {
+        let values = values.into_iter();
+        values.for_each(|value| self.put((value as u64).to_le_bytes()));
+    }
+
+    fn reals(&mut self, values: impl IntoIterator<Item = f64>) {
+        values
+            .into_iter()
+            .for_each(|value| self.put(value.to_le_bytes()));
+    }
+
+    /// A node's place in space.
+    fn place(&mut self, mesh: &Mesh, node: usize) {
+        let [x, y] = mesh.in_plane(node);
+        self.reals([x, y, 0.0]);
+    }
+}
+
+/// The mesh in the binary form of version 2.2: elements in one block.
+fn binary2(mesh: &Mesh, is_little: bool) -> Vec<u8> {
+    let (nodes, elements) = (mesh.n_nodes(), mesh.n_elements());
+    let mut out = Binary::new("2.2", is_little);
+    out.text(&format!("$Nodes\n{nodes}\n"));
+    for node in 0..nodes {
+        out.ints([node as i32 + 1]);
+        out.place(mesh, node);
+    }
+    out.text(&format!("\n$EndNodes\n$Elements\n{elements}\n"));
+    out.ints([3, elements as i32, 2]);
+    for element in 0..elements {
+        out.ints([element as i32 + 1, 1, 1]);
+        out.ints(mesh.nodes(element).iter().map(|node| *node as i32 + 1));
+    }
+    out.text("\n$EndElements\n");
+    out.bytes
+}
+
+/// The mesh in the binary form of version 4.1, of one entity.
+fn binary4(mesh: &Mesh, is_little: bool) -> Vec<u8> {
+    let (nodes, elements) = (mesh.n_nodes(), mesh.n_elements());
+    let mut out = Binary::new("4.1", is_little);
+    out.text("$Entities\n");
+    out.sizes([0, 0, 1, 0]);
+    out.ints([1]);
+    out.reals([0.0, 0.0, 0.0, 1.0, 1.0, 0.0]);
+    out.sizes([1]);
+    out.ints([1]);
+    out.sizes([0]);
+    out.text("\n$EndEntities\n$Nodes\n");
+    out.sizes([1, nodes, 1, nodes]);
+    out.ints([2, 1, 0]);
+    out.sizes([nodes]);
+    out.sizes(1..=nodes);
+    (0..nodes).for_each(|node| out.place(mesh, node));
+    out.text("\n$EndNodes\n$Elements\n");
+    out.sizes([1, elements, 1, elements]);
+    out.ints([2, 1, 3]);
+    out.sizes([elements]);
+    for element in 0..elements {
+        out.sizes([element + 1]);
+        out.sizes(mesh.nodes(element).iter().map(|node| *node as usize + 1));
+    }
+    out.text("\n$EndElements\n");
+    out.bytes
 }
 
 fn starting() -> Result<Value, Failure> {

@@ -50,6 +50,37 @@ fn the_page_of_the_guide_is_what_happens() {
     assert_eq!(read("cvg").lines().count(), 5);
 }
 
+/// The picture of the page is what its command draws, but for the last digit of places.
+#[test]
+fn the_picture_of_the_page_is_what_its_command_draws() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let page = std::fs::read_to_string(root.join("data/guide/in-place-of-ccx.md")).unwrap();
+    let line = page
+        .lines()
+        .find(|line| line.starts_with("brinell run data/"));
+    let work = tempfile::tempdir().unwrap();
+    let out = work.path().join("disc");
+    let words = line.unwrap().split_whitespace().skip(1);
+    let words = words.map(|word| match word {
+        "disc" => out.display().to_string(),
+        _ => word.to_string(),
+    });
+    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let output = limit::output(command.args(words).arg("--quiet").current_dir(root));
+    assert!(output.status.success(), "{output:?}");
+    let name = page.split("This is `disc/").nth(1).unwrap();
+    let drawn = std::fs::read_to_string(out.join(name.split('`').next().unwrap())).unwrap();
+    let stored = root.join("data/figures/deck_von_mises.svg");
+    let stored = std::fs::read_to_string(stored).unwrap();
+    let marks = |text: &str| -> Vec<String> {
+        let parts = text
+            .split('<')
+            .map(|part| part.split(" d=").next().unwrap());
+        parts.map(str::to_string).collect()
+    };
+    assert_eq!(marks(&drawn), marks(&stored));
+}
+
 /// What FreeCAD asks first: whether it is CalculiX, and which version. Without a deck ccx ends with
 /// 201.
 #[test]

@@ -2,6 +2,8 @@
 
 use super::{deck_path, folder, run};
 use crate::support::tools;
+use brinell::model::Model;
+use brinell::results::Results;
 use std::collections::BTreeMap;
 use std::process::{Command, Stdio};
 
@@ -16,7 +18,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 33] = [
+const CASES: [Case; 35] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     // Flow turns, and CalculiX takes each of its increments in one step of the implicit rule; with
@@ -45,6 +47,8 @@ const CASES: [Case; 33] = [
     case("full_slice", &[], 2e-4),
     case("full_plastic", &[], 2e-4),
     case("secant", FULL, PRINTED),
+    case("expanding_bar", &[], PRINTED),
+    case("expanding_ring", &[], 2e-4),
     case("equations", FULL, PRINTED),
     case("rigid", FULL, PRINTED),
     case("rigid_moved", FULL, PRINTED),
@@ -66,7 +70,7 @@ const fn case(name: &'static str, overrides: &'static [&'static str], bound: f64
 }
 
 /// Displacements by node, by time.
-type Table = BTreeMap<String, BTreeMap<u64, [f64; 3]>>;
+pub(super) type Table = BTreeMap<String, BTreeMap<u64, [f64; 3]>>;
 
 /// The tables of displacements of a `.dat` file.
 fn parse(text: &str) -> Table {
@@ -90,7 +94,7 @@ fn parse(text: &str) -> Table {
     out
 }
 
-fn stored(name: &str) -> Table {
+pub(super) fn stored(name: &str) -> Table {
     let path = folder().join(format!("reference/{name}.dat"));
     parse(&std::fs::read_to_string(path).unwrap())
 }
@@ -100,6 +104,22 @@ fn largest(table: &BTreeMap<u64, [f64; 3]>) -> f64 {
         .values()
         .flatten()
         .fold(0.0, |m: f64, u| m.max(u.abs()))
+}
+
+/// How far the displacements of a run are from those of a table, as a share of the largest.
+pub(super) fn far((model, results): &(Model, Results), stored: &Table) -> f64 {
+    let scale = stored.values().map(largest).fold(0.0, f64::max);
+    let d = model.mesh.dimension;
+    let mut worst: f64 = 0.0;
+    for (state, table) in results.states.iter().zip(stored.values()) {
+        let u = &state.fields.as_ref().unwrap().displacement;
+        for (node, u) in u.chunks(d).enumerate() {
+            let theirs = &table[&model.mesh.node_label(node)];
+            let off = u.iter().zip(theirs).map(|(a, b)| (a - b).abs());
+            worst = off.fold(worst, f64::max);
+        }
+    }
+    worst / scale
 }
 
 #[test]

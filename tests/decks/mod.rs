@@ -4,12 +4,16 @@
 mod assemblies;
 mod calculix;
 mod converted;
+mod expansion;
 mod frd;
 mod local_axes;
 mod messages;
 mod programs;
 mod refusals;
+mod sections;
 mod sets;
+mod sides;
+mod table;
 mod variants;
 
 use brinell::analysis::Analysis;

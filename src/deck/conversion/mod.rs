@@ -92,7 +92,7 @@ impl Deck {
         let mut scene = self.empty_scene(space);
         self.add_bodies(&bodies, &temperatures, &mut scene, &mut draft.places)?;
         self.add_integration(&bodies, &mut scene, &mut account);
-        draft.temperatures(&bodies, temperatures);
+        draft.temperatures(&bodies, temperatures, &mut account)?;
         scene.requests = self.requests((space, draft.thickness), options, &mut account)?;
         scene.requests.large = large;
         self.add_loads(&mut draft, &mut scene);

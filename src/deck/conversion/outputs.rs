@@ -79,6 +79,9 @@ impl Deck {
                 for request in &in_force.requests {
                     add(request, sets.of(request)?, &mut moment);
                 }
+                // Behind all others.
+                let prints = &mut moment.prints;
+                prints.sort_by_key(|print| print.item == ResultItem::Section);
                 moment.file.sort_by_key(|request| request.item);
                 out.moments.push(moment);
             }
@@ -163,11 +166,18 @@ fn add(request: &OutputRequest, on: On, moment: &mut Moment) {
             (On::Set(_), true)
                 if item == ResultItem::Contact
                     && moment.prints.iter().any(|print| print.item == item) => {}
-            (On::Set(set), true) => moment.prints.push(Print {
+            // Force, moment and area are one table of a surface.
+            (On::Section(set, _), true)
+                if (moment.prints.iter()).any(|p| p.item == item && p.set.name == set.name) => {}
+            (On::Set(set) | On::Section(set, _), true) => moment.prints.push(Print {
                 item,
                 set: set.clone(),
                 totals: request.totals,
                 is_global: request.is_global,
+                faces: match &on {
+                    On::Section(_, faces) => faces.clone(),
+                    _ => Arc::default(),
+                },
             }),
         }
     }
@@ -180,12 +190,14 @@ enum On {
     /// A set that there is not.
     Nothing,
     Set(NamedSet),
+    /// A surface: its elements, and its faces.
+    Section(NamedSet, Arc<Vec<(u64, u8)>>),
 }
 
 impl On {
     fn set(self) -> Option<NamedSet> {
         match self {
-            On::Set(set) => Some(set),
+            On::Set(set) | On::Section(set, _) => Some(set),
             On::All | On::Nothing => None,
         }
     }
@@ -210,6 +222,7 @@ impl RequestedSets<'_, '_> {
             (Group::Node, false) => "NODE FILE",
             (Group::Contact, true) => "CONTACT PRINT",
             (Group::Contact, false) => "CONTACT FILE",
+            (Group::Section, _) => return self.section(request),
         };
         let is_of_elements = keyword == "EL PRINT";
         let Some(name) = request.set.as_ref().map(|name| name.to_uppercase()) else {
@@ -248,6 +261,24 @@ impl RequestedSets<'_, '_> {
         let set = NamedSet { name, labels };
         self.known.insert(key, set.clone());
         Ok(On::Set(set))
+    }
+
+    /// The faces of the surface that a request names; a surface that there is not is a remark.
+    fn section(&mut self, request: &OutputRequest) -> Result<On> {
+        let (deck, keyword) = (self.deck, "SECTION PRINT");
+        let name = request.set.clone().unwrap_or_default().to_uppercase();
+        if deck.sets.surfaces.get(&name).is_none() {
+            let text = format!("there is no surface {name}: nothing is written for it");
+            self.remark(request, keyword, &text);
+            return Ok(On::Nothing);
+        }
+        let found = deck.surface(&name, (request.place, keyword))?;
+        let label = |&(element, local): &(u32, u8)| (deck.element_label(element as usize), local);
+        let faces: Vec<(u64, u8)> = found.iter().map(label).collect();
+        let mut labels: Vec<u64> = faces.iter().map(|(element, _)| *element).collect();
+        labels.dedup();
+        let labels = Arc::new(labels);
+        Ok(On::Section(NamedSet { name, labels }, Arc::new(faces)))
     }
 
     /// The contact between the surfaces that a request names, by its number; none where it names

@@ -1,7 +1,7 @@
 //! Loads on the volumes of bodies: weight, rotation, changes of temperature.
 
 use super::super::bodies::{Bodies, unsupported};
-use super::super::data::{Kind, VolumeLoad};
+use super::super::data::{Account, Kind, VolumeLoad};
 use super::super::source::Place;
 use super::super::temperature::OfBody;
 use super::Draft;
@@ -65,8 +65,17 @@ impl Draft<'_> {
         })
     }
 
-    /// Temperatures of bodies that expand.
-    pub(super) fn temperatures(&mut self, bodies: &Bodies, temperatures: Vec<OfBody>) {
+    /// Temperatures of bodies that expand; those of others do nothing, which is said.
+    ///
+    /// # Errors
+    /// Nothing but such temperatures acts on the bodies.
+    pub(super) fn temperatures(
+        &mut self,
+        bodies: &Bodies,
+        temperatures: Vec<OfBody>,
+        account: &mut Account,
+    ) -> Result<()> {
+        let mut idle = None;
         let properties = &self.deck.properties;
         let of_bodies = bodies.names.iter().zip(&bodies.sections).zip(temperatures);
         for ((name, section), of_body) in of_bodies {
@@ -87,7 +96,20 @@ impl Draft<'_> {
                     ..Load::default()
                 };
                 self.add_load("temperature", load, of_body.change, place);
+            } else if !of_body.change.is_zero() {
+                let name = &section.material;
+                let text = format!("material {name} has no *EXPANSION: temperatures do nothing");
+                let list = &mut account.taken;
+                Account::add(list, &self.deck.files, place, "TEMPERATURE", &text);
+                idle = Some((place, text));
             }
+        }
+        match idle {
+            Some((place, text)) if self.loads.is_empty() && self.contacts.is_empty() => {
+                let message = format!("{text}, and nothing else loads the bodies; give it one");
+                Err(self.deck.error(place, "TEMPERATURE", message))
+            }
+            _ => Ok(()),
         }
     }
 }

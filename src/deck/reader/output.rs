@@ -63,6 +63,7 @@ impl Reader<'_> {
         let group = match keyword.name.as_bytes() {
             [b'N', ..] => Group::Node,
             [b'E', ..] => Group::Element,
+            [b'S', ..] => Group::Section,
             _ => Group::Contact,
         };
         let is_print = keyword.name.ends_with("PRINT");
@@ -73,8 +74,12 @@ impl Reader<'_> {
         };
         let key = match (group, is_print) {
             (Group::Element, true) => "ELSET",
+            (Group::Section, _) => "SURFACE",
             _ => "NSET",
         };
+        if group == Group::Section {
+            keyword.require(&self.source.files, key)?;
+        }
         let mut request = OutputRequest {
             group,
             is_print,
@@ -148,6 +153,7 @@ fn item(word: &str) -> Option<ResultItem> {
         "CFN" => ResultItem::ContactForce(ContactForce::Normal),
         "CFS" => ResultItem::ContactForce(ContactForce::Shear),
         "EVOL" => ResultItem::Volume,
+        "SOF" | "SOM" | "SOAREA" => ResultItem::Section,
         _ => return None,
     })
 }

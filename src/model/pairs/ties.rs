@@ -78,6 +78,7 @@ fn rows(
         surfaces,
         mesh,
         space: scene.kind,
+        is_of_deck: scene.requests.is_of_deck(),
     };
     let (found, free) = mortar::tied(&entries, tie.distance)?;
     let names = [&tie.first, &tie.second];

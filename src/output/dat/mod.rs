@@ -1,5 +1,5 @@
-//! Tables of results as `*NODE PRINT`, `*EL PRINT` and `*CONTACT PRINT` of CalculiX write them
-//! into its `.dat` file.
+//! Tables of results as `*NODE PRINT`, `*EL PRINT`, `*CONTACT PRINT` and `*SECTION PRINT` of
+//! CalculiX write them into its `.dat` file.
 //!
 //! The time of a state is that of the deck, of a scene its load factor. Forces are what acts from
 //! outside: loads and reactions; of an axisymmetric model those on the whole circle, of a plane one
@@ -8,6 +8,7 @@
 //! integration point 0. Shear strains are those of the tensor.
 
 mod points;
+mod section;
 mod statistics;
 mod tables;
 
@@ -85,6 +86,7 @@ fn of_all_sets(model: &Model) -> Vec<Print> {
                 set,
                 totals,
                 is_global: true,
+                faces: Arc::default(),
             });
         }
     }
@@ -98,6 +100,7 @@ fn of_all_sets(model: &Model) -> Vec<Print> {
             },
             totals: Totals::No,
             is_global: true,
+            faces: Arc::default(),
         });
     }
     out

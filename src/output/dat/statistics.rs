@@ -6,14 +6,50 @@ use crate::scene::ContactForce;
 use crate::space::{Vector, along, cross, difference, dot};
 use std::io::{self, Write};
 
-/// What the pairs of a contact that press add up to, on its slave surface.
+/// What acts on a surface, or on the part of a slave surface that presses.
 #[derive(Debug, Clone, Copy, Default)]
-struct Sums {
-    force: Vector,
-    moment: Vector,
-    area: f64,
-    center: Vector,
-    normal: Vector,
+pub(super) struct Sums {
+    pub(super) force: Vector,
+    pub(super) moment: Vector,
+    pub(super) area: f64,
+    pub(super) center: Vector,
+    pub(super) normal: Vector,
+}
+
+impl Sums {
+    /// Means over the area of what was summed with it.
+    pub(super) fn center(&mut self) {
+        if self.area > 0.0 {
+            self.center = self.center.map(|x| x / self.area);
+            self.normal = self.normal.map(|n| n / self.area);
+        }
+    }
+
+    /// The moment about the centre of gravity.
+    pub(super) fn about_center(&self) -> Vector {
+        difference(self.moment, cross(self.center, self.force))
+    }
+
+    /// Writes its blocks, the first and the last with these heads, the last with these values.
+    pub(super) fn write(
+        &self,
+        out: &mut impl Write,
+        [first, last]: [&str; 2],
+        values: &[f64],
+    ) -> io::Result<()> {
+        let mut block =
+            |head: &str, values: &[f64]| writeln!(out, "\n   {head}\n\n  {}", row(values));
+        block(first, &[self.force, self.moment].concat())?;
+        block(
+            "center of gravity and mean normal",
+            &[self.center, self.normal].concat(),
+        )?;
+        block(
+            "moment about the center of gravity(mx,my,mz)",
+            &self.about_center(),
+        )?;
+        block(last, values)
+    }
 }
 
 impl Tables<'_> {
@@ -27,33 +63,19 @@ impl Tables<'_> {
         (state, fields): (&State, &Fields),
         time: f64,
     ) -> io::Result<()> {
-        let sums = self.sums(contact, state, fields);
+        let mut sums = self.sums(contact, state, fields);
         // Without friction there is no force along the surface.
-        let [force, moment] = match of {
-            ContactForce::Shear => [[0.0; 3]; 2],
-            ContactForce::Total | ContactForce::Normal => [sums.force, sums.moment],
-        };
-        let about_center = difference(moment, cross(sums.center, force));
+        if of == ContactForce::Shear {
+            (sums.force, sums.moment) = ([0.0; 3], [0.0; 3]);
+        }
         let time = fortran(time);
         writeln!(out, "\n\n statistics for {names} and time  {time}")?;
-        let mut block =
-            |head: &str, values: &[f64]| writeln!(out, "\n   {head}\n\n  {}", row(values));
-        block(
+        let heads = [
             "total surface force (fx,fy,fz) and moment about the origin (mx,my,mz)",
-            &[force, moment].concat(),
-        )?;
-        block(
-            "center of gravity and mean normal",
-            &[sums.center, sums.normal].concat(),
-        )?;
-        block(
-            "moment about the center of gravity(mx,my,mz)",
-            &about_center,
-        )?;
-        block(
             "area,  normal force (+ = tension) and shear force (size)",
-            &[sums.area, dot(force, sums.normal), 0.0],
-        )
+        ];
+        let last = [sums.area, dot(sums.force, sums.normal), 0.0];
+        sums.write(out, heads, &last)
     }
 
     fn sums(&self, contact: usize, state: &State, fields: &Fields) -> Sums {
@@ -83,10 +105,7 @@ impl Tables<'_> {
             out.normal = along(out.normal, area, normal);
             out.area += area;
         }
-        if out.area > 0.0 {
-            out.center = out.center.map(|x| x / out.area);
-            out.normal = out.normal.map(|n| n / out.area);
-        }
+        out.center();
         out
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct Tables<'a> {
     pub(super) model: &'a Model,
     pub(super) slaves: Slaves<'a>,
     nodes: LabelIndex,
-    elements: LabelIndex,
+    pub(super) elements: LabelIndex,
 }
 
 impl<'a> Tables<'a> {
@@ -69,6 +69,7 @@ impl<'a> Tables<'a> {
                 }
                 None => Ok(()),
             },
+            ResultItem::Section => self.section(out, print, fields, time),
             ResultItem::Contact => self.of_contact(out, state, time),
             ResultItem::PlasticStrain if !self.model.may_yield.contains(&true) => Ok(()),
             ResultItem::Volume => self.volumes(out, print, &of_set),

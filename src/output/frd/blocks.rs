@@ -57,7 +57,7 @@ impl<'a> Values<'a> {
                 let both = extrapolated.zip(points);
                 both.map(|(of, points)| scalars(&of.stress_jumps(&model.mesh, points)))
             }
-            ResultItem::Volume | ResultItem::ContactForce(_) => None,
+            ResultItem::Volume | ResultItem::Section | ResultItem::ContactForce(_) => None,
         }
     }
 
@@ -121,7 +121,7 @@ fn names(item: ResultItem) -> (&'static str, &'static [&'static str]) {
         ),
         ResultItem::RecoveredStress => ("ZZSTR", &["SXX", "SYY", "SZZ", "SXY", "SYZ", "SZX"]),
         ResultItem::StressJump => ("ERROR", &["STR(%)"]),
-        ResultItem::Volume | ResultItem::ContactForce(_) => ("", &[]),
+        ResultItem::Volume | ResultItem::Section | ResultItem::ContactForce(_) => ("", &[]),
     }
 }
 

@@ -5,19 +5,19 @@ use crate::results::PointValues;
 use crate::shape::{Extrapolation, Integration};
 
 /// Means over the elements of each node.
-pub(super) struct Extrapolated {
+pub(in crate::output) struct Extrapolated {
     /// `n_nodes x n_components`.
-    pub(super) stress: Vec<f64>,
+    pub(in crate::output) stress: Vec<f64>,
     /// `n_nodes x n_components`.
-    pub(super) strain: Vec<f64>,
+    pub(in crate::output) strain: Vec<f64>,
     /// `n_nodes`.
-    pub(super) plastic_strain: Vec<f64>,
+    pub(in crate::output) plastic_strain: Vec<f64>,
     /// By the numbers of integration and shape.
     of_shapes: Vec<Extrapolation>,
 }
 
 impl Extrapolated {
-    pub(super) fn new(mesh: &Mesh, points: &PointValues) -> Self {
+    pub(in crate::output) fn new(mesh: &Mesh, points: &PointValues) -> Self {
         let integrated = |by: Integration| {
             let of = move |shape: Shape| Extrapolation::new(shape, shape.rule(by));
             Shape::ALL.into_iter().map(of)
@@ -49,7 +49,7 @@ impl Extrapolated {
     /// How much the stress jumps between elements: the largest von Mises stress of the difference
     /// between an element's values at its nodes and the means there, in percent of the largest von
     /// Mises stress; at a node the largest of its elements.
-    pub(super) fn stress_jumps(&self, mesh: &Mesh, points: &PointValues) -> Vec<f64> {
+    pub(in crate::output) fn stress_jumps(&self, mesh: &Mesh, points: &PointValues) -> Vec<f64> {
         let c = points.n_components();
         let all = self.stress.chunks_exact(c);
         let largest = all.map(von_mises).fold(f64::MIN_POSITIVE, f64::max);

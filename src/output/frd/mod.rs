@@ -26,6 +26,8 @@ mod header;
 mod mesh;
 mod text;
 
+pub(super) use extrapolated::Extrapolated;
+
 use super::atomic::{self, Staging};
 use crate::error::Result;
 use crate::labels::LabelIndex;
