@@ -4,14 +4,26 @@ use super::{Integration, Shape};
 use crate::shape::Functions;
 use crate::space::{Vector, cross, dot, unit};
 
-/// The shape functions where an element is checked: beyond the usual places at the points that it
-/// is integrated with.
-pub(super) fn check_points(shape: Shape, integration: Integration) -> Vec<Functions> {
-    let mut places = shape.reference().checked.to_vec();
-    if integration == Integration::Full && shape.is_quadratic() {
-        places.extend(shape.rule(integration).iter().map(|(place, _)| *place));
-    }
-    places.iter().map(|&place| shape.functions(place)).collect()
+/// The shape functions where the Jacobian of an element must be positive: at the points that it is
+/// integrated with; at the corners, too, if it is linear.
+pub(super) fn integrated(shape: Shape, integration: Integration) -> Vec<Functions> {
+    let corners = if shape.is_quadratic() {
+        vec![]
+    } else {
+        at_nodes(shape)
+    };
+    let rules = [shape.reference().gauss, shape.rule(integration)];
+    let points = rules.into_iter().flatten();
+    corners
+        .into_iter()
+        .chain(points.map(|(place, _)| shape.functions(*place)))
+        .collect()
+}
+
+/// The same at corners and mid-side nodes.
+pub(super) fn at_nodes(shape: Shape) -> Vec<Functions> {
+    let places = shape.reference().nodes.iter();
+    places.map(|&place| shape.functions(place)).collect()
 }
 
 /// Determinant of the Jacobian of an element with these node positions.

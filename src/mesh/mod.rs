@@ -27,6 +27,7 @@ pub use round::{declared, lay_on};
 pub use subdivision::subdivided;
 pub use sweep::{extruded, revolved};
 pub use validate::validate;
+pub(crate) use validate::warning_of_folds;
 
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -235,6 +236,16 @@ impl Mesh {
             .get(element)
             .copied()
             .unwrap_or(element as u64 + 1)
+    }
+
+    /// An element by its number, shape and body.
+    pub(crate) fn element_in_words(&self, element: usize) -> String {
+        format!(
+            "element {} ({}, body `{}`)",
+            self.element_label(element),
+            self.shapes[element].name(),
+            self.bodies[self.element_body[element] as usize]
+        )
     }
 
     /// Appends an element.

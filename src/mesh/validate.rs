@@ -1,7 +1,7 @@
 //! Checks that a mesh can be computed with.
 
 use super::{Facet, Integration, Mesh, Shape, conformity, jacobian, pieces};
-use crate::shape::MAX_NODES;
+use crate::shape::{Functions, MAX_NODES};
 use crate::space::{difference, length};
 use crate::{Error, Result};
 use rayon::prelude::*;
@@ -15,9 +15,9 @@ const FLATTEST: f64 = 1.490_116_119_384_765_6e-8;
 const GRAIN: usize = 512;
 
 /// Checks a mesh: consistent arrays, finite coordinates, elements with distinct nodes and a
-/// positive Jacobian at corners and integration points, no unconnected nodes, unique labels and
-/// body names, no empty body, set or surface, no surface that looks both ways, no duplicate or
-/// overlapping elements, no hanging nodes, no body in several pieces.
+/// positive Jacobian at integration points (and corners of linear ones), no unconnected nodes,
+/// unique labels and body names, no empty body, set or surface, no surface that looks both ways, no
+/// duplicate or overlapping elements, no hanging nodes, no body in several pieces.
 ///
 /// # Errors
 /// Input errors name the node, element, body or set by the number or name the user knows, and the
@@ -195,10 +195,10 @@ fn check_sets(mesh: &Mesh) -> Result<()> {
     Ok(())
 }
 
-/// Distinct nodes and a positive Jacobian, element by element.
+/// Distinct nodes and a positive Jacobian where it is integrated, element by element.
 fn check_elements(mesh: &Mesh) -> Result<()> {
     let checks = Integration::ALL
-        .map(|integration| Shape::ALL.map(|shape| jacobian::check_points(shape, integration)));
+        .map(|integration| Shape::ALL.map(|shape| jacobian::integrated(shape, integration)));
     let fault = |element: usize| -> Option<String> {
         let nodes = mesh.nodes(element);
         for (k, node) in nodes.iter().enumerate() {
@@ -210,28 +210,8 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
             }
         }
         let shape = mesh.shapes[element];
-        let mut points = [[0.0; 3]; MAX_NODES];
-        for (point, &node) in points.iter_mut().zip(nodes) {
-            *point = mesh.point(node as usize);
-        }
-        // Relative to the first node: the determinant of a small element far from the origin
-        // would drown in the round-off of its coordinates.
-        let origin = points[0];
-        for point in &mut points[..nodes.len()] {
-            *point = difference(*point, origin);
-        }
-        let row = shape.reference();
-        let edges = row.edges.iter();
-        let longest = edges
-            .map(|&[a, b]| length(difference(points[b], points[a])))
-            .fold(0.0, f64::max);
-        let scale = row.unit_jacobian * longest.powi(row.dimension as i32);
-        let worst = checks[mesh.integration_of(element) as usize][shape as usize]
-            .iter()
-            .map(|at| jacobian::determinant(row.dimension, at, &points[..nodes.len()]) / scale)
-            .fold(f64::INFINITY, |worst, j| {
-                if j < worst || j.is_nan() { j } else { worst }
-            });
+        let places = &checks[mesh.integration_of(element) as usize][shape as usize];
+        let worst = least_jacobian(mesh, element, places);
         if worst > FLATTEST {
             return None;
         }
@@ -243,7 +223,7 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
         Some(format!(
             "{reason}: its smallest Jacobian is {worst:.3e} of (longest side)^{}, allowed is \
              {FLATTEST:.1e} and more; near node {} at {}",
-            row.dimension,
+            shape.reference().dimension,
             mesh.node_label(nodes[0] as usize),
             mesh.place(nodes[0] as usize)
         ))
@@ -254,13 +234,62 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
         .find_map_first(|element| fault(element).map(|fault| (element, fault)));
     match found {
         Some((element, fault)) => Err(Error::input(format!(
-            "element {} ({}, body `{}`) {fault}",
-            mesh.element_label(element),
-            mesh.shapes[element].name(),
-            mesh.bodies[mesh.element_body[element] as usize]
+            "{} {fault}",
+            mesh.element_in_words(element)
         ))),
         None => Ok(()),
     }
+}
+
+/// The smallest Jacobian of an element at some places, over (longest side)^d.
+fn least_jacobian(mesh: &Mesh, element: usize, places: &[Functions]) -> f64 {
+    let nodes = mesh.nodes(element);
+    let mut points = [[0.0; 3]; MAX_NODES];
+    for (point, &node) in points.iter_mut().zip(nodes) {
+        *point = mesh.point(node as usize);
+    }
+    // Relative to the first node: the determinant of a small element far from the origin would
+    // drown in the round-off of its coordinates.
+    let origin = points[0];
+    for point in &mut points[..nodes.len()] {
+        *point = difference(*point, origin);
+    }
+    let row = mesh.shapes[element].reference();
+    let edges = row.edges.iter();
+    let longest = edges
+        .map(|&[a, b]| length(difference(points[b], points[a])))
+        .fold(0.0, f64::max);
+    let scale = row.unit_jacobian * longest.powi(row.dimension as i32);
+    places
+        .iter()
+        .map(|at| jacobian::determinant(row.dimension, at, &points[..nodes.len()]) / scale)
+        .fold(f64::INFINITY, |worst, j| {
+            if j < worst || j.is_nan() { j } else { worst }
+        })
+}
+
+/// A warning of quadratic elements that are turned inside out at a node, though not where they are
+/// integrated: they can be computed with, what is shown near them is off.
+pub(crate) fn warning_of_folds(mesh: &Mesh) -> Option<String> {
+    let at_nodes = Shape::ALL.map(jacobian::at_nodes);
+    let is_folded = |element: &usize| {
+        let shape = mesh.shapes[*element];
+        shape.is_quadratic()
+            && least_jacobian(mesh, *element, &at_nodes[shape as usize]) <= FLATTEST
+    };
+    let elements = (0..mesh.n_elements()).into_par_iter();
+    let folded: Vec<usize> = elements.with_min_len(GRAIN).filter(is_folded).collect();
+    let first = *folded.first()?;
+    let others = match folded.len() {
+        1 => String::new(),
+        n => format!(" and {} other elements", n - 1),
+    };
+    Some(format!(
+        "{}{others}: turned inside out at a node (negative Jacobian), not where stresses are \
+         computed: there they are less accurate; mesh finer where the surface is curved, or with \
+         straight or optimised sides (Gmsh: -optimize_ho, or Mesh.SecondOrderLinear = 1)",
+        mesh.element_in_words(first)
+    ))
 }
 
 fn check_unconnected(mesh: &Mesh) -> Result<()> {

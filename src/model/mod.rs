@@ -181,6 +181,7 @@ impl Model {
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
         warnings.extend(plausible::of_materials(scene));
         warn_of_locking(&mesh, &may_yield, &mut warnings);
+        warnings.extend(mesh::warning_of_folds(&mesh));
         if kind.is_axisymmetric() {
             check_radii(&mesh)?;
         }

@@ -84,9 +84,6 @@ pub struct Reference {
     pub sampling: &'static Rule,
     /// Whether the mean over the element may replace the dilatation at the points (B-bar).
     pub has_mean_dilatation: bool,
-    /// Where the map must have a positive Jacobian: enough places to decide it for a linear
-    /// element; of a quadratic one the corners and the points of its usual rules.
-    pub checked: &'static [Place],
     /// Jacobian of the element whose sides at a corner are perpendicular and of length 1.
     pub unit_jacobian: f64,
     /// Local node numbers of each facet, in the order of the facet's own nodes. In the plane the

@@ -15,6 +15,9 @@ import sys
 import time
 
 import FreeCAD
+import ObjectsFem
+import Part
+from femmesh import gmshtools
 from femtools import ccxtools
 
 # Example of FreeCAD, what it shows, and what explains a difference.
@@ -27,12 +30,15 @@ EXAMPLES = [
     ("boxanalysis_static", "pressure, forces"),
     ("constraint_contact_solid_solid", "contact", "ccx' contact is a spring, here it is hard "
      "up to the slope of the deck; nodes at the edge are held"),
+    ("press_fit", "press fit", "ccx' contact is a spring"),
     ("constraint_tie", "tie", "three nodes in a line are fixed, about which it turns freely: "
      "the displacements are anybody's, the stresses count; the tie holds in the mean"),
     ("constraint_section_print", "section print"),
     ("constraint_selfweight_cantilever", "own weight"),
     ("constraint_centrif", "rotation", "nothing holds the disc along x: ccx moves it by kilometres"),
+    ("constraint_transform_beam_hinged", "transform"),
     ("constraint_transform_torque", "transform"),
+    ("rc_wall_2d", "plane stress"),
     ("material_nl_platewithhole", "plasticity"),
     ("material_multiple_bendingbeam_fiveboxes", "several materials"),
     ("material_multiple_tensionrod_twoboxes", "several materials"),
@@ -41,6 +47,58 @@ EXAMPLES = [
     ("thermomech_spine", "heat flow"),
     ("constraint_contact_shell_shell", "shells"),
 ]
+
+
+def press_fit(doc, kind):
+    """A quarter of a sleeve on a shaft that is 0.02 thicker than its bore, drawn as they overlap."""
+    def quarter(inner, outer, height):
+        zero, up = FreeCAD.Vector(0, 0, 0), FreeCAD.Vector(0, 0, 1)
+        bored = Part.makeCylinder(inner, height, zero, up, 90)
+        return Part.makeCylinder(outer, height, zero, up, 90).cut(bored)
+
+    shaft, sleeve = quarter(2.0, 5.01, 4.0), quarter(5.0, 10.0, 4.0)
+    parts = doc.addObject("Part::Feature", "Parts")
+    parts.Shape = Part.makeCompound([shaft, sleeve])
+    analysis = ObjectsFem.makeAnalysis(doc, "Analysis")
+    solver = ObjectsFem.makeSolverCalculixCcxTools(doc, "CalculiXccxTools")
+    solver.AnalysisType, solver.GeometricalNonlinearity = "static", "linear"
+    solver.ThermoMechSteadyState, solver.IterationsControlParameterTimeUse = False, False
+    analysis.addObject(solver)
+    steel = ObjectsFem.makeMaterialSolid(doc, "Steel")
+    material = steel.Material
+    material.update(Name="Steel", YoungsModulus="200000 MPa", PoissonRatio="0.30")
+    steel.Material = material
+    analysis.addObject(steel)
+
+    faces = {"x": [], "y": [], "z": []}
+    contact = {}
+    for number, face in enumerate(parts.Shape.Faces, 1):
+        name, box = "Face%d" % number, face.BoundBox
+        for axis in "xyz":
+            low, high = getattr(box, axis.upper() + "Min"), getattr(box, axis.upper() + "Max")
+            if abs(high) + abs(low) < 1e-6:
+                faces[axis].append((parts, name))
+        radius = getattr(face.Surface, "Radius", 0.0)
+        if abs(radius - 5.005) < 0.006:
+            contact[radius] = (parts, name)
+    for axis, held in faces.items():
+        support = ObjectsFem.makeConstraintDisplacement(doc, "Plane" + axis)
+        support.References = held
+        setattr(support, axis + "Free", False)
+        setattr(support, axis + "Fix", True)
+        analysis.addObject(support)
+    pair = ObjectsFem.makeConstraintContact(doc, "Fit")
+    pair.References = [contact[5.0], contact[max(contact)]]
+    pair.Friction, pair.Slope = 0.0, 1e7
+    analysis.addObject(pair)
+    mesh = analysis.addObject(ObjectsFem.makeMeshGmsh(doc, "Mesh"))[0]
+    mesh.Part, mesh.CharacteristicLengthMax, mesh.SecondOrderLinear = parts, 1.0, False
+    doc.recompute()
+    gmshtools.GmshTools(mesh).create_mesh()
+    doc.recompute()
+
+
+OWN = {"press_fit": press_fit}
 
 
 def solver_of(doc):
@@ -113,9 +171,9 @@ def main():
         if chosen and name not in chosen:
             continue
         try:
-            module = importlib.import_module("femexamples." + name)
+            setup = OWN.get(name) or importlib.import_module("femexamples." + name).setup
             doc = FreeCAD.newDocument(name)
-            module.setup(doc, "ccxtools")
+            setup(doc, "ccxtools")
             doc.recompute()
             other = solve(doc, ccx, os.path.join(out, name, "ccx"))
             own = solve(doc, program, os.path.join(out, name, "brinell"))

@@ -141,7 +141,6 @@ pub(super) static TET4: Reference = Reference {
     full: CENTROID_OF_TETRAHEDRON,
     sampling: CENTROID_OF_TETRAHEDRON,
     has_mean_dilatation: false,
-    checked: TETRAHEDRON.split_at(1).0,
     unit_jacobian: 1.0,
     facets: &[&[0, 2, 1], &[0, 1, 3], &[1, 2, 3], &[2, 0, 3]],
     edges: &EDGES_OF_TETRAHEDRON,
@@ -161,19 +160,6 @@ pub(super) static TET10: Reference = Reference {
     full: INNER_4,
     sampling: INNER_4,
     has_mean_dilatation: false,
-    checked: &{
-        let mut places = [[0.0; 3]; 14];
-        let mut k = 0;
-        while k < 14 {
-            places[k] = if k < 10 {
-                TETRAHEDRON[k]
-            } else {
-                INNER_4[k - 10].0
-            };
-            k += 1;
-        }
-        places
-    },
     unit_jacobian: 1.0,
     facets: &[
         &[0, 2, 1, 6, 5, 4],
@@ -211,17 +197,6 @@ const INNER_3X3: &Rule = &{
 };
 const CENTER_OF_PRISM: &Rule = &[([1.0 / 3.0, 1.0 / 3.0, 0.0], 1.0)];
 
-/// Corners and Gauss points.
-const CHECKED_OF_PRISM: [Place; 12] = {
-    let mut places = [[0.0; 3]; 12];
-    let mut k = 0;
-    while k < 12 {
-        places[k] = if k < 6 { PRISM[k] } else { INNER_3X2[k - 6].0 };
-        k += 1;
-    }
-    places
-};
-
 pub(super) static PRISM6: Reference = Reference {
     name: "prism6",
     dimension: 3,
@@ -233,7 +208,6 @@ pub(super) static PRISM6: Reference = Reference {
     full: INNER_3X2,
     sampling: CENTER_OF_PRISM,
     has_mean_dilatation: true,
-    checked: &CHECKED_OF_PRISM,
     unit_jacobian: 0.5,
     facets: &[
         &[0, 2, 1],
@@ -260,7 +234,6 @@ pub(super) static PRISM15: Reference = Reference {
     full: INNER_3X3,
     sampling: INNER_3X2,
     has_mean_dilatation: false,
-    checked: &CHECKED_OF_PRISM,
     unit_jacobian: 0.5,
     facets: &[
         &[0, 2, 1, 8, 7, 6],
@@ -275,17 +248,6 @@ pub(super) static PRISM15: Reference = Reference {
     gmsh_order: &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
 };
 
-/// Corners and Gauss points.
-const CHECKED_OF_CUBE: [Place; 16] = {
-    let mut places = [[0.0; 3]; 16];
-    let mut k = 0;
-    while k < 16 {
-        places[k] = if k < 8 { CUBE[k] } else { GAUSS_2X2X2[k - 8].0 };
-        k += 1;
-    }
-    places
-};
-
 pub(super) static HEX8: Reference = Reference {
     name: "hex8",
     dimension: 3,
@@ -297,7 +259,6 @@ pub(super) static HEX8: Reference = Reference {
     full: GAUSS_2X2X2,
     sampling: CENTER_OF_CUBE,
     has_mean_dilatation: true,
-    checked: &CHECKED_OF_CUBE,
     unit_jacobian: 0.125,
     facets: &[
         &[0, 3, 2, 1],
@@ -325,7 +286,6 @@ pub(super) static HEX20: Reference = Reference {
     full: GAUSS_3X3X3,
     sampling: GAUSS_2X2X2,
     has_mean_dilatation: false,
-    checked: &CHECKED_OF_CUBE,
     unit_jacobian: 0.125,
     facets: &[
         &[0, 3, 2, 1, 11, 10, 9, 8],
