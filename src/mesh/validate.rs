@@ -280,9 +280,10 @@ pub(crate) fn warning_of_folds(mesh: &Mesh) -> Option<String> {
     let elements = (0..mesh.n_elements()).into_par_iter();
     let folded: Vec<usize> = elements.with_min_len(GRAIN).filter(is_folded).collect();
     let first = *folded.first()?;
-    let others = match folded.len() {
-        1 => String::new(),
-        n => format!(" and {} other elements", n - 1),
+    let others = match folded.len() - 1 {
+        0 => String::new(),
+        1 => " and another element".to_string(),
+        n => format!(" and {n} other elements"),
     };
     Some(format!(
         "{}{others}: turned inside out at a node (negative Jacobian), not where stresses are \

@@ -36,9 +36,10 @@ EXAMPLES = [
     ("constraint_section_print", "section print"),
     ("constraint_selfweight_cantilever", "own weight"),
     ("constraint_centrif", "rotation", "nothing holds the disc along x: ccx moves it by kilometres"),
-    ("constraint_transform_beam_hinged", "transform"),
+    ("constraint_transform_beam_hinged", "transform", "nothing holds the beam along its hinges: "
+     "the displacements are anybody's, the stresses count"),
     ("constraint_transform_torque", "transform"),
-    ("rc_wall_2d", "plane stress"),
+    ("rc_wall_2d", "shells"),
     ("material_nl_platewithhole", "plasticity"),
     ("material_multiple_bendingbeam_fiveboxes", "several materials"),
     ("material_multiple_tensionrod_twoboxes", "several materials"),
