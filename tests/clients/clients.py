@@ -9,14 +9,19 @@ either program (largest displacement and von Mises stress), the largest differen
 largest value, and the seconds of both.
 """
 
+import glob
 import importlib
 import os
+import shutil
+import subprocess
 import sys
 import time
 
 import FreeCAD
 import ObjectsFem
 import Part
+import femtest
+from feminout import importCcxFrdResults
 from femmesh import gmshtools
 from femtools import ccxtools
 
@@ -162,6 +167,47 @@ def compared(name, what, own, other):
         name, what, largest, off, most, off_mises, seconds, seconds_ccx)
 
 
+def read_back(deck, program, folder):
+    """Runs a deck of FreeCAD's tests and reads the results by FreeCAD's importer, as `solve` does."""
+    os.makedirs(folder, exist_ok=True)
+    name = os.path.splitext(os.path.basename(deck))[0]
+    shutil.copy(deck, folder)
+    start = time.time()
+    run = subprocess.run([program, "-i", name], cwd=folder, capture_output=True, text=True)
+    seconds = time.time() - start
+    if run.returncode:
+        lines = [line.strip() for line in run.stdout.splitlines() if "*ERROR" in line]
+        return None, None, seconds, "; ".join(lines)[:300] or "exit %s" % run.returncode
+    doc = FreeCAD.newDocument("ReadBack")
+    importCcxFrdResults.importFrd(os.path.join(folder, name + ".frd"))
+    found = [o for o in doc.Objects if o.isDerivedFrom("Fem::FemResultObject")]
+    if not found:
+        FreeCAD.closeDocument(doc.Name)
+        return None, None, seconds, "no result object"
+    result = found[-1]
+    moved = dict(zip(result.NodeNumbers, result.DisplacementVectors))
+    mises = dict(zip(result.NodeNumbers, result.vonMises))
+    FreeCAD.closeDocument(doc.Name)
+    return moved, mises, seconds, ""
+
+
+def decks_of_tests(program, ccx, out, chosen):
+    """A line for each deck of FreeCAD's own tests."""
+    folder = os.path.join(os.path.dirname(femtest.__file__), "data", "calculix")
+    for deck in sorted(glob.glob(os.path.join(folder, "*.inp"))):
+        name = os.path.basename(deck)
+        if chosen and name not in chosen:
+            continue
+        try:
+            other = read_back(deck, ccx, os.path.join(out, name, "ccx"))
+            own = read_back(deck, program, os.path.join(out, name, "brinell"))
+            line = compared(name, "", own, other)
+        except Exception as error:
+            line = "| %s | | | | | %s: %s |" % (name, type(error).__name__, error)
+        with open(os.path.join(out, "decks.md"), "a") as table:
+            table.write(" ".join(line.split()) + "\n")
+
+
 def main():
     program = os.environ["BRINELL_CCX"]
     ccx = os.environ.get("CCX", "/usr/bin/ccx")
@@ -187,6 +233,7 @@ def main():
             line = line[:-1].rstrip() + " " + why[0] + " |"
         with open(os.path.join(out, "freecad.md"), "a") as table:
             table.write(line + "\n")
+    decks_of_tests(program, ccx, out, chosen)
 
 
 main()

@@ -50,8 +50,8 @@ def plastic(load, cells, layers, steps):
     contact = tm.PolonskyKeerRey(model, sphere(cells, size), 1e-10)
     solver = tm.EPICSolver(contact, flow, 1e-6)
     for step in range(1, steps + 1):
+        # Which ends with what flowed being kept.
         solver.acceleratedSolve(load / size**2 * step / steps)
-        flow.updateState()
     return float(np.max(np.asarray(model.traction)[..., 2]))
 
 
