@@ -12,6 +12,8 @@
 //! Mechanics* (2000), section 2.5.)
 
 use crate::mesh::Mesh;
+use crate::model::Model;
+use crate::results::Results;
 use crate::space::{Vector, difference, length};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -102,4 +104,47 @@ impl Deformation {
         );
         (text, is_small)
     }
+}
+
+/// What a deck is told that asks for large displacements where material flows at a stress that is
+/// not small beside the slope of its curve: where flow spreads through a body, the change of its
+/// sections then matters as much as hardening does (A. Considere, *Annales des ponts et chaussees*,
+/// 1885), however small strains are.
+pub(super) fn softened(model: &Model, results: &Results, place: &str) -> Option<String> {
+    let states = &results.states;
+    let strain = states
+        .iter()
+        .map(|state| state.max_equivalent_plastic_strain);
+    let strain = strain.fold(0.0, f64::max);
+    let flowed = |body: usize| {
+        let mut counts = states
+            .iter()
+            .map(|state| state.plastic_points_by_body.get(body));
+        counts.any(|count| count.is_some_and(|count| *count > 0))
+    };
+    let shares = model
+        .materials
+        .iter()
+        .enumerate()
+        .filter_map(|(body, material)| {
+            let curve = material.hardening.as_ref().filter(|_| flowed(body))?;
+            let slope = curve.slope(strain) + material.back_stresses.linear();
+            Some((curve.yield_stress(strain) / slope, body))
+        });
+    let (share, body) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let body = &model.mesh.bodies[body];
+    (share > LARGE).then(|| {
+        let (how, added) = match share.is_finite() {
+            true => {
+                let share = format!("{:.0} %", 100.0 * share);
+                (format!("at {share} of the slope of its curve"), share)
+            }
+            false => ("without hardening".to_string(), "a multiple".to_string()),
+        };
+        format!(
+            "{place}: *STEP: NLGEOM: body {body} flows {how}: where flow spreads through all of a \
+             section, the change of the section adds some {added} to plastic strains and \
+             displacements; small displacements leave that out"
+        )
+    })
 }

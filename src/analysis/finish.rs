@@ -1,5 +1,6 @@
 //! What a run leaves at its end, wherever that is.
 
+use super::deformation::softened;
 use super::program::Run;
 use super::stopwatch::Row;
 use super::{check, quality};
@@ -56,6 +57,10 @@ impl Run<'_, '_> {
             let (text, is_small) = self.position.deformation.taken_small(place);
             self.observer.warning(&text);
             results.warnings.push(text.clone());
+            if let Some(text) = softened(model, &results, place) {
+                self.observer.warning(&text);
+                results.warnings.push(text);
+            }
             if !is_small {
                 results.inaccurate.push(text);
             }

@@ -1,6 +1,7 @@
 //! Elements that a mesher writes to name boundaries: Gmsh writes the curves of a plane mesh as
-//! trusses (`T3D2`), the surfaces of a solid one as plane elements (`CPS3`). A set of them stands
-//! for the faces that they lie on.
+//! trusses (`T3D2`), the surfaces of a solid one as plane elements (`CPS3`), meshio as beams,
+//! shells and rigid facets (`B31H`, `S8R5`, `R3D3`). A set of them stands for the faces that they
+//! lie on.
 //!
 //! They have no stiffness here. A deck that gives them a section is refused.
 
@@ -15,7 +16,7 @@ use crate::error::Result;
 use crate::space::Space;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Line elements, and plane ones beside solids, by their numbers.
+/// Lines and shells, and plane elements beside solids, by their numbers.
 #[derive(Debug, Clone, Default)]
 pub(super) struct BoundaryElements {
     /// Nodes of each, as numbered in the deck.
@@ -24,11 +25,15 @@ pub(super) struct BoundaryElements {
     types: BTreeMap<String, Place>,
 }
 
-/// The number of nodes of a line element's type.
-pub(super) fn nodes_of_line(name: &str) -> Option<usize> {
+/// The number of nodes of a type of lines or shells, which have no stiffness without a section.
+pub(super) fn nodes_of_boundary(name: &str) -> Option<usize> {
     match plain(name).trim_end_matches('H') {
         "T2D2" | "T3D2" | "B21" | "B23" | "B31" | "B33" => Some(2),
         "T2D3" | "T3D3" | "B22" | "B32" => Some(3),
+        "S3" | "S3R" | "STRI3" | "M3D3" | "R3D3" => Some(3),
+        "S4" | "S4R" | "M3D4" | "M3D4R" | "R3D4" => Some(4),
+        "S6" | "STRI65" | "M3D6" => Some(6),
+        "S8" | "S8R" | "S8R5" | "M3D8" | "M3D8R" => Some(8),
         _ => None,
     }
 }

@@ -20,6 +20,7 @@ const REDUCED: &str =
     "one point with hourglass control there; here full integration with mean dilatation (B-bar)";
 const MODES: &str = "incompatible modes there; here mean dilatation (B-bar), without them";
 const HYBRID: &str = "pressure unknowns there; here none: mean dilatation, or the same points";
+const PORE: &str = "pore pressures there; here none";
 const MODIFIED: &str = "modified there; here the plain quadratic element";
 
 /// Families of the plane, by the beginning of their names.
@@ -90,6 +91,7 @@ fn in_plane(rest: &str) -> Found {
         "4R" | "4RH" => (Shape::Quad4, Some(REDUCED)),
         "4I" | "4IH" => (Shape::Quad4, Some(MODES)),
         "4H" => (Shape::Quad4, Some(HYBRID)),
+        "4P" => (Shape::Quad4, Some(PORE)),
         "6" => (Shape::Tri6, None),
         "6H" => (Shape::Tri6, Some(HYBRID)),
         "6M" | "6MH" => (Shape::Tri6, Some(MODIFIED)),

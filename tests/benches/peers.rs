@@ -13,9 +13,9 @@
 //! CalculiX's long ones once; `-- decks DIR` only writes its decks; `-- solid` takes the ball of
 //! `data/peers/ball_contact.toml` in three dimensions, loaded to five times first yield and back,
 //! and one elastic load (`peers/solid.rs`; `-- quadratic` in elements of 20 nodes, `-- tamaas`
-//! beside Tamaas, which it installs from PyPI into `target`); `-- hard DIR` runs three small cases on
-//! which contact codes fail silently (`data/peers/README.md`); `-- unlike` compares pressures where
-//! the meshes of the two bodies do not match (`peers/unlike.rs`).
+//! beside Tamaas, which it installs from PyPI into `target`); `-- hard DIR` runs three small cases
+//! on which contact codes fail silently (`data/peers/README.md`); `-- unlike` compares pressures
+//! where the meshes of the two bodies do not match (`peers/unlike.rs`).
 
 #[path = "peers/deck.rs"]
 mod deck;

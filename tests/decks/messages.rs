@@ -177,12 +177,12 @@ fn messages_of_a_deck_have_no_keys_of_scenes() {
 /// Large displacements are computed as small ones where they are small.
 #[test]
 fn nlgeom_is_measured() {
-    let large = |pressure: &str| {
+    let with = |pressure: &str, curve: &str| {
         let text = DECK.replace("*STEP\n", "*STEP, NLGEOM\n");
         let text = text
             .replace("*END STEP, NLGEOM", "*END STEP")
             .replace("50.", pressure);
-        let text = text.replace("*PLASTIC\n300., 0.\n400., 0.1\n", "");
+        let text = text.replace("*PLASTIC\n300., 0.\n400., 0.1\n", curve);
         let work = tempfile::tempdir().unwrap();
         let path = work.path().join("deck.inp");
         std::fs::write(&path, text).unwrap();
@@ -193,6 +193,7 @@ fn nlgeom_is_measured() {
             .run(&mut Silent)
             .unwrap()
     };
+    let large = |pressure: &str| with(pressure, "");
     let small = large("50.");
     let said = small
         .warnings
@@ -204,6 +205,16 @@ fn nlgeom_is_measured() {
         "{said}"
     );
     assert!(brinell::output::ending(&small).is_ok());
+    // Flow at a stress that is a third of the slope of its curve, and at one that is a hundredth.
+    let flows = |slope: &str| {
+        let curve = format!("*PLASTIC\n300., 0.\n{slope}, 0.1\n");
+        let results = with("360.", &curve);
+        assert!(results.states[0].plastic_points > 0);
+        let mut warnings = results.warnings.into_iter();
+        warnings.find(|text| text.contains("of the slope of its curve"))
+    };
+    assert!(flows("400.").unwrap().contains(" flows at 3"));
+    assert_eq!(flows("3400."), None);
     let error = brinell::output::ending(&large("50000.")).unwrap_err();
     assert!(
         error.to_string().contains("compute with --small-strain"),

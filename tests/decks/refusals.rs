@@ -271,8 +271,13 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
     for (old, new, expected) in [
         (
             "TYPE=CPE4",
-            "TYPE=S4R",
-            "line 8: *ELEMENT: TYPE=S4R: shells and membranes are not",
+            "TYPE=S9R5",
+            "line 8: *ELEMENT: TYPE=S9R5: shells and membranes are not",
+        ),
+        (
+            before,
+            "*SHELL SECTION, ELSET=BODY",
+            "bodies are continua: there are no shells, beams or membranes",
         ),
         (
             "*CLOAD",

@@ -28,6 +28,48 @@ fn sets_and_surfaces_are_those_of_the_mesh() {
     assert_eq!(mesh.node_sets["BASE"], [0, 1]);
 }
 
+/// As meshio writes solids with facets and lines: types of its own choice, sets without sections.
+#[test]
+fn facets_and_lines_of_meshio_are_surfaces() {
+    let text = "\
+*HEADING
+Abaqus DataFile Version 6.14
+written by meshio v5.3.5
+*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 1.
+6, 1., 0., 1.
+7, 1., 1., 1.
+8, 0., 1., 1.
+*ELEMENT, TYPE=C3D8RH
+1,1,2,3,4,5,6,7,8
+*ELEMENT, TYPE=CAX4P
+2,1,4,8,5
+3,2,3,7,6
+*ELEMENT, TYPE=R3D3
+4,1,2,3
+*ELEMENT, TYPE=B31H
+5,1,2
+*ELSET, ELSET=BAR
+1
+*ELSET, ELSET=ENDS
+2,3
+*NSET, NSET=LEFT
+1,4,8,5
+";
+    let mesh = inp::mesh(&Deck::parse(text.as_bytes(), "meshio.inp").unwrap()).unwrap();
+    mesh::validate(&mesh).unwrap();
+    assert_eq!(mesh.bodies, ["BAR"]);
+    assert_eq!(mesh.n_elements(), 1);
+    assert_eq!(mesh.node_sets["LEFT"], [0, 3, 4, 7]);
+    let ends = &mesh.surfaces["ENDS"].facets;
+    assert_eq!(ends.len(), 2);
+    assert!(ends.iter().all(|facet| facet.element == 0));
+}
+
 /// Without sections the sets of elements are the bodies: a deck may be a mesh alone.
 #[test]
 fn a_deck_may_be_a_mesh_alone() {

@@ -1,7 +1,7 @@
 //! Nodes, elements, sets and surfaces.
 
 use super::{Reader, fields};
-use crate::deck::boundary::nodes_of_line;
+use crate::deck::boundary::nodes_of_boundary;
 use crate::deck::data::{Elements, Member, Nodes, SurfacePart, Target};
 use crate::deck::element_type::ElementType;
 use crate::deck::fields::Fields;
@@ -29,8 +29,8 @@ impl Reader<'_> {
         let files = &self.source.files;
         keyword.allow(files, &["TYPE", "ELSET"])?;
         let name = keyword.require(files, "TYPE")?;
-        if let Some(n) = nodes_of_line(name) {
-            return self.line_elements(keyword, n);
+        if let Some(n) = nodes_of_boundary(name) {
+            return self.boundary_elements(keyword, n);
         }
         let element_type = ElementType::from_name(name).map_err(|why| {
             let error = keyword.error(files, why);
@@ -52,8 +52,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Line elements with so many nodes.
-    fn line_elements(&mut self, keyword: &Keyword, n: usize) -> Result<()> {
+    /// Lines or shells with so many nodes.
+    fn boundary_elements(&mut self, keyword: &Keyword, n: usize) -> Result<()> {
         let name = keyword.require(&self.source.files, "TYPE")?;
         self.deck.boundary.note_type(name, keyword.place);
         while let Some(line) = self.source.next_data()? {

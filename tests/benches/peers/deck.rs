@@ -183,8 +183,8 @@ pub fn deck(model: &Model, settings: &Settings, legs: &[f64]) -> Result<String, 
     };
     for &alpha in legs {
         say(format!(
-            "*STEP, INC=1000\n*STATIC{solver}\n{step}, 1., 1e-6, {step}\n{}\n*NODE FILE\nU\n*CONTACT\x20\
-             FILE\nCDIS, CSTR\n*END STEP",
+            "*STEP, INC=1000\n*STATIC{solver}\n{step}, 1., 1e-6, {step}\n{}\n*NODE FILE\nU\n\
+             *CONTACT FILE\nCDIS, CSTR\n*END STEP",
             applied(alpha)
         ));
     }
