@@ -137,13 +137,16 @@ pub(super) fn softened(model: &Model, results: &Results, place: &str) -> Option<
         let (how, added) = match share.is_finite() {
             true => {
                 let share = format!("{:.0} %", 100.0 * share);
-                (format!("at {share} of the slope of its curve"), share)
+                (
+                    format!("at a stress of {share} of the slope of its curve"),
+                    format!("some {share}"),
+                )
             }
             false => ("without hardening".to_string(), "a multiple".to_string()),
         };
         format!(
             "{place}: *STEP: NLGEOM: body {body} flows {how}: where flow spreads through all of a \
-             section, the change of the section adds some {added} to plastic strains and \
+             section, the change of the section adds {added} to plastic strains and \
              displacements; small displacements leave that out"
         )
     })

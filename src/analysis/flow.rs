@@ -22,6 +22,10 @@ const MODERATE: f64 = 3.0;
 /// Contact Mechanics, 1985, section 6.3).
 const DEEP: f64 = 20.0;
 
+/// Load over that at first yield beyond which nothing is left of small strains, however stiff the
+/// material: there the leg alone counts.
+const FAR: f64 = 1e6;
+
 /// Where flow began, and what the load was before.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Flow {
@@ -69,7 +73,8 @@ impl Flow {
         let leg = share_of(gone, left, gone + left, path_error);
         // Only load beyond all that was there before drives flow deeper.
         let beyond = size(end) - size(at).max(self.range);
-        if self.range == 0.0 || beyond <= 0.0 || size(end) <= self.farthest {
+        let is_far = size(end) > FAR * self.range;
+        if is_far || beyond <= 0.0 || size(end) <= self.farthest {
             return leg;
         }
         let gone = size(at).max(self.range) - self.range;
@@ -164,7 +169,8 @@ mod tests {
         assert_eq!(ends(&flow, 1.0, 145.0).len(), 4 * each - 2);
         let tenfold = |load: f64| ends(&flow, load, 10.0 * load).len();
         let deep = (0.5 * 10f64.ln() * DEEP / (MODERATE * STEP)).ceil() as usize;
-        assert_eq!([tenfold(1e3), tenfold(1e4), tenfold(1e6)], [deep; 3]);
+        assert_eq!([tenfold(1e3), tenfold(1e4), tenfold(1e5)], [deep; 3]);
+        assert_eq!(ends(&flow, 1.0, 1e300).len(), each);
         // Half a leg later the other half is left.
         let half = ends(&flow, 1.0 + 0.25 * 144.0, 145.0).len();
         assert!(half.abs_diff(2 * each) <= 1, "{half}");

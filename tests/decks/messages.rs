@@ -213,7 +213,7 @@ fn nlgeom_is_measured() {
         let mut warnings = results.warnings.into_iter();
         warnings.find(|text| text.contains("of the slope of its curve"))
     };
-    assert!(flows("400.").unwrap().contains(" flows at 3"));
+    assert!(flows("400.").unwrap().contains(" flows at a stress of 3"));
     assert_eq!(flows("3400."), None);
     let error = brinell::output::ending(&large("50000.")).unwrap_err();
     assert!(
