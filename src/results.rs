@@ -228,6 +228,9 @@ pub struct State {
     pub load_is_given: bool,
     /// Sum of all contact forces.
     pub contact_force: f64,
+    /// Pairs of nodes that touch.
+    #[serde(default)]
+    pub closed_pairs: usize,
     /// Maximum contact pressure.
     pub max_pressure: f64,
     /// Pressure at the first pair of the contact surface that lies on a symmetry plane, or at the

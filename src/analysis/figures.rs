@@ -81,6 +81,7 @@ impl Reading<'_, '_> {
             load,
             load_is_given: false,
             contact_force: figures.force * self.solver.structure.model.symmetry,
+            closed_pairs: self.solver.closed_pairs(),
             max_pressure: figures.max_pressure,
             pole_pressure: figures.pole_pressure,
             half_width: figures.half_width,

@@ -3,7 +3,7 @@
 //! one adds its field to [`State`] with its computation, an entry here, and what it means to the
 //! schema, which a test holds to this table.
 
-use super::{HistoryRow, PairState, PathPoint, Results, State, Status, YieldPoint};
+use super::{HistoryRow, PathPoint, Results, State, YieldPoint};
 
 /// What a quantity is measured in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -192,7 +192,7 @@ pub static QUANTITIES: [Quantity; 17] = [
         heading: "load", estimated: error("load", false, true)),
     entry!(contact_force, Load, Contact, [in_history],
         heading: "contact\nforce", twin: Some("load")),
-    entry!(CLOSED_PAIRS, closed_pairs, One, Contact, [in_history], is_count: true),
+    entry!(closed_pairs, One, Contact, [in_history], is_count: true),
     entry!(max_pressure, Stress, Contact, [at_yield in_history on_path],
         heading: "max\npressure", estimated: error("pressure", false, true)),
     entry!(pole_pressure, Stress, Contact, [],
@@ -217,15 +217,6 @@ pub static QUANTITIES: [Quantity; 17] = [
     entry!(plastic_depth, Length, YieldingContact, []),
     entry!(ENERGY_ERROR, energy_error, One, Always, []),
 ];
-
-/// It follows from the pairs.
-const CLOSED_PAIRS: Field<State> = Field {
-    get: |state| {
-        let closed = |pair: &&PairState| pair.status == Status::Closed;
-        state.pairs.iter().filter(closed).count() as f64
-    },
-    set: |_, _| {},
-};
 
 /// Known where fields are.
 const ENERGY_ERROR: Field<State> = Field {

@@ -241,9 +241,10 @@ fn in_words(message: &str) -> String {
             found = format!("{words}{rest}");
         }
     }
-    // A list of one entry: the most natural slip in TOML.
+    // A list of one entry, or a vector by its components: the most natural slips in TOML.
     if found == "wrong type: table" && expected == "a sequence" {
-        return "a single table, expected a list of them: write its head with two brackets, [[...]]"
+        return "a single table, expected a list: write the head of one of several tables with two \
+                brackets, [[...]], values as [1.0, 2.0]"
             .to_string();
     }
     let expected = match expected {

@@ -96,6 +96,26 @@ fn a_sweep_has_a_row_per_point_and_goes_on_where_it_was() {
     assert!((approach(0) / approach(2) - 2.0).abs() < 1e-9);
 
     let dir = folder.path().join("patch.sweep");
+    // Figures of states are those of the run.
+    let of_point = dir.join("youngs_modulus_100000.0-poissons_ratio_0.0/summary.json");
+    let summary = std::fs::read_to_string(of_point).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let state = &summary["states"][0];
+    let name = state["name"].as_str().unwrap();
+    let figures = points[0]["figures"].as_object().unwrap();
+    let of_state = |path: &str| Some(path.strip_prefix(&format!("states.{name}."))?.to_string());
+    let mut compared = 0;
+    for (path, value) in figures {
+        if let Some(key) = of_state(path) {
+            assert_eq!(value.as_f64(), state[&key].as_f64(), "{path}");
+            compared += 1;
+        }
+    }
+    assert!(
+        compared > 5 && state["closed_pairs"].as_u64() > Some(0),
+        "{figures:?}"
+    );
+
     let table = std::fs::read_to_string(dir.join("sweep.csv")).unwrap();
     assert_eq!(table.lines().count(), 5, "{table}");
     let head = "materials.steel.youngs_modulus,materials.steel.poissons_ratio,exit_code,message,";

@@ -85,6 +85,7 @@ pub fn results(mesh: &Mesh) -> Results {
         adhesion: 4e-17,
     };
     let pressed = State {
+        closed_pairs: 1,
         name: "b = 1.5 b*".into(),
         alpha: 2.0635,
         load: 123.456,

@@ -98,3 +98,48 @@ fn bad_input_is_named() {
         }
     }
 }
+
+/// A grid of three by three places, of which the one in the middle has no height.
+#[test]
+fn a_file_of_heights_with_a_hole_is_named_with_the_place() {
+    let folder = tempfile::tempdir().unwrap();
+    let places = (0..3).flat_map(|x| (0..3).map(move |y| (x, y)));
+    let lines = places.filter(|place| *place != (1, 1));
+    let text: String = lines.map(|(x, y)| format!("{x},{y},0.5\n")).collect();
+    let file = folder.path().join("heights.csv");
+    std::fs::write(&file, text).unwrap();
+    let scene = format!(
+        r#"kind = "solid"
+[[mesh.parts]]
+body = "block"
+brick = {{ x = [0.0, 1.0], y = [0.0, 1.0], z = [-1.0, 0.0], elements = [2, 2, 2] }}
+[materials.steel]
+youngs_modulus = 210e3
+poissons_ratio = 0.3
+[bodies.block]
+material = "steel"
+[rigid.rough]
+heights = {{ file = {file:?} }}
+[[contact]]
+first = "rough"
+second = "block.top"
+[[support]]
+on = "block.bottom"
+fix = ["x", "y", "z"]
+[[load]]
+on = "rough"
+force = [0.0, 0.0, -1.0]
+[program]
+targets = [{{ load_factor = 1.0 }}]
+"#
+    );
+    let refused = brinell::scene::Scene::parse(&scene, "rough.toml")
+        .and_then(|scene| brinell::model::Model::new(&scene));
+    let error = refused.map(|_| ()).unwrap_err();
+    assert_eq!(error.kind().exit_code(), 2, "{error}");
+    let text = error.to_string();
+    assert!(
+        text.contains("no height at x = 1, y = 1") && text.contains("heights.csv"),
+        "{text}"
+    );
+}

@@ -35,7 +35,7 @@ pub(in crate::cli) struct First {
     /// Poisson's ratio; by default 0.3
     #[arg(long, value_name = "NU", value_parser = poissons_ratio, allow_negative_numbers = true)]
     pub poissons_ratio: Option<f64>,
-    /// Yield stress [MPa]; by default 500
+    /// Yield stress [MPa]; by default 500 (`iso76` has none: the dent depends on it)
     #[arg(
         long,
         value_name = "Y",

@@ -116,8 +116,8 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
             "[[load]]",
             "[load]",
             &[
-                "load: a single table, expected a list of them: write its head with two brackets, \
-                 [[...]]",
+                "load: a single table, expected a list: write the head of one of several tables \
+                 with two brackets, [[...]]",
             ],
         ),
         (
