@@ -1,11 +1,11 @@
 //! Where flow began on the way of the load, and how long its increments may be.
 //!
-//! Strains go straight from one end of an increment to the other. How wrong that is depends on how
-//! far the contact, and with it the place of flow, moves meanwhile. Its size goes with the root of
-//! the load, its size at first yield with the root of the load there: increments are of equal
-//! length in the root of the load since flow began, at least as many as a leg of [`MODERATE`]
-//! takes, and more in proportion where the leg is longer. Beyond [`DEEP`] the field of flow grows
-//! as a whole, similar to itself, and increments grow with it.
+//! Within an increment strains follow a straight path. The error of that depends on how far the
+//! contact moves meanwhile, since flow moves with it. The size of a contact is about proportional
+//! to the root of its load: increments are of equal length in the root of the load since flow
+//! began, in units of the root of the load at first yield. Up to ten times that load
+//! ([`MODERATE`]) every leg takes the same number; a longer leg takes more in proportion. Beyond
+//! full plasticity ([`DEEP`]) the contact grows similar to itself, and increments grow with it.
 
 use super::load_point::LoadPoint;
 use serde::{Deserialize, Serialize};
@@ -18,12 +18,12 @@ const AT_STEP: f64 = 1e-3;
 /// Root of the load since flow began, over that of the elastic range before, of the leg on which
 /// [`STEP`] was found: the load went from one to ten times that at first yield.
 const MODERATE: f64 = 3.0;
-/// The same where contact is fully plastic: at some 400 times the load at first yield (Johnson,
-/// Contact Mechanics, 1985, section 6.3).
+/// The same root where the contact of a ball is fully plastic, taken at `E* a/(Y R) = 30`. That is
+/// 2.5 at first yield, and the mean pressure grows from 1.1 Y to nearly 3 Y: some 400 times the
+/// load (after Johnson, *Contact Mechanics*, 1985, chapter 6).
 const DEEP: f64 = 20.0;
-
-/// Load over that at first yield beyond which nothing is left of small strains, however stiff the
-/// material: there the leg alone counts.
+/// Load over that at first yield beyond which the leg alone counts: by the same figures a contact
+/// is then so wide, `a/R = 1500 Y/E*`, that strains are not small in any metal.
 const FAR: f64 = 1e6;
 
 /// Where flow began, and what the load was before.

@@ -9,6 +9,7 @@ pub mod generate;
 pub mod gmsh;
 pub mod inp;
 mod jacobian;
+mod nearest;
 pub(crate) mod node_values;
 mod of_body;
 mod part;

@@ -58,6 +58,7 @@ use crate::deck::words;
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh};
+use crate::number::significant;
 use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
 use crate::shape::Integration;
@@ -175,6 +176,7 @@ impl Model {
         })?;
         let kind = scene.kind;
         check_dimension(scene, &mesh)?;
+        check_places(scene, &mesh)?;
         let rigid = RigidBodies::add(scene, &mut mesh)?;
         let mut warnings = scene.warnings.clone();
         warnings.extend(scene.beyond_rows());
@@ -431,6 +433,27 @@ fn check_dimension(scene: &Scene, mesh: &Mesh) -> Result<()> {
         scene.kind.name()
     ));
     Err(scene.places.in_front("kind", error))
+}
+
+/// A reference for a place that lies in none of the elements.
+fn check_places(scene: &Scene, mesh: &Mesh) -> Result<()> {
+    for (index, entry) in scene.reference.iter().enumerate() {
+        let Some(place) = entry.place() else { continue };
+        let Some(near) = mesh.nearest_node(entry.body.as_deref(), place) else {
+            continue;
+        };
+        if near.distance > near.edge {
+            let [away, edge] = [near.distance, near.edge].map(|size| significant(size, 4));
+            let (node, at) = (mesh.node_label(near.node), mesh.place(near.node));
+            let key = format!("reference.{index}.at");
+            let error = Error::input(format!(
+                "{key}: the nearest node, {node} at {at}, is {away} away, more than an element is \
+                 long there ({edge}): give a place of the mesh"
+            ));
+            return Err(scene.places.in_front(&key, error));
+        }
+    }
+    Ok(())
 }
 
 fn check_radii(mesh: &Mesh) -> Result<()> {

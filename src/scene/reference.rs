@@ -1,6 +1,6 @@
 //! Published or exact values to compare with the computed ones.
 
-use crate::space::Space;
+use crate::space::{Space, Vector};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -31,6 +31,16 @@ pub struct Reference {
     pub value: Option<f64>,
     /// Where it comes from.
     pub source: Option<String>,
+}
+
+impl Reference {
+    /// The place that `at` gives.
+    pub(crate) fn place(&self) -> Option<Vector> {
+        let at = self.at.as_ref()?;
+        Some(std::array::from_fn(|axis| {
+            at.get(axis).copied().unwrap_or(0.0)
+        }))
+    }
 }
 
 /// A quantity of a place in a state.

@@ -6,9 +6,12 @@ use brinell::reference;
 use brinell::results::ReferenceRow;
 use brinell::scene::Scene;
 
+fn path(name: &str) -> String {
+    format!("{}/data/validation/{name}.toml", env!("CARGO_MANIFEST_DIR"))
+}
+
 fn rows(name: &str) -> Vec<ReferenceRow> {
-    let path = format!("{}/data/validation/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let scene = Scene::load(path).unwrap();
+    let scene = Scene::load(path(name)).unwrap();
     let mut results = run(&scene);
     reference::compare(&Model::new(&scene).unwrap(), &mut results);
     results.reference
@@ -88,4 +91,15 @@ fn a_rigid_sphere_on_a_box_is_that_of_deal_ii() {
         "{}",
         rows[0].computed
     );
+}
+
+/// A reference for a place that the mesh does not have would be that of a node far away.
+#[test]
+fn places_of_references_lie_in_the_mesh() {
+    let overrides = ["reference.0.at=[9.0, 9.0]".to_string()];
+    let scene = Scene::load_with(path("rings_uneven"), &overrides).unwrap();
+    let error = Model::new(&scene).unwrap_err();
+    assert_eq!(error.kind().exit_code(), 2, "{error}");
+    let told = error.to_string();
+    assert!(told.contains("reference.0.at: the nearest node"), "{told}");
 }

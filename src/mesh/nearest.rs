@@ -1,0 +1,42 @@
+//! The node nearest to a place.
+
+use super::Mesh;
+use crate::space::{Vector, difference, length};
+
+/// A node near a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NearestNode {
+    pub node: usize,
+    /// How far from the place.
+    pub distance: f64,
+    /// The longest edge of the elements at the node.
+    pub edge: f64,
+}
+
+impl Mesh {
+    /// The node nearest to `x`, of all bodies or of one; `None` where there is no such body.
+    pub(crate) fn nearest_node(&self, body: Option<&str>, x: Vector) -> Option<NearestNode> {
+        let is_of =
+            |e: usize| body.is_none_or(|body| self.bodies[self.element_body[e] as usize] == body);
+        let elements = || (0..self.n_elements()).filter(|&e| is_of(e));
+        let distance = |node: usize| length(difference(self.point(node), x));
+        let nodes = elements().flat_map(|e| self.nodes(e).iter().map(|&node| node as usize));
+        let (node, distance) = nodes
+            .map(|node| (node, distance(node)))
+            .min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))?;
+        let around = elements().filter(|&e| self.nodes(e).contains(&(node as u32)));
+        let edges = around.flat_map(|e| {
+            let nodes = self.nodes(e);
+            let edges = self.shapes[e].reference().edges.iter();
+            edges.map(|&[a, b]| {
+                let [a, b] = [a, b].map(|corner| self.point(nodes[corner] as usize));
+                length(difference(a, b))
+            })
+        });
+        Some(NearestNode {
+            node,
+            distance,
+            edge: edges.fold(0.0, f64::max),
+        })
+    }
+}
