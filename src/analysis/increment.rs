@@ -235,7 +235,7 @@ impl Stepper<'_, '_> {
             if balanced && arrived && stretched > most_stretched {
                 stretched = 1.0;
                 let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);
-                let initial = structure.eliminate(state.initial.load, cost);
+                let initial = structure.eliminate_initial(state.initial.load, cost);
                 state = self.solver.respond(&start.towards(end, t), initial);
                 continue;
             }
