@@ -1,6 +1,8 @@
 //! The structure that the project means to keep: module order, where `unsafe` lives, sizes, schema,
 //! scenes.
 
+mod imports;
+
 use brinell::scene::Scene;
 use serde_json::Value;
 use std::collections::BTreeSet;
