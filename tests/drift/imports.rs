@@ -1,7 +1,8 @@
 //! Which file of `src` uses which: paths of Rust, followed through re-exports to the file that
 //! defines what they name.
 
-use super::{code, files, is_test, module, name};
+use super::house::implemented;
+use super::{code, files, is_test, module, root};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The path of a module below the crate.
@@ -27,10 +28,11 @@ pub(super) struct Modules(BTreeMap<Path, Source>);
 
 impl Modules {
     /// The modules below `src`, tests left out: these look at whatever they test.
-    pub(super) fn read() -> Self {
+    pub(super) fn read(base: &std::path::Path) -> Self {
         let mut modules = BTreeMap::new();
-        for path in files("src", "rs") {
-            let name = name(&path);
+        for path in files(&base.join("src").to_string_lossy(), "rs") {
+            let name = path.strip_prefix(base).unwrap();
+            let name = name.to_string_lossy().replace('\\', "/");
             if !is_test(&name) && name != "src/main.rs" {
                 let text = code(&path);
                 let text = text.split("#[cfg(test)]\nmod tests {").next();
@@ -335,22 +337,28 @@ fn paths_are_followed_to_the_file_that_defines() {
     assert_eq!(of_a, [["src/a/one.rs", "src/a/two.rs"]]);
 }
 
+/// The rooms of `analysis`, from the bottom.
+fn rooms() -> Vec<String> {
+    let text = code(&root().join("src/analysis/mod.rs"));
+    let declared = text
+        .lines()
+        .filter_map(|line| line.strip_prefix("mod ")?.strip_suffix(';'));
+    declared.map(String::from).collect()
+}
+
+fn room_of(rooms: &[String], file: &str) -> Option<usize> {
+    let room = file.strip_prefix("src/analysis/")?.split('/').next()?;
+    rooms.iter().position(|other| other == room)
+}
+
 /// Inside `analysis` a room imports only from itself and from rooms declared above it in its
 /// `mod.rs`, and no two files use each other.
 #[test]
 fn rooms_of_analysis_import_from_above_only() {
-    let rooms: Vec<String> = code(&super::root().join("src/analysis/mod.rs"))
-        .lines()
-        .filter_map(|line| Some(line.strip_prefix("mod ")?.strip_suffix(';')?.to_string()))
-        .filter(|room| room != "tests")
-        .collect();
+    let rooms = rooms();
     assert_eq!(rooms.len(), 8, "{rooms:?}");
-    let place = |file: &str| {
-        let below = file.strip_prefix("src/analysis/")?;
-        let room = below.split('/').next()?;
-        rooms.iter().position(|other| other == room)
-    };
-    let modules = Modules::read();
+    let place = |file: &str| room_of(&rooms, file);
+    let modules = Modules::read(&root());
     let edges = modules.edges();
     let mut wrong = Vec::new();
     for (file, used) in &edges {
@@ -370,4 +378,62 @@ fn rooms_of_analysis_import_from_above_only() {
     // The files are seen at all.
     let inner = within(&edges, "analysis");
     assert!(inner.values().map(BTreeSet::len).sum::<usize>() > 200);
+}
+
+/// What a room adds to a type of another room is not called by those above it: a method is no way
+/// round the order. Names that several types have are left out.
+#[test]
+fn methods_that_a_room_adds_are_not_called_from_above() {
+    let modules = Modules::read(&root());
+    let in_analysis = |source: &&Source| source.file.starts_with("src/analysis/");
+    let sources: Vec<&Source> = modules.0.values().filter(in_analysis).collect();
+    let rooms = rooms();
+    let mut homes = BTreeMap::new();
+    let mut methods: BTreeMap<&str, Vec<(&str, usize)>> = BTreeMap::new();
+    for source in &sources {
+        let Some(room) = room_of(&rooms, &source.file) else {
+            continue;
+        };
+        let mut of = None;
+        for line in source.code.lines() {
+            let item = line
+                .split_once("struct ")
+                .or_else(|| line.split_once("enum "));
+            if let Some((_, item)) = item.filter(|_| !line.starts_with(' ')) {
+                homes.insert(words(item).next().unwrap_or(""), room);
+            }
+            if !line.starts_with(' ') {
+                of = implemented(line).or(of.filter(|_| line != "}"));
+            }
+            let method = line
+                .strip_prefix("    ")
+                .filter(|rest| !rest.starts_with(' '));
+            let method = method.and_then(|rest| rest.split_once("fn "));
+            if let (Some(of), Some((_, rest))) = (of, method) {
+                let name = words(rest).next().unwrap_or("");
+                methods.entry(name).or_default().push((of, room));
+            }
+        }
+    }
+    let mut added = 0;
+    let mut wrong = Vec::new();
+    for (name, of) in &methods {
+        let [(of, room)] = of[..] else { continue };
+        if homes.get(of).is_none_or(|home| *home >= room) {
+            continue;
+        }
+        added += 1;
+        let calls = [format!(".{name}("), format!("::{name}(")];
+        for source in &sources {
+            let is_above = room_of(&rooms, &source.file).is_some_and(|other| other < room);
+            if is_above && calls.iter().any(|call| source.code.contains(call)) {
+                wrong.push(format!(
+                    "{} calls {of}::{name} of a room below",
+                    source.file
+                ));
+            }
+        }
+    }
+    assert!(added > 10, "{added}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }

@@ -5,7 +5,6 @@ use super::contact_patch::{Patch, line_of};
 use crate::analysis::structure::solver::Solver;
 use crate::model::{AxisPoint, ContactSurface, Magnitude, Model, Pair};
 use crate::results::{ContactPatch, EdgeReading, PairState, Status};
-use std::borrow::Cow;
 
 /// Forces below this share of the largest are of pairs about to open or just closed: at a change of
 /// contact the force is zero up to round-off or gamma, and the extent of the contact must not
@@ -269,19 +268,6 @@ impl Solver<'_> {
             }
         }
         contact_figures(model, &force, self.scales.force)
-    }
-
-    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration
-    /// only, and to round-off: where all contact forces together are less than that, the bodies
-    /// have parted and nothing is left but the imbalance.
-    pub fn contact_forces(&self) -> Cow<'_, [f64]> {
-        let force = &self.now.force;
-        let tolerance = self.structure.model.scene.analysis.tolerance * self.scales.force;
-        let imbalance = tolerance.max(self.round_off_of_contact());
-        if self.now.initial.load.largest() > 0.0 && sum(force) <= imbalance {
-            return Cow::Owned(vec![0.0; force.len()]);
-        }
-        Cow::Borrowed(force)
     }
 
     /// The total load of the current state: size of the leading load times its factor; of a force

@@ -6,351 +6,466 @@
 //! so that it ends at the next change of contact (4.17, 4.22).
 
 use super::acceleration::Anderson;
+use super::collapse::{flows_away, round_off_of_balance, settles};
+use super::line_search::line_search;
 use super::outcome::{Attempt, EndsAt, Increment, NoIncrement, STRETCH};
+use super::prediction::{AT_END, AT_ONCE, Prediction};
 use super::search::{PROGRESS, Search};
-use super::settling::Rounds;
-use super::step_length::{LengthSearch, StepLimit, step_limit};
-use super::stepper::Stepper;
+use super::settling::{Rounds, settle_contact};
+use super::step::Rules;
+use super::step_length::{LengthSearch, StepLimit, positive_values, step_limit};
 use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::analysis::structure::load_point::LoadPoint;
+use crate::analysis::structure::solver::Solver;
+use crate::analysis::zone::points::Evaluation;
 use crate::scene::PlasticIteration;
+use crate::substructure::Trailing;
 
-/// Accuracy (energy norm) of the tangent that predicts an increment: what yields anew on the way
-/// changes more than that.
-const PREDICTION: f64 = 0.02;
 /// Accuracy (energy norm) of every Newton direction. Where points begin or cease to yield
 /// convergence is linear, however exact the directions are: forcing terms that follow the residual
 /// cost a tenth more trailing solves for 4 % fewer material evaluations.
 const FORCING: f64 = 0.05;
 /// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
 const CHEAP_ITERATIONS: usize = 100;
-/// A change of contact in this last share of a piece counts as its end: the target comes first.
-const AT_END: f64 = 1e-9;
 /// Share of the largest gap or force by which a pair may be beyond the border of its condition.
 const BORDER: f64 = 1e-8;
-/// A share of the increment below this means that a pair changes at once.
-const AT_ONCE: f64 = 1e-12;
 /// Share of the increment that is as good as none, where equilibrium at the start is asked for.
 const AT_START: f64 = 1e-9;
-/// The same of increments to the end of their piece, all of one run after the other: where they are
-/// of equal length in the root of the load the last is some thirty times as long as the first.
+/// Most that a change of state may be stretched in increments to the end of their piece, all of one
+/// run after the other: where they are of equal length in the root of the load the last is some
+/// thirty times as long as the first.
 const STRETCH_OF_LONG: f64 = 1e2;
 
-impl Stepper<'_, '_> {
-    /// Goes from the current state towards `end`, at most to share `most` of the way. A state that
-    /// is known `ahead` predicts it.
-    pub fn increment(
-        &mut self,
-        end: &LoadPoint,
-        most: f64,
+/// Goes from the current state towards `end`, at most to share `most` of the way. A state that is
+/// known `ahead` predicts the increment.
+pub(super) fn increment(
+    solver: &mut Solver,
+    rules: Rules,
+    (end, most): (&LoadPoint, f64),
+    (ends_at, search): (EndsAt, Search),
+    ahead: Option<(LoadPoint, Equilibrium)>,
+) -> Result<Increment, NoIncrement> {
+    Iteration::begin(solver, rules, (end, most), (ends_at, search), ahead)?.run()
+}
+
+/// The search for one increment: what it starts from, and its iterate.
+struct Iteration<'i, 'm> {
+    solver: &'i mut Solver<'m>,
+    rules: Rules<'i>,
+    end: &'i LoadPoint,
+    /// Largest share of the piece.
+    most: f64,
+    ends_at: EndsAt,
+    search: Search,
+    /// Load point at the start, the paper's time `tau`.
+    start: LoadPoint,
+    /// Equilibrium there.
+    before: Equilibrium,
+    /// Gaps and forces there that must stay positive.
+    base: Vec<f64>,
+    /// Pairs that no step length watches.
+    exempt: Vec<usize>,
+    /// Share of the piece at the end of the iterate, `Delta alpha` of the paper.
+    t: f64,
+    /// The iterate: equilibrium there with the initial loads so far.
+    state: Equilibrium,
+    /// Its force out of balance, `J(u) - J`.
+    balance: Trailing,
+    /// What the material answered to the iterate, where a line search has asked it.
+    known: Option<Evaluation>,
+    /// Room for the iterates that a line search tries.
+    trial: (Equilibrium, Trailing),
+    /// Material evaluations.
+    iterations: usize,
+    /// The smallest residual so far, and after how many evaluations.
+    best: (f64, usize),
+    /// Share by which Newton's tangent is damped towards the elastic stiffness.
+    damping: f64,
+    /// By how much the change of state was stretched since its loads were eliminated.
+    stretched: f64,
+    /// Whether round-off may still decide that forces balance.
+    may_settle: bool,
+    rounds: Rounds,
+    anderson: Anderson,
+    length: LengthSearch,
+}
+
+/// What an iterate shows.
+struct Look {
+    evaluation: Evaluation,
+    /// The largest force, which residuals are measured against.
+    scale: f64,
+    /// Out-of-balance force over the force scale.
+    residual: f64,
+    limit: StepLimit,
+    /// Whether its length is right: at the next change of contact, or at the end of the piece.
+    has_arrived: bool,
+    /// Whether the residual is hardly below the best so far.
+    has_stalled: bool,
+}
+
+impl<'i, 'm> Iteration<'i, 'm> {
+    /// The first iterate, scaled to the change of contact that its prediction shows.
+    fn begin(
+        solver: &'i mut Solver<'m>,
+        rules: Rules<'i>,
+        (end, most): (&'i LoadPoint, f64),
         (ends_at, search): (EndsAt, Search),
         ahead: Option<(LoadPoint, Equilibrium)>,
-    ) -> Result<Increment, NoIncrement> {
-        let settings = self.rules.settings;
-        let start = self.solver.at.clone();
-        let before = self.solver.now.clone();
-        self.solver.zone.begin_at(&before.u, &start.factors);
+    ) -> Result<Self, NoIncrement> {
+        let start = solver.at.clone();
+        let before = solver.now.clone();
+        solver.zone.begin_at(&before.u, &start.factors);
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
-        let mut stretched = 1.0;
-        let rates = match ahead {
-            Some(ahead) => self.secant(end, ahead),
-            None => {
-                if let (Some(pace), false) = (&self.solver.predictor.pace, follows) {
-                    let ratio = most * start.distance(end) / pace.distance;
-                    stretched = pace.stretched * f64::max(ratio, 1.0);
-                }
-                self.rates(end, settings.plastic_iteration == PlasticIteration::Newton)
-            }
+        let newton = rules.settings.plastic_iteration == PlasticIteration::Newton;
+        let prediction = match ahead {
+            Some(ahead) => Prediction::secant(solver, end, ahead),
+            None => Prediction::of_rates(solver, (end, most), newton, !follows),
         };
-        let values = |stepper: &Self, state: &Equilibrium| stepper.values(&state.gap, &state.force);
-        let base = values(self, &before);
+        let base = positive_values(solver.tableau.open(), &before.gap, &before.force);
         // A pair whose opening would set a body free cannot open: its force may come down to the
         // round-off of zero.
-        let mut exempt = self.solver.border.clone();
-        exempt.extend((0..base.len()).filter(|&k| self.solver.tableau.would_free(k)));
-
-        let mut t = most;
-        if follows {
-            let wrong = self.wrong_at_border(&rates);
-            if !wrong.is_empty() {
-                return Err(NoIncrement::WrongStatus(wrong));
-            }
-            let after: Vec<f64> = base
-                .iter()
-                .zip(self.values(&rates.gap, &rates.force))
-                .map(|(b, r)| b + most * r)
-                .collect();
-            let limit = step_limit(&base, &after, &exempt);
-            if limit.share <= AT_ONCE {
-                return Err(NoIncrement::WrongStatus(limit.pairs));
-            }
-            t = if limit.share >= 1.0 - AT_END {
-                most
-            } else {
-                most * limit.share
-            };
-        }
-        let mut state = before.clone();
-        state.add(t, &rates);
-        let settles_contact = ends_at == EndsAt::EndOfPiece;
-        let mut rounds = Rounds::default();
-        if settles_contact {
-            self.settle_contact(end, &mut state, &mut rounds)?;
-        }
-
-        let mut anderson = Anderson::default();
-        let mut balance = self.solver.structure.sub.zeros();
-        // A line search ends with the evaluation that the next iteration begins with.
-        let mut known = None;
-        let mut trial = (state.clone(), self.solver.structure.sub.zeros());
-        let mut iterations = 0;
-        let mut best = (f64::INFINITY, 0);
-        let mut damping = 0.0;
-        let mut length_search = LengthSearch::default();
-        let mut may_settle = true;
-        let newton = settings.plastic_iteration == PlasticIteration::Newton;
-        let most_iterations = match settings.plastic_iteration {
-            PlasticIteration::Newton => settings.max_iterations,
-            _ => settings.max_iterations * CHEAP_ITERATIONS,
+        let mut exempt = solver.border.clone();
+        exempt.extend((0..base.len()).filter(|&k| solver.tableau.would_free(k)));
+        let t = match follows {
+            true => prediction.first_length(solver, (&base, &exempt), most)?,
+            false => most,
         };
+        let mut state = before.clone();
+        state.add(t, &prediction.rates);
+        let zeros = solver.structure.sub.zeros();
+        let mut iteration = Iteration {
+            solver,
+            rules,
+            end,
+            most,
+            ends_at,
+            search,
+            start,
+            before,
+            base,
+            exempt,
+            t,
+            trial: (state.clone(), zeros.clone()),
+            state,
+            balance: zeros,
+            known: None,
+            iterations: 0,
+            best: (f64::INFINITY, 0),
+            damping: 0.0,
+            stretched: prediction.stretched,
+            may_settle: true,
+            rounds: Rounds::default(),
+            anderson: Anderson::default(),
+            length: LengthSearch::default(),
+        };
+        iteration.settle_contact()?;
+        Ok(iteration)
+    }
+
+    /// Iterates until forces balance and the length is right.
+    fn run(mut self) -> Result<Increment, NoIncrement> {
         loop {
-            let evaluation = match known.take() {
-                Some(evaluation) => evaluation,
-                None => {
-                    self.solver.zone.set_factors(&start.towards(end, t).factors);
-                    self.out_of_balance_at(&state, &mut balance)
-                }
-            };
-            iterations += 1;
-            let scale = state
-                .force
-                .iter()
-                .fold(self.solver.scales.force, |m, r| m.max(*r));
-            let residual = if scale > 0.0 {
-                balance.largest() / scale
-            } else {
-                0.0
-            };
-            let limit = if follows {
-                step_limit(&base, &values(self, &state), &exempt)
-            } else {
-                StepLimit {
-                    share: f64::INFINITY,
-                    pairs: Vec::new(),
-                }
-            };
-            let reach = self.reach(&limit, t, most);
-            let gamma = if let EndsAt::NextChange { gamma } = ends_at {
-                gamma
-            } else {
-                0.0
-            };
-            let arrived = if limit.share < most / t {
-                (reach - 1.0).abs() <= gamma
-            } else {
-                t == most
-            };
-            let stalled = residual >= PROGRESS * best.0;
-            let mut balanced = residual <= settings.tolerance;
-            let mut floor = 0.0;
-            if stalled && !balanced && may_settle {
-                floor = self.round_off_of_balance(&state.u)? / scale;
-                if residual <= floor {
-                    balanced = self.settles(&state, floor);
-                    may_settle = balanced;
-                }
-            }
-            if balanced && settles_contact && self.settle_contact(end, &mut state, &mut rounds)? {
+            let look = self.evaluate();
+            let (is_balanced, floor) = self.judge(&look)?;
+            if is_balanced && self.settle_contact()? {
                 continue;
             }
-            let most_stretched = if follows { STRETCH } else { STRETCH_OF_LONG };
-            if balanced && arrived && stretched > most_stretched {
-                stretched = 1.0;
-                let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);
-                let initial = structure.eliminate(state.initial.load, cost);
-                state = self.solver.respond(&start.towards(end, t), initial);
-                continue;
-            }
-            if balanced && arrived {
-                if follows {
-                    let crossed = self.crosses_border(&state, gamma.max(BORDER), scale);
-                    if !crossed.is_empty() {
-                        return Err(NoIncrement::Crossed(crossed));
-                    }
+            if is_balanced && look.has_arrived {
+                if self.is_stretched_far() {
+                    self.eliminate_anew();
+                    continue;
                 }
-                let changes = if limit.share <= 1.0 + gamma {
-                    limit.pairs
-                } else {
-                    Vec::new()
-                };
-                self.solver.scales.round_off = self.solver.scales.round_off.max(floor);
-                let at_end = start.towards(end, t);
-                state = self.solver.respond(&at_end, state.initial);
-                return Ok(Increment {
-                    t,
-                    state,
-                    changes,
-                    iterations,
-                    residual,
-                    guard_yields: evaluation.guard_yields,
-                    stretched,
-                });
+                return self.found(look, floor);
             }
-            if !stalled {
-                best = (residual, iterations);
+            self.give_up(&look)?;
+            if !is_balanced {
+                self.correct(&look)?;
             }
-            if (self.rules.stop)() {
-                return Err(NoIncrement::Stopped);
-            }
-            let stuck = newton && iterations - best.1 >= search.patience;
-            // The change comes ever nearer the start, within what states are known to: at once.
-            if stuck && follows && t <= settings.tolerance && limit.share <= 1.0 + gamma {
-                return Err(NoIncrement::WrongStatus(limit.pairs));
-            }
-            if iterations >= most_iterations || stuck || !residual.is_finite() {
-                return Err(NoIncrement::NotConverged(Box::new(Attempt {
-                    state,
-                    iterations,
-                    residual,
-                    round_off: self.round_off_of_balance(&before.u)? / scale,
-                    mechanism: None,
-                })));
-            }
-            if !balanced {
-                let (direction, length) = match settings.plastic_iteration {
-                    PlasticIteration::Newton => {
-                        let newton = self.solver.solve_tangent(&balance, FORCING, 1.0 - damping);
-                        match self.line_search(&state, &newton, &balance, &mut trial) {
-                            Some((length, evaluation)) => {
-                                damping = next_damping(damping, length);
-                                let goal = start.towards(end, t);
-                                let driven = (&balance, length);
-                                let mechanism = self.flows_away(&goal, &newton, driven, &trial);
-                                if mechanism.is_some() {
-                                    return Err(NoIncrement::NotConverged(Box::new(Attempt {
-                                        state: trial.0,
-                                        iterations,
-                                        residual,
-                                        round_off: self.round_off_of_balance(&before.u)? / scale,
-                                        mechanism,
-                                    })));
-                                }
-                                std::mem::swap(&mut balance, &mut trial.1);
-                                known = Some(evaluation);
-                                (newton, length)
-                            }
-                            // The elastic stiffness bounds the tangent from above: the plain step
-                            // always lowers the energy.
-                            None => {
-                                damping = next_damping(damping, 0.0);
-                                (self.solver.direction(balance.clone()), 1.0)
-                            }
-                        }
-                    }
-                    PlasticIteration::Anderson => {
-                        let change = anderson.change(&state.initial.load, &balance);
-                        (self.solver.direction(change), 1.0)
-                    }
-                    PlasticIteration::Plain => (self.solver.direction(balance.clone()), 1.0),
-                };
-                state.add(length, &direction);
-                if settles_contact && self.settle_contact(end, &mut state, &mut rounds)? {
-                    known = None;
-                    anderson.restart();
-                }
-            }
-            if follows && (balanced || search.together) {
-                let limit = step_limit(&base, &values(self, &state), &exempt);
-                let reach = self.reach(&limit, t, most);
-                if reach <= AT_ONCE {
-                    return Err(NoIncrement::WrongStatus(limit.pairs));
-                }
-                if reach.is_finite() && reach != 1.0 {
-                    // Far-off predictions are followed carefully: the response is not linear.
-                    let goal = (reach.clamp(0.1, 4.0) * t).min(most);
-                    if !search.together && t <= AT_START * most && goal < t {
-                        return Err(NoIncrement::Jumps);
-                    }
-                    let next = match search.together {
-                        true => t + length_search.relaxation(t, goal) * (goal - t),
-                        false => length_search.between(t, goal, AT_START * most),
-                    };
-                    let next = if next >= most * (1.0 - 4.0 * f64::EPSILON) {
-                        most
-                    } else {
-                        next
-                    };
-                    if next <= AT_ONCE {
-                        return Err(NoIncrement::WrongStatus(limit.pairs));
-                    }
-                    state.rescale(&before, next / t);
-                    stretched *= f64::max(next / t, 1.0);
-                    t = next;
-                    known = None;
-                    if !search.together {
-                        best = (f64::INFINITY, iterations);
-                    }
-                    anderson.restart();
-                }
+            if self.follows() && (is_balanced || self.search.together) {
+                self.rescale()?;
             }
         }
     }
 
-    /// Factor on the increment so far (share `t` of the piece) that brings it to the next change or
-    /// to the end.
-    fn reach(&self, limit: &StepLimit, t: f64, most: f64) -> f64 {
-        if limit.share * t >= most * (1.0 - AT_END) {
-            most / t
+    /// Whether the increment ends at the next change of contact.
+    fn follows(&self) -> bool {
+        matches!(self.ends_at, EndsAt::NextChange { .. })
+    }
+
+    /// `gamma_u` and `gamma_R` of the paper (4.18, 4.23), which are one number here.
+    fn gamma(&self) -> f64 {
+        match self.ends_at {
+            EndsAt::NextChange { gamma } => gamma,
+            EndsAt::EndOfPiece | EndsAt::EndOfPieceFrozen => 0.0,
+        }
+    }
+
+    /// What must stay positive in the iterate: gaps of open pairs, forces of closed ones (4.8,
+    /// 4.9).
+    fn values(&self) -> Vec<f64> {
+        let state = &self.state;
+        positive_values(self.solver.tableau.open(), &state.gap, &state.force)
+    }
+
+    /// How far the iterate may go until contact changes (4.14 to 4.21).
+    fn limit(&self) -> StepLimit {
+        let open = self.solver.tableau.open();
+        step_limit(open, &self.base, &self.values(), &self.exempt)
+    }
+
+    /// The force that the stresses of the iterate leave out of balance, and how far the iterate is
+    /// from its change of contact.
+    fn evaluate(&mut self) -> Look {
+        let evaluation = match self.known.take() {
+            Some(evaluation) => evaluation,
+            None => {
+                let point = self.start.towards(self.end, self.t);
+                self.solver.zone.set_factors(&point.factors);
+                self.solver
+                    .out_of_balance_at(&self.state, &mut self.balance)
+            }
+        };
+        self.iterations += 1;
+        let forces = self.state.force.iter();
+        let scale = forces.fold(self.solver.scales.force, |m, r| m.max(*r));
+        let residual = if scale > 0.0 {
+            self.balance.largest() / scale
+        } else {
+            0.0
+        };
+        let limit = match self.follows() {
+            true => self.limit(),
+            false => StepLimit::none(),
+        };
+        let reach = self.reach(&limit);
+        let has_arrived = if limit.share < self.most / self.t {
+            (reach - 1.0).abs() <= self.gamma()
+        } else {
+            self.t == self.most
+        };
+        Look {
+            evaluation,
+            scale,
+            residual,
+            limit,
+            has_arrived,
+            has_stalled: residual >= PROGRESS * self.best.0,
+        }
+    }
+
+    /// Whether the forces of the iterate balance, to the tolerance or to their round-off, and the
+    /// round-off where that was asked for.
+    fn judge(&mut self, look: &Look) -> Result<(bool, f64), NoIncrement> {
+        let is_balanced = look.residual <= self.rules.settings.tolerance;
+        if is_balanced || !look.has_stalled || !self.may_settle {
+            return Ok((is_balanced, 0.0));
+        }
+        let floor = round_off_of_balance(self.solver, &self.state.u)? / look.scale;
+        let mut is_balanced = look.residual <= floor;
+        if is_balanced {
+            is_balanced = settles(self.solver, &self.state, floor);
+            self.may_settle = is_balanced;
+        }
+        Ok((is_balanced, floor))
+    }
+
+    /// Changes the statuses that the iterate shows to be wrong, where the increment ends at the end
+    /// of its piece; whether there were any.
+    fn settle_contact(&mut self) -> Result<bool, NoIncrement> {
+        if self.ends_at != EndsAt::EndOfPiece {
+            return Ok(false);
+        }
+        settle_contact(self.solver, self.end, &mut self.state, &mut self.rounds)
+    }
+
+    /// Whether the loads of the change of state are to be eliminated anew.
+    fn is_stretched_far(&self) -> bool {
+        let most = if self.follows() {
+            STRETCH
+        } else {
+            STRETCH_OF_LONG
+        };
+        self.stretched > most
+    }
+
+    /// Eliminates the initial loads of the iterate anew.
+    fn eliminate_anew(&mut self) {
+        self.stretched = 1.0;
+        let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);
+        let initial = structure.eliminate(self.state.initial.load.clone(), cost);
+        let point = self.start.towards(self.end, self.t);
+        self.state = self.solver.respond(&point, initial);
+    }
+
+    /// The increment that the iterate is.
+    fn found(self, look: Look, floor: f64) -> Result<Increment, NoIncrement> {
+        let gamma = self.gamma();
+        if self.follows() {
+            let crossed = self.crosses_border(gamma.max(BORDER), look.scale);
+            if !crossed.is_empty() {
+                return Err(NoIncrement::Crossed(crossed));
+            }
+        }
+        let changes = if look.limit.share <= 1.0 + gamma {
+            look.limit.pairs
+        } else {
+            Vec::new()
+        };
+        let scales = &mut self.solver.scales;
+        scales.round_off = scales.round_off.max(floor);
+        let at_end = self.start.towards(self.end, self.t);
+        Ok(Increment {
+            t: self.t,
+            state: self.solver.respond(&at_end, self.state.initial),
+            changes,
+            iterations: self.iterations,
+            residual: look.residual,
+            guard_yields: look.evaluation.guard_yields,
+            stretched: self.stretched,
+        })
+    }
+
+    /// An error where the iteration leads nowhere, or was asked to stop.
+    fn give_up(&mut self, look: &Look) -> Result<(), NoIncrement> {
+        if !look.has_stalled {
+            self.best = (look.residual, self.iterations);
+        }
+        if (self.rules.stop)() {
+            return Err(NoIncrement::Stopped);
+        }
+        let settings = self.rules.settings;
+        let newton = settings.plastic_iteration == PlasticIteration::Newton;
+        let is_stuck = newton && self.iterations - self.best.1 >= self.search.patience;
+        // The change comes ever nearer the start, within what states are known to: at once.
+        let is_at_start = self.follows() && self.t <= settings.tolerance;
+        if is_stuck && is_at_start && look.limit.share <= 1.0 + self.gamma() {
+            return Err(NoIncrement::WrongStatus(look.limit.pairs.clone()));
+        }
+        let most = match newton {
+            true => settings.max_iterations,
+            false => settings.max_iterations * CHEAP_ITERATIONS,
+        };
+        if self.iterations >= most || is_stuck || !look.residual.is_finite() {
+            return Err(self.not_converged(self.state.clone(), look, None));
+        }
+        Ok(())
+    }
+
+    fn not_converged(
+        &self,
+        state: Equilibrium,
+        look: &Look,
+        mechanism: Option<f64>,
+    ) -> NoIncrement {
+        match round_off_of_balance(self.solver, &self.before.u) {
+            Ok(round_off) => NoIncrement::NotConverged(Box::new(Attempt {
+                state,
+                iterations: self.iterations,
+                residual: look.residual,
+                round_off: round_off / look.scale,
+                mechanism,
+            })),
+            Err(error) => error.into(),
+        }
+    }
+
+    /// The next iterate at the same length.
+    fn correct(&mut self, look: &Look) -> Result<(), NoIncrement> {
+        let (direction, length) = match self.rules.settings.plastic_iteration {
+            PlasticIteration::Newton => self.newton(look)?,
+            PlasticIteration::Anderson => {
+                let change = self
+                    .anderson
+                    .change(&self.state.initial.load, &self.balance);
+                (self.solver.direction(change), 1.0)
+            }
+            PlasticIteration::Plain => (self.solver.direction(self.balance.clone()), 1.0),
+        };
+        self.state.add(length, &direction);
+        if self.settle_contact()? {
+            self.known = None;
+            self.anderson.restart();
+        }
+        Ok(())
+    }
+
+    /// Newton's direction, and how far along it; the direction of the plain iteration where
+    /// Newton's leads nowhere.
+    fn newton(&mut self, look: &Look) -> Result<(Equilibrium, f64), NoIncrement> {
+        let keep = 1.0 - self.damping;
+        let direction = self.solver.solve_tangent(&self.balance, FORCING, keep);
+        let searched = (&self.state, &direction, &self.balance);
+        let Some((length, evaluation)) = line_search(self.solver, searched, &mut self.trial) else {
+            // The elastic stiffness bounds the tangent from above: the plain step always lowers the
+            // energy.
+            self.damping = next_damping(self.damping, 0.0);
+            return Ok((self.solver.direction(self.balance.clone()), 1.0));
+        };
+        self.damping = next_damping(self.damping, length);
+        let goal = self.start.towards(self.end, self.t);
+        let driven = (&self.balance, length);
+        let mechanism = flows_away(self.solver, &goal, &direction, driven, &self.trial);
+        if mechanism.is_some() {
+            return Err(self.not_converged(self.trial.0.clone(), look, mechanism));
+        }
+        std::mem::swap(&mut self.balance, &mut self.trial.1);
+        self.known = Some(evaluation);
+        Ok((direction, length))
+    }
+
+    /// Scales the increment so that it ends at the next change of contact (4.17, 4.22).
+    fn rescale(&mut self) -> Result<(), NoIncrement> {
+        let limit = self.limit();
+        let reach = self.reach(&limit);
+        if reach <= AT_ONCE {
+            return Err(NoIncrement::WrongStatus(limit.pairs));
+        }
+        if !reach.is_finite() || reach == 1.0 {
+            return Ok(());
+        }
+        let (t, most, together) = (self.t, self.most, self.search.together);
+        // Far-off predictions are followed carefully: the response is not linear.
+        let goal = (reach.clamp(0.1, 4.0) * t).min(most);
+        if !together && t <= AT_START * most && goal < t {
+            return Err(NoIncrement::Jumps);
+        }
+        let next = match together {
+            true => t + self.length.relaxation(t, goal) * (goal - t),
+            false => self.length.between(t, goal, AT_START * most),
+        };
+        let next = if next >= most * (1.0 - 4.0 * f64::EPSILON) {
+            most
+        } else {
+            next
+        };
+        if next <= AT_ONCE {
+            return Err(NoIncrement::WrongStatus(limit.pairs));
+        }
+        self.state.rescale(&self.before, next / t);
+        self.stretched *= f64::max(next / t, 1.0);
+        self.t = next;
+        self.known = None;
+        if !together {
+            self.best = (f64::INFINITY, self.iterations);
+        }
+        self.anderson.restart();
+        Ok(())
+    }
+
+    /// Factor on the iterate that brings it to the next change or to the end.
+    fn reach(&self, limit: &StepLimit) -> f64 {
+        if limit.share * self.t >= self.most * (1.0 - AT_END) {
+            self.most / self.t
         } else {
             limit.share
         }
     }
 
-    /// Rates of everything with the share of the piece: elastic, plus plastic where points yield.
-    /// The plastic part goes on as in the last increment; after none it is that of the tangent.
-    fn rates(&mut self, end: &LoadPoint, tangent: bool) -> Equilibrium {
-        let yields = tangent && !self.solver.zone.is_idle();
-        let pace = self.solver.predictor.pace.as_ref().filter(|_| yields);
-        let needs_tangent = yields && pace.is_none();
-        let mut initial = self.solver.now.initial.clone();
-        if let Some(pace) = pace {
-            initial.add(self.solver.at.distance(end), &pace.initial);
-        }
-        // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses
-        // decide.
-        let mut rates = self.solver.respond(end, initial);
-        rates.add(-1.0, &self.solver.now);
-        if needs_tangent {
-            let mut driven = self.solver.structure.sub.zeros();
-            self.solver.zone.softening_times(&rates.u, &mut driven);
-            let plastic = self.solver.solve_tangent(&driven, PREDICTION, 1.0);
-            rates.add(1.0, &plastic);
-        }
-        rates
-    }
-
-    /// Rates that lead to a state which is known already, statuses being the same.
-    fn secant(&self, end: &LoadPoint, (at, state): (LoadPoint, Equilibrium)) -> Equilibrium {
-        let mut rates = state;
-        rates.rescale(&self.solver.now, 1.0 / self.solver.at.share_of(&at, end));
-        rates.add(-1.0, &self.solver.now);
-        rates
-    }
-
-    /// What must stay positive: gaps of open pairs, forces of closed ones.
-    fn values(&self, gap: &[f64], force: &[f64]) -> Vec<f64> {
-        self.solver
-            .tableau
-            .open()
-            .iter()
-            .enumerate()
-            .map(|(k, open)| if *open { gap[k] } else { force[k] })
-            .collect()
-    }
-
     /// Pairs that began at the border of their condition and end beyond it: their rate was right at
     /// the start and turned within the increment, where no step limit watches it.
-    fn crosses_border(&self, state: &Equilibrium, tolerance: f64, force_scale: f64) -> Vec<usize> {
+    fn crosses_border(&self, tolerance: f64, force_scale: f64) -> Vec<usize> {
+        let state = &self.state;
         let largest_gap = state.gap.iter().fold(0.0f64, |m, g| m.max(*g));
         let crosses = |k: usize| {
             if self.solver.tableau.open()[k] {
@@ -359,31 +474,8 @@ impl Stepper<'_, '_> {
                 state.force[k] < -tolerance * force_scale
             }
         };
-        self.solver
-            .border
-            .iter()
-            .copied()
-            .filter(|&k| crosses(k))
-            .collect()
-    }
-
-    fn wrong_at_border(&self, rates: &Equilibrium) -> Vec<usize> {
-        let values = self.values(&rates.gap, &rates.force);
-        let largest_gap = rates.gap.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-        let largest_force = rates.force.iter().fold(0.0f64, |m, r| m.max(r.abs()));
-        self.solver
-            .border
-            .iter()
-            .copied()
-            .filter(|&k| {
-                let largest = if self.solver.tableau.open()[k] {
-                    largest_gap
-                } else {
-                    largest_force
-                };
-                values[k] < -1e-9 * largest
-            })
-            .collect()
+        let border = self.solver.border.iter().copied();
+        border.filter(|&k| crosses(k)).collect()
     }
 }
 

@@ -1,7 +1,7 @@
 //! The last increment again, so that it ends where a monitored quantity is zero.
 
 use super::step::{IncrementReport, MONITOR_ACCURACY, Monitor, SMALLEST_CUT};
-use super::stepper::Stepper;
+use super::stepping::Stepper;
 use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::state::State;

@@ -9,13 +9,13 @@
 //! | `yield_load` | the load at first yield | 3.13, 3.14 |
 //! | `elastic` | pieces on which contact alone changes | 3.9, 3.10 |
 //! | `stretch` | stretches of an elastoplastic drive on which nothing yields | |
-//! | `stepper` | the solver by the rules of a program | |
 //! | `step_length` | how much of an increment contact allows | 4.8 to 4.22 |
 //! | `search` | equilibrium and length at once, or one after the other | 4.17, 4.22 |
 //! | `line_search` | how far along a Newton direction | |
 //! | `tangent` | the elastoplastic tangent, solved on the elastic factor | |
 //! | `tangent_by_factor` | the tangent solved on a factor of its own | |
 //! | `acceleration` | Anderson's acceleration of the initial loads | |
+//! | `prediction` | the rates that an increment is predicted by | 4.5 |
 //! | `settling` | contact at the end of an increment whose end is given | 4.8, 4.9 |
 //! | `collapse` | limit load, or an iteration that did not converge | |
 //! | `increment` | one elastoplastic increment | 4.4 to 4.23 |
@@ -35,11 +35,11 @@ mod line_search;
 mod outcome;
 mod outgrown;
 pub(super) mod plastic;
+mod prediction;
 mod search;
 mod settling;
 pub(super) mod step;
 mod step_length;
-mod stepper;
 mod stepping;
 mod stretch;
 mod tangent;

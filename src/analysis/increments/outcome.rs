@@ -17,7 +17,7 @@ pub enum EndsAt {
         gamma: f64,
     },
     /// At the end of the piece, statuses changing with the iterates
-    /// ([`Stepper::settle_contact`]).
+    /// ([`super::settling::settle_contact`]).
     EndOfPiece,
     /// At the end of the piece, statuses frozen.
     EndOfPieceFrozen,
@@ -81,6 +81,6 @@ pub struct Attempt {
     /// What round-off leaves out of balance at the start of the increment, over the force scale.
     pub round_off: f64,
     /// Share of the elastic stiffness along a mechanism in which it flows away
-    /// ([`Stepper::flows_away`]), where it was seen to.
+    /// ([`super::collapse::flows_away`]), where it was seen to.
     pub mechanism: Option<f64>,
 }

@@ -1,7 +1,7 @@
 //! Elastoplastic drives: increments that end at the next change of contact, or fixed ones.
 
 use super::step::{Arrival, IncrementReport, Monitor, Rules, SMALLEST_CUT, Step, crosses, is_hit};
-use super::stepper::Stepper;
+use super::stepping::Stepper;
 use super::stretch::ElasticStretch;
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;

@@ -1,25 +1,46 @@
 //! The step length: how much of an increment contact allows.
 //!
 //! For pair `k` let `v` be what must stay positive, the gap of an open pair or the force of a
-//! closed one. Over the increment it falls from `v` to `v + dv`; the paper's ratio is
-//! `psi = max_k |dv/v|` (4.16, 4.20), and the increment is scaled by `1/psi` (4.17, 4.22).
+//! closed one. Over the increment it falls from `v` to `v + dv`. The paper's ratios are
+//! `psi_u = max_k |dv/v|` over the open pairs (4.16) and `psi_R`, the largest over the closed ones
+//! (4.20). The increment is scaled by `1/psi`, `psi` the larger of the two (4.17, 4.22), and ends
+//! where that is 1 to `gamma` (4.18, 4.23).
 
 /// What contact states about an increment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepLimit {
-    /// `1/psi`: the share of the increment at which the first pair changes; infinite if none would.
+    /// `1/psi`: the share of the increment at which the first pair changes; infinite if none would
+    /// (4.12, 4.13).
     pub share: f64,
     /// The pairs that change there, ties together.
     pub pairs: Vec<usize>,
 }
 
+impl StepLimit {
+    /// No pair changes.
+    pub fn none() -> Self {
+        StepLimit {
+            share: f64::INFINITY,
+            pairs: Vec::new(),
+        }
+    }
+}
+
 /// Pairs whose share differs by less than this from the smallest change together.
 const TIE: f64 = 1e-7;
 
-/// Share of the increment up to the first change. `before` and `after` are the values `v` and `v +
-/// dv`; pairs in
-/// `border` are at zero already and are left out.
-pub fn step_limit(before: &[f64], after: &[f64], border: &[usize]) -> StepLimit {
+/// What must stay positive: gaps of open pairs (4.8), forces of closed ones (4.9).
+pub fn positive_values(open: &[bool], gap: &[f64], force: &[f64]) -> Vec<f64> {
+    let pairs = open.iter().zip(gap.iter().zip(force));
+    pairs
+        .map(|(open, (gap, force))| if *open { *gap } else { *force })
+        .collect()
+}
+
+/// Share of the increment up to the first change. `before` and `after` are the values `v` and
+/// `v + dv`; pairs in `border` are at zero already and are left out.
+pub fn step_limit(open: &[bool], before: &[f64], after: &[f64], border: &[usize]) -> StepLimit {
+    // Gaps that fall (4.14) and forces that do (4.19) are zero there (4.15, 4.21).
     let share = |k: usize| {
         if after[k] < before[k] && !border.contains(&k) {
             before[k] / (before[k] - after[k])
@@ -27,17 +48,21 @@ pub fn step_limit(before: &[f64], after: &[f64], border: &[usize]) -> StepLimit 
             f64::INFINITY
         }
     };
-    let smallest = (0..before.len()).map(share).fold(f64::INFINITY, f64::min);
-    let pairs = if smallest.is_finite() {
-        (0..before.len())
-            .filter(|&k| share(k) <= smallest * (1.0 + TIE))
-            .collect()
-    } else {
-        Vec::new()
+    let least_of = |status: bool| {
+        let pairs = (0..before.len()).filter(|&k| open[k] == status);
+        pairs.map(share).fold(f64::INFINITY, f64::min)
     };
+    // 1/psi_u of the open pairs (4.16) and 1/psi_R of the closed ones (4.20).
+    let [inverse_psi_u, inverse_psi_r] = [true, false].map(least_of);
+    let smallest = inverse_psi_u.min(inverse_psi_r);
+    if smallest.is_infinite() {
+        return StepLimit::none();
+    }
     StepLimit {
         share: smallest,
-        pairs,
+        pairs: (0..before.len())
+            .filter(|&k| share(k) <= smallest * (1.0 + TIE))
+            .collect(),
     }
 }
 
@@ -140,18 +165,31 @@ mod tests {
     #[test]
     fn changes_one_after_the_other_are_no_tie() {
         for (apart, together) in [(1e-8, 2), (1e-6, 1), (1e-5, 1)] {
-            let limit = step_limit(&[1.0, 1.0 + apart], &[-1.0, -1.0 + apart], &[]);
+            let limit = step_limit(
+                &[true, false],
+                &[1.0, 1.0 + apart],
+                &[-1.0, -1.0 + apart],
+                &[],
+            );
             assert_eq!(limit.pairs.len(), together, "{apart}");
         }
     }
 
     #[test]
     fn first_change_and_its_ties() {
-        let limit = step_limit(&[1.0, 2.0, 0.5, 0.0], &[0.5, 0.0, 0.375, -1.0], &[3]);
+        let limit = step_limit(
+            &[true, false, true, false],
+            &[1.0, 2.0, 0.5, 0.0],
+            &[0.5, 0.0, 0.375, -1.0],
+            &[3],
+        );
         assert_eq!(limit.share, 1.0);
         assert_eq!(limit.pairs, vec![1]);
-        let tie = step_limit(&[1.0, 2.0], &[-1.0, -2.0], &[]);
+        let tie = step_limit(&[true, false], &[1.0, 2.0], &[-1.0, -2.0], &[]);
         assert_eq!((tie.share, tie.pairs.len()), (0.5, 2));
-        assert_eq!(step_limit(&[1.0], &[1.0], &[]).share, f64::INFINITY);
+        assert_eq!(
+            step_limit(&[true], &[1.0], &[1.0], &[]).share,
+            f64::INFINITY
+        );
     }
 }

@@ -6,9 +6,7 @@
 //! solved from scratch, with a bracket.
 
 use crate::analysis::stress::recovery::{Peak, Recovery, Samples};
-use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
-use crate::contact;
 use crate::error::{Error, Result};
 use crate::root::{self, Accuracy};
 use std::convert::Infallible;
@@ -59,32 +57,6 @@ pub fn yield_share(
 }
 
 impl Solver<'_> {
-    /// Solves contact for the load point from scratch, elastic, and makes it the current state
-    /// (paper 3.7 to 3.10).
-    ///
-    /// # Errors
-    /// A load that drives a body away from every contact.
-    pub fn solve_contact_at(&mut self, point: &LoadPoint) -> Result<()> {
-        self.move_loose_bodies(point)?;
-        let mut q = self.structure.closed_forces(point);
-        for (q, t) in q.iter_mut().zip(&self.now.initial.forces) {
-            *q += t;
-        }
-        self.add_springs(&mut q);
-        let n = q.len();
-        let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
-        let outcome = contact::solve(&mut self.tableau, &q, &mut gap, &mut force);
-        let certificate = outcome.map_err(|u| self.structure.unbounded(u.pair, point.alpha))?;
-        self.cost.counts.contact_changes += certificate.changes;
-        self.at = point.clone();
-        self.now.gap = gap;
-        self.now.force = force;
-        self.border.clear();
-        self.fresh = false;
-        self.refresh();
-        Ok(())
-    }
-
     /// The recovered stress peak of the current (elastic) state.
     pub fn peak(&mut self, recovery: &mut Recovery) -> Option<Peak> {
         let samples = recovery.sample_here(self);

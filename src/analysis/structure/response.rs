@@ -8,8 +8,12 @@ use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::factored::combination;
 use super::load_point::LoadPoint;
 use super::solver::Solver;
+use crate::analysis::zone::points::Evaluation;
+use crate::contact;
 use crate::error::Result;
 use crate::linalg::ZonePart;
+use crate::substructure::Trailing;
+use std::borrow::Cow;
 
 /// Share of the largest gap and force that is the round-off of their sums.
 const ZERO: f64 = 1e-14;
@@ -164,5 +168,58 @@ impl Solver<'_> {
             return Some(0.0);
         }
         of_whole(force)
+    }
+
+    /// The force that the stresses at `state` leave out of balance: what the plastic strains there
+    /// would be as initial loads, less the initial loads that the state is in equilibrium with.
+    pub(in crate::analysis) fn out_of_balance_at(
+        &mut self,
+        state: &Equilibrium,
+        balance: &mut Trailing,
+    ) -> Evaluation {
+        let evaluation = self.zone.evaluate(&state.u, balance);
+        balance.add(-1.0, &state.initial.load);
+        self.cost.counts.plastic_iterations += 1;
+        evaluation
+    }
+
+    /// Solves contact for the load point from scratch, elastic, and makes it the current state
+    /// (paper 3.7 to 3.10).
+    ///
+    /// # Errors
+    /// A load that drives a body away from every contact.
+    pub fn solve_contact_at(&mut self, point: &LoadPoint) -> Result<()> {
+        self.move_loose_bodies(point)?;
+        let mut q = self.structure.closed_forces(point);
+        for (q, t) in q.iter_mut().zip(&self.now.initial.forces) {
+            *q += t;
+        }
+        self.add_springs(&mut q);
+        let n = q.len();
+        let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
+        let outcome = contact::solve(&mut self.tableau, &q, &mut gap, &mut force);
+        let certificate = outcome.map_err(|u| self.structure.unbounded(u.pair, point.alpha))?;
+        self.cost.counts.contact_changes += certificate.changes;
+        self.at = point.clone();
+        self.now.gap = gap;
+        self.now.force = force;
+        self.border.clear();
+        self.fresh = false;
+        self.refresh();
+        Ok(())
+    }
+
+    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration
+    /// only, and to round-off: where all contact forces together are less than that, the bodies
+    /// have parted and nothing is left but the imbalance.
+    pub fn contact_forces(&self) -> Cow<'_, [f64]> {
+        let force = &self.now.force;
+        let tolerance = self.structure.model.scene.analysis.tolerance * self.scales.force;
+        let imbalance = tolerance.max(self.round_off_of_contact());
+        let all = force.iter().fold(0.0, |sum, force| sum + force);
+        if self.now.initial.load.largest() > 0.0 && all <= imbalance {
+            return Cow::Owned(vec![0.0; force.len()]);
+        }
+        Cow::Borrowed(force)
     }
 }
