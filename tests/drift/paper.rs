@@ -12,7 +12,7 @@ struct Row {
 }
 
 fn rows(page: &str) -> Vec<Row> {
-    let from = page.split("## The paper's equations").nth(1);
+    let from = page.split("## Equations of the paper").nth(1);
     let section = from.expect("the page has the section");
     let section = section.split("\n## ").next().unwrap();
     let table = section

@@ -3,13 +3,12 @@
 
 use super::elastic::ElasticDrive;
 use super::plastic::PlasticDrive;
-use super::step::{Arrival, Monitor, Rules, Step};
+use super::step::{Monitor, Rules, Step};
 use crate::analysis::stress::recovery::Recovery;
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
-use crate::error::{Error, Result};
+use crate::error::Result;
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
 
 /// A drive along a straight piece of the load path, between two increments.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -58,34 +57,6 @@ impl Drive {
         match self {
             Drive::Elastic(drive) => drive.monitored,
             Drive::Plastic(drive) => drive.monitored,
-        }
-    }
-}
-
-impl Solver<'_> {
-    /// Goes to `end` elastically, or to first yield with `recovery`; nobody is notified of the
-    /// increments.
-    ///
-    /// # Errors
-    /// Those of [`ElasticDrive::step`].
-    pub fn drive_elastic(
-        &mut self,
-        end: &LoadPoint,
-        mut recovery: Option<&mut Recovery>,
-    ) -> Result<Arrival> {
-        let begun = ElasticDrive::begin(self, end, recovery.as_deref_mut(), None)?;
-        let mut drive = match begun {
-            ControlFlow::Continue(drive) => drive,
-            ControlFlow::Break(step) => {
-                let nowhere = || Error::internal("a drive that ended nowhere");
-                return step.arrival.ok_or_else(nowhere);
-            }
-        };
-        loop {
-            let step = drive.step(self, end, recovery.as_deref_mut(), None)?;
-            if let Some(arrival) = step.arrival {
-                return Ok(arrival);
-            }
         }
     }
 }

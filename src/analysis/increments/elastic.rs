@@ -6,7 +6,7 @@ use crate::analysis::stress::recovery::{Recovery, Samples};
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
 use crate::contact::{Path, PathEnd};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::root::{self, Accuracy};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -234,6 +234,32 @@ impl ElasticDrive {
             PathEnd::Event(changes) => {
                 self.at_event = true;
                 solver.contact_step(alpha, &describe(&changes), solves, None)
+            }
+        }
+    }
+
+    /// Goes to `end` elastically, or to first yield with `recovery`; nobody is notified of the
+    /// increments.
+    ///
+    /// # Errors
+    /// Those of [`ElasticDrive::step`].
+    pub fn go(
+        solver: &mut Solver,
+        end: &LoadPoint,
+        mut recovery: Option<&mut Recovery>,
+    ) -> Result<Arrival> {
+        let begun = ElasticDrive::begin(solver, end, recovery.as_deref_mut(), None)?;
+        let mut drive = match begun {
+            ControlFlow::Continue(drive) => drive,
+            ControlFlow::Break(step) => {
+                let nowhere = || Error::internal("a drive that ended nowhere");
+                return step.arrival.ok_or_else(nowhere);
+            }
+        };
+        loop {
+            let step = drive.step(solver, end, recovery.as_deref_mut(), None)?;
+            if let Some(arrival) = step.arrival {
+                return Ok(arrival);
             }
         }
     }

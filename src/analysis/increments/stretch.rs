@@ -69,7 +69,7 @@ impl ElasticStretch {
         let border = solver.border.clone();
         let open = solver.tableau.open().to_vec();
         let Ok(path) = ElasticPath::new(solver, end) else {
-            solver.set_statuses(&open, border);
+            set_statuses(solver, &open, border);
             return None;
         };
         let loads = EliminatedPath::new(solver, path.start(), end);
@@ -102,7 +102,7 @@ impl ElasticStretch {
         let Some(residual) = self.elastic_residual(solver, end) else {
             solver.assume_elastic();
             (solver.at, solver.now.gap, solver.now.force) = (from, gap, force);
-            solver.set_statuses(&self.open, self.border);
+            set_statuses(solver, &self.open, self.border);
             return Ok((None, None));
         };
         let mut report = IncrementReport {
@@ -138,7 +138,7 @@ impl ElasticStretch {
         self.open = solver.tableau.open().to_vec();
         if self.path.turn(solver).is_err() {
             // No rates beyond this event: elastoplastic increments find out why.
-            solver.set_statuses(&self.open, self.border);
+            set_statuses(solver, &self.open, self.border);
             let step = solver.accepted(from.alpha, report, None)?;
             return Ok((Some(step), None));
         }
@@ -179,15 +179,14 @@ impl ElasticStretch {
     }
 }
 
-impl Solver<'_> {
-    fn set_statuses(&mut self, open: &[bool], border: Vec<usize>) {
-        for (k, &open) in open.iter().enumerate() {
-            if self.tableau.open()[k] != open {
-                self.tableau.flip(k);
-            }
+/// Gives pairs these statuses, and the state that belongs to them.
+fn set_statuses(solver: &mut Solver, open: &[bool], border: Vec<usize>) {
+    for (k, &open) in open.iter().enumerate() {
+        if solver.tableau.open()[k] != open {
+            solver.tableau.flip(k);
         }
-        self.border = border;
-        self.fresh = false;
-        self.refresh();
     }
+    solver.border = border;
+    solver.fresh = false;
+    solver.refresh();
 }

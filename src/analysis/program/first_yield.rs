@@ -3,6 +3,7 @@
 use super::position::Purpose;
 use super::run::{DOUBLINGS, Run, ZONE_ATTEMPTS};
 use crate::analysis::choice::zone_choice::{self, Choice};
+use crate::analysis::increments::elastic::ElasticDrive;
 use crate::analysis::increments::step::{Arrival, stopped};
 use crate::analysis::stress::recovery::Peak;
 use crate::analysis::structure::state::State;
@@ -119,7 +120,8 @@ impl Run<'_, '_> {
                 let recovery = self
                     .zone
                     .recovery(&self.solver, self.position.first_yield.watched);
-                if let Arrival::Yield(peak) = self.solver.drive_elastic(&point, recovery)? {
+                if let Arrival::Yield(peak) = ElasticDrive::go(&mut self.solver, &point, recovery)?
+                {
                     return Ok(Search::Found(self.solver.at.alpha, peak));
                 }
                 if let Some(choice) = self.missed_outside()? {

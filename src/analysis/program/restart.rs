@@ -7,7 +7,7 @@
 
 use super::assembled::Analysis;
 use super::checkpoints::{CheckpointWriter, RunRecord};
-use super::position::{Stage, Start};
+use super::position::{Position, Stage, Start};
 use super::run::Run;
 use crate::analysis::choice::zone_choice::Choice;
 use crate::analysis::choice::zone_fit::{Expected, ZoneFit};
@@ -64,27 +64,15 @@ impl<'m, 'o> Run<'m, 'o> {
         expect: fn(&Analysis, &mut dyn Observer) -> Option<Expected>,
     ) -> Result<Self> {
         let model = &analysis.model;
-        let record: RunRecord = store.read()?;
+        let mut record: RunRecord = store.read()?;
         observer.model(model.freedoms.n, model.pairs.len());
         observer.phase("factorisation");
         let begin = Instant::now();
         let (system, backend) = (&analysis.system, analysis.backend);
         let (solver, same) = Solver::recall(model, system, backend, &record.solver)?;
-        let mut results = Results {
-            timings: analysis.timings.clone(),
-            warnings: model.warnings.clone(),
-            resumed: record.resumed + 1,
-            ..Results::default()
-        };
-        for part in &record.parts.states {
-            let (states, rows, path): (Vec<State>, Vec<HistoryRow>, Vec<PathPoint>) =
-                store.part_of(*part)?;
-            results.states.extend(states);
-            results.history.extend(rows);
-            results.path.extend(path);
-        }
-        results.history.extend(record.history);
-        results.path.extend(record.path);
+        let mut results = results_of(&mut record, &store)?;
+        results.timings.clone_from(&analysis.timings);
+        results.warnings.clone_from(&model.warnings);
         if !same {
             results.warnings.push(
                 "resumed with a factorisation that differs in its last digits (another BLAS or \
@@ -113,16 +101,7 @@ impl<'m, 'o> Run<'m, 'o> {
             Some(part) => Some(store.part_of(part)?),
             None => None,
         };
-        let position = record.position;
-        let n_targets = model.scene.program.targets.len();
-        let is_last = position.cycles.is_last(model.scene.program.cycles);
-        let fits = position.target <= n_targets
-            && results.states.len() == if is_last { position.target } else { 0 }
-            && (position.target < n_targets || (start.is_none() && position.search.is_none()))
-            && start
-                .as_ref()
-                .is_none_or(|start| solver.knows(&start.state));
-        if !fits {
+        if !fits(&record.position, &results, start.as_ref(), &solver) {
             return Err(Error::input(
                 "the checkpoint does not belong to the program's targets: run the scene again from \
                  its beginning",
@@ -130,7 +109,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         let mut run = Run::of(solver, zone, results, observer);
         run.path = record.sampler;
-        run.position = position;
+        run.position = record.position;
         run.follow_sets()?;
         run.position.seconds = run.position.seconds.running_since(begin);
         run.start = start;
@@ -143,4 +122,34 @@ impl<'m, 'o> Run<'m, 'o> {
         });
         Ok(run)
     }
+}
+
+/// The states, rows and points of the path of a checkpoint.
+fn results_of(record: &mut RunRecord, store: &Store) -> Result<Results> {
+    let mut results = Results {
+        resumed: record.resumed + 1,
+        ..Results::default()
+    };
+    for part in &record.parts.states {
+        let (states, rows, path): (Vec<State>, Vec<HistoryRow>, Vec<PathPoint>) =
+            store.part_of(*part)?;
+        results.states.extend(states);
+        results.history.extend(rows);
+        results.path.extend(path);
+    }
+    results.history.append(&mut record.history);
+    results.path.append(&mut record.path);
+    Ok(results)
+}
+
+/// Whether a position, with the states before it and the start of its way, is one of the program of
+/// this structure.
+fn fits(position: &Position, results: &Results, start: Option<&Start>, solver: &Solver) -> bool {
+    let program = &solver.structure.model.scene.program;
+    let n_targets = program.targets.len();
+    let is_last = position.cycles.is_last(program.cycles);
+    position.target <= n_targets
+        && results.states.len() == if is_last { position.target } else { 0 }
+        && (position.target < n_targets || (start.is_none() && position.search.is_none()))
+        && start.is_none_or(|start| solver.knows(&start.state))
 }

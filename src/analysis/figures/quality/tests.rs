@@ -2,6 +2,7 @@
 //! works with is corrupted, the figures see the true one.
 
 use super::{Displacements, tolerances};
+use crate::analysis::increments::elastic::ElasticDrive;
 use crate::analysis::increments::step::Arrival;
 use crate::analysis::structure::solver::Solver;
 use crate::assembly::{System, assemble};
@@ -65,7 +66,7 @@ fn quality(
     solver.structure.system = system;
     tamper(&mut solver);
     let end = solver.structure.point(1.0);
-    let arrival = solver.drive_elastic(&end, None);
+    let arrival = ElasticDrive::go(&mut solver, &end, None);
     assert_eq!(arrival.expect("drive"), Arrival::End);
     after(&mut solver);
     solver
@@ -206,7 +207,7 @@ fn loaded<'m>(model: &'m Model, system: &'m System) -> Solver<'m> {
     let mut solver =
         Solver::new(model, system, Backend::default(), &[], Vec::new(), &[]).expect("solver");
     let end = solver.structure.point(1.0);
-    let arrival = solver.drive_elastic(&end, None);
+    let arrival = ElasticDrive::go(&mut solver, &end, None);
     assert_eq!(arrival.expect("drive"), Arrival::End);
     solver.refresh();
     solver
@@ -443,7 +444,7 @@ fn what_is_not_a_number_ends_in_no_loop_and_is_caught() {
             Solver::new(&model, &system, Backend::default(), &[], Vec::new(), &[]).expect("solver");
         let end = solver.structure.point(1.0);
         assert_eq!(
-            solver.drive_elastic(&end, None).expect("drive"),
+            ElasticDrive::go(&mut solver, &end, None).expect("drive"),
             Arrival::End
         );
         solver.refresh();
