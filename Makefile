@@ -111,7 +111,7 @@ test-long: setup-mpi ## What takes an hour
 	cargo test --no-default-features --features cli --test all -- cli::
 
 # Not part of continuous integration: half a gigabyte of packages.
-test-clients: PACKAGES += calculix-ccx gmsh freecad freecad-python3
+test-clients: PACKAGES += calculix-ccx calculix-cgx xvfb xauth gmsh freecad freecad-python3 python3-venv
 test-clients: setup ## FreeCAD and Gmsh beside brinell (installs them): data/peers/clients.md
 	@[[ -n "$(PROGRAM)" ]] || cargo build --release
 	tests/clients/run "$(or $(PROGRAM),$(BUILT)/release/brinell)"

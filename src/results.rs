@@ -162,6 +162,9 @@ fn whole<S: Serializer>(count: &f64, to: S) -> Result<S::Ok, S::Error> {
     }
 }
 
+/// The row of the time table that has all factorisations.
+pub const FACTORISATION_ROW: &str = "factorisation and condensation";
+
 /// Name of the effect that loads are found for targets by a figure of the state.
 pub const LOADS_FOUND: &str = "loads found";
 
@@ -226,6 +229,10 @@ pub struct State {
     /// Whether the scene gives that load, so that it has no error.
     #[serde(default)]
     pub load_is_given: bool,
+    /// Whether the scene gives [`State::approach`], by prescribed displacements alone, so that it
+    /// has no error.
+    #[serde(default)]
+    pub approach_is_given: bool,
     /// Sum of all contact forces.
     pub contact_force: f64,
     /// Pairs of nodes that touch.
@@ -280,6 +287,10 @@ pub struct State {
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
     /// where fields are.
     pub energy_error: Option<f64>,
+    /// The same of the elements that touch a closed pair of contact or have yielded, where there
+    /// are any: how wrong pressures and strains there may be.
+    #[serde(default)]
+    pub local_energy_error: Option<f64>,
     /// Relative approach of the bodies: the work of the loads that vary with the load factor on the
     /// displacements, over the largest force that they exert on one body. Of a single load that is
     /// the mean displacement of its surface along it. Prescribed displacements, where there are

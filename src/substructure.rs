@@ -144,10 +144,17 @@ impl Substructure {
     }
 
     /// Makes forces on the pairs do the work on rigid motions of floating bodies that is known of
-    /// each: none those that balance themselves, as those of plastic strains.
+    /// each.
     pub(crate) fn balance(&self, forces: &mut [f64], work: &[Work]) {
         if let Some(groups) = &self.tied {
-            groups.balance(forces, work);
+            groups.balance(forces, |motion| work[motion]);
+        }
+    }
+
+    /// The same for forces that balance themselves on each body, as those of plastic strains do.
+    pub(crate) fn balance_in_bodies(&self, forces: &mut [f64]) {
+        if let Some(groups) = &self.tied {
+            groups.balance(forces, |_| Work::default());
         }
     }
 

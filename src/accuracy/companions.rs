@@ -1,7 +1,9 @@
 //! The other meshes of its family that a run is compared with.
 
+use super::effort::{Effort, work_of_finer};
 use crate::mesh::generate::Family;
 use crate::model::Model;
+use crate::number::significant;
 use crate::results::{EdgeReading, Results, State};
 use crate::scene::Scene;
 
@@ -24,6 +26,12 @@ const NEARER: f64 = 1.2;
 /// Share of a half width below which two readings of it are the same: the edge is that of a
 /// surface.
 const ROUND_OFF: f64 = 1e-9;
+/// Most of a run that other runs may take by default.
+const QUICK: f64 = 1.0;
+/// What a run with half as many increments takes of the same mesh.
+const HALF_THE_INCREMENTS: f64 = 0.5;
+/// The same of a run with twice as many, and of one with other tolerances.
+const MORE_INCREMENTS: f64 = 3.0;
 /// Elements up to which a plane run is compared with meshes of sixteen times as many, where coarser
 /// ones do not suffice; beyond, four times.
 const SMALL: usize = 1000;
@@ -60,42 +68,137 @@ pub fn member(scene: &Scene, ratio: f64) -> Result<Level, String> {
     Ok(Level { scene, ratio })
 }
 
-/// The two meshes from which the error of a run is extrapolated, finer one first; fewer where the
-/// family has not that many. Coarser ones, where every contact of the run is resolved so well that
-/// its edges can still be read on them, else finer ones.
-pub fn companions(scene: &Scene, results: &Results) -> Vec<Level> {
-    let pairs = fewest_pairs(results);
-    let elements = results.sizes.elements;
-    let finest = finest(scene, elements);
+/// The meshes that a run is compared with.
+#[derive(Debug, Clone, Default)]
+pub struct Companions {
+    /// Two, finer one first; fewer where there are no more.
+    pub levels: Vec<Level>,
+    /// Why there are none, in words.
+    pub why_none: Option<String>,
+}
+
+/// The two meshes from which the error of a run is extrapolated; fewer where the family has not
+/// that many, or where they would take more than the effort allows.
+pub fn companions(scene: &Scene, results: &Results, effort: Effort) -> Companions {
     let readable = match scene.kind.is_solid() {
         true => READABLE_PATCH,
         false => READABLE,
     };
+    let pairs = fewest_pairs(results);
     let can_be_read = |ratio: f64| pairs.is_none_or(|n| n as f64 >= ratio * readable as f64);
+    match effort {
+        Effort::None => Companions::default(),
+        Effort::Quick => cheap(scene, can_be_read),
+        Effort::Full => wanted(scene, results.sizes.elements, can_be_read),
+    }
+}
+
+/// Whatever they take: coarser ones, where every contact of the run is resolved so well that its
+/// edges can still be read on them, else finer ones.
+fn wanted(scene: &Scene, elements: usize, can_be_read: impl Fn(f64) -> bool) -> Companions {
+    let finest = finest(scene, elements);
     let nearer = scene.kind.is_solid().then_some(NEARER);
     let coarser = COARSER.into_iter().chain(nearer);
     let coarser = coarser.filter(|ratio| can_be_read(*ratio));
     let finer = FINER.into_iter().filter(|ratio| *ratio >= finest);
-    let mut levels: Vec<Level> = Vec::new();
+    let mut found = Found::new(scene);
     for ratio in coarser.chain(finer) {
-        let Ok(level) = member(scene, ratio) else {
-            continue;
-        };
-        let differs = |other: f64| level.ratio.max(other) / level.ratio.min(other) >= LEAST_RATIO;
         // A file is subdivided in steps of two, whatever ratio is asked for.
-        if scene.mesh.file.is_some() && level.ratio < finest {
-            continue;
-        }
-        let is_new = differs(1.0) && levels.iter().all(|l| differs(l.ratio));
-        if is_new && Model::new(&level.scene).is_ok() {
-            levels.push(level);
-        }
-        if levels.len() == 2 {
+        found.add(ratio, |level| {
+            scene.mesh.file.is_none() || level.ratio >= finest
+        });
+        if found.levels.len() == 2 {
             break;
         }
     }
-    levels.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
-    levels
+    found.companions("subdivided, the mesh would take many times the run")
+}
+
+/// The nearest two coarser ones that take no more than [`QUICK`] of the run together with the path's
+/// on the coarser; those on which the contact can be read before those on which it cannot.
+fn cheap(scene: &Scene, can_be_read: impl Fn(f64) -> bool) -> Companions {
+    let mut found = Found::new(scene);
+    for ratio in COARSER {
+        found.add(ratio, |level| level.ratio > 1.0);
+    }
+    let levels = std::mem::take(&mut found.levels);
+    let pairs = (0..levels.len()).flat_map(|i| (i + 1..levels.len()).map(move |j| vec![i, j]));
+    let choices = pairs.chain((0..levels.len()).map(|i| vec![i]));
+    let share = |i: usize| share_of_run(scene, levels[i].ratio);
+    let fits = |choice: &Vec<usize>| {
+        let path = choice
+            .last()
+            .map_or(0.0, |&i| HALF_THE_INCREMENTS * share(i));
+        choice.iter().map(|&i| share(i)).sum::<f64>() + path <= QUICK
+    };
+    let unread = |choice: &Vec<usize>| {
+        let unread = choice.iter().filter(|&&i| !can_be_read(levels[i].ratio));
+        (2 - choice.len(), unread.count())
+    };
+    let chosen = choices.filter(fits).min_by_key(unread).unwrap_or_default();
+    found.levels = chosen.into_iter().map(|i| levels[i].clone()).collect();
+    found.companions("finer ones would take several times the run")
+}
+
+/// Members of a family as they are asked for.
+struct Found<'s> {
+    scene: &'s Scene,
+    levels: Vec<Level>,
+    /// Why the first that there is not is none.
+    failure: Option<String>,
+}
+
+impl<'s> Found<'s> {
+    fn new(scene: &'s Scene) -> Self {
+        Found {
+            scene,
+            levels: Vec::new(),
+            failure: None,
+        }
+    }
+
+    /// Adds the member of a ratio, where it differs from the run and from the others and a model
+    /// can be made of it.
+    fn add(&mut self, ratio: f64, is_wanted: impl Fn(&Level) -> bool) {
+        let level = member(self.scene, ratio).and_then(|level| {
+            let differs =
+                |other: f64| level.ratio.max(other) / level.ratio.min(other) >= LEAST_RATIO;
+            let is_new = differs(1.0) && self.levels.iter().all(|l| differs(l.ratio));
+            if !is_new || !is_wanted(&level) {
+                return Err("the mesh has too few elements along a side".to_string());
+            }
+            match Model::new(&level.scene) {
+                Ok(_) => Ok(level),
+                Err(error) => Err(format!("elements {ratio} times as large: {error}")),
+            }
+        });
+        match level {
+            Ok(level) => self.levels.push(level),
+            Err(why) => self.failure = self.failure.take().or(Some(why)),
+        }
+        self.levels.sort_by(|a, b| a.ratio.total_cmp(&b.ratio));
+    }
+
+    fn companions(self, otherwise: &str) -> Companions {
+        let why_none = match (self.levels.is_empty(), self.failure) {
+            (true, Some(why)) => Some(format!("{why}; {otherwise}")),
+            (true, None) => Some(otherwise.to_string()),
+            (false, _) => None,
+        };
+        Companions {
+            levels: self.levels,
+            why_none,
+        }
+    }
+}
+
+/// What a run on another mesh takes, in terms of the run: as its elements of a coarser one, which is
+/// an upper bound, as its factorisation of a finer one ([`work_of_finer`]).
+fn share_of_run(scene: &Scene, ratio: f64) -> f64 {
+    match ratio < 1.0 {
+        true => work_of_finer(scene.kind, 1.0 / ratio),
+        false => ratio.powi(if scene.kind.is_solid() { -3 } else { -2 }),
+    }
 }
 
 /// Least element size of companions, over that of a run with so many elements.
@@ -109,31 +212,42 @@ fn finest(scene: &Scene, elements: usize) -> f64 {
     if 16 * elements <= most { 0.25 } else { 0.5 }
 }
 
-/// What the estimate of errors of a run on a mesh from a file with so many elements takes, in
-/// words; `None` for other meshes, and where the scene demands an accuracy.
-pub fn planned(scene: &Scene, elements: usize) -> Option<String> {
-    scene
-        .mesh
-        .file
-        .as_ref()
-        .filter(|_| scene.accuracy.is_none())?;
-    let once = if scene.kind.is_solid() { 8 } else { 4 };
-    let finest = finest(scene, elements);
-    let meshes = if finest <= 0.25 {
-        format!(
-            "subdivided once and twice, to {once} and {} times",
-            once * once
-        )
-    } else if finest <= 0.5 {
-        format!("subdivided once, to {once} times")
-    } else {
-        let text = "subdivided the mesh would take many times the run: its errors are estimated by \
-                    the energy norm of the recovered stress alone";
-        return Some(text.to_string());
+/// What the estimate of errors of a run will do and take, in words: before it, with contacts that
+/// can be read on coarser meshes.
+pub fn planned(scene: &Scene, elements: usize, effort: Effort) -> String {
+    if effort == Effort::None {
+        return "not estimated".to_string();
+    }
+    if scene.accuracy.is_some() {
+        return "by the meshes on the way to the demanded accuracy".to_string();
+    }
+    let found = match effort {
+        Effort::Full => wanted(scene, elements, |_| true),
+        _ => cheap(scene, |_| true),
     };
-    Some(format!(
-        "the estimate of errors runs the mesh {meshes} its elements; `--no-estimate` leaves it out"
-    ))
+    let ratios: Vec<f64> = found.levels.iter().map(|level| level.ratio).collect();
+    let increments = match effort {
+        Effort::Quick => HALF_THE_INCREMENTS,
+        _ => MORE_INCREMENTS,
+    };
+    let coarsest = ratios.iter().copied().fold(1.0, f64::max);
+    let shares: f64 = ratios.iter().map(|ratio| share_of_run(scene, *ratio)).sum();
+    let share = shares + increments * share_of_run(scene, coarsest);
+    let meshes = match (ratios.is_empty(), found.why_none) {
+        (true, why) => format!(
+            "energy norm of the stress error ({})",
+            why.unwrap_or_default()
+        ),
+        (false, _) => {
+            let ratios: Vec<String> = ratios.iter().map(|r| significant(*r, 3)).collect();
+            format!("runs with elements {} times as large", ratios.join(" and "))
+        }
+    };
+    let takes = match share > 2.0 {
+        true => format!("about {} times the run", significant(share, 2)),
+        false => format!("at most {} % of the run", significant(100.0 * share, 2)),
+    };
+    format!("{meshes}; {takes}")
 }
 
 /// The fewest closed pairs on one side of a contact: at first yield and in the state that carries

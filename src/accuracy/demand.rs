@@ -10,6 +10,7 @@
 //! are the values of the last mesh that was run to its end.
 
 use super::companions::{Level, member};
+use super::effort::{Effort, work_of_finer};
 use super::estimate::{Judged, assess};
 use super::extrapolation::LEAST_ORDER;
 use super::meter::work;
@@ -25,7 +26,7 @@ use crate::model::Model;
 use crate::number::duration;
 use crate::progress::Observer;
 use crate::results::{Demand, Incomplete, Results};
-use crate::scene::{AccuracyDemand, Kind, Scene};
+use crate::scene::{AccuracyDemand, Scene};
 use std::collections::BTreeMap;
 use std::time::Instant;
 
@@ -46,17 +47,6 @@ const SPAN: f64 = 2.5;
 const MORE_STEPS: usize = 3;
 /// Meshes in a row on which a quantity comes hardly nearer until it counts as without a limit.
 const WITHOUT_LIMIT: usize = 2;
-/// Powers of the fineness with which the time of a factorisation grows in the plane, `n^(3/2)` (A.
-/// George, Nested dissection of a regular finite element mesh, SIAM J. Numer. Anal. 10 (1973)
-/// 345-363, doi:10.1137/0710032), and in space, `n^2` (R. Lipton, D. Rose, R. Tarjan, Generalized
-/// nested dissection, SIAM J. Numer. Anal. 16 (1979) 346-358, doi:10.1137/0716027).
-const FACTORISATION: [f64; 2] = [3.0, 6.0];
-
-/// The work of a factorisation whose mesh is finer by a factor, over that of the mesh itself.
-fn work_of_finer(kind: Kind, factor: f64) -> f64 {
-    factor.powf(FACTORISATION[usize::from(kind.is_solid())])
-}
-
 /// A run that was made to a demand.
 pub struct Reached {
     /// The scene with the mesh and steps that were chosen.
@@ -221,6 +211,7 @@ impl Pursuit {
             scene,
             results,
             extent: self.extent,
+            effort: Effort::Full,
         };
         let found = assess(&judged, levels, &mut self.runs, observer);
         self.work += found.work;
@@ -391,17 +382,5 @@ impl Mesh {
             ..Outcome::default()
         };
         Mesh { reached, outcome }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Half the size: four and eight times the freedoms, to the powers 3/2 and 2.
-    #[test]
-    fn work_grows_as_nested_dissection_says() {
-        assert_eq!(work_of_finer(Kind::Axisymmetric, 2.0), 8.0);
-        assert_eq!(work_of_finer(Kind::Solid, 2.0), 64.0);
     }
 }

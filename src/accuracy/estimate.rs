@@ -1,6 +1,7 @@
 //! The errors of every quantity of a run, estimated after it.
 
-use super::companions::{Level, companions};
+use super::companions::{Companions, Level, companions};
+use super::effort::Effort;
 use super::extrapolation::{Extrapolation, extrapolate};
 use super::meter::work;
 use super::path::{self, PathErrors};
@@ -19,6 +20,7 @@ pub(super) struct Judged<'r> {
     pub scene: &'r Scene,
     pub results: &'r Results,
     pub extent: Extent,
+    pub effort: Effort,
 }
 
 /// Estimates the errors of `results`, those of a run of `scene` to `extent`. What could not be
@@ -29,20 +31,31 @@ pub fn estimate(
     backend: Backend,
     results: &Results,
     extent: Extent,
+    effort: Effort,
     observer: &mut dyn Observer,
 ) -> Accuracy {
     let mut runs = Runs::new(backend, extent);
-    let levels = match &results.incomplete {
-        None => companions(scene, results),
-        Some(_) => Vec::new(),
+    let companions = match &results.incomplete {
+        None => companions(scene, results, effort),
+        Some(_) => Companions::default(),
     };
     let run = Judged {
         scene,
         results,
         extent,
+        effort,
     };
     runs.keep(scene, results, 0.0);
-    assess(&run, levels, &mut runs, observer)
+    let mut out = assess(&run, companions.levels, &mut runs, observer);
+    if let Some(why) = companions.why_none {
+        let full = match effort {
+            Effort::Quick => "; the effort `full` compares with finer meshes where there are some",
+            Effort::Full | Effort::None => "",
+        };
+        out.notes
+            .push(format!("no other mesh was run: {why}{full}"));
+    }
+    out
 }
 
 /// The errors of a run by those on other meshes of its family.
@@ -57,14 +70,14 @@ pub(super) fn assess(
         scene,
         results,
         extent,
+        ..
     } = run;
     let mut out = Accuracy::default();
     let found = run_others(levels, runs, &mut out, observer);
     let others: Vec<(f64, Vec<Quantity>)> = (found.iter())
         .map(|(ratio, other)| (*ratio, quantities(&other.results)))
         .collect();
-    let energy_error = results.states.iter().filter_map(|s| s.energy_error);
-    let energy_error = energy_error.reduce(f64::max);
+    let has_norm = results.states.iter().any(|s| s.energy_error.is_some());
     let path = if results.incomplete.is_some() {
         let why = "the run is incomplete: no error is estimated";
         out.notes.push(why.to_string());
@@ -75,9 +88,9 @@ pub(super) fn assess(
         let others = found.iter().map(|(_, other)| other);
         path_errors(run, others, runs, &mut out, observer)
     };
-    out.method = match (others.is_empty(), energy_error) {
-        (false, _) => EstimateMethod::CoarserMeshes,
-        (true, Some(_)) if results.incomplete.is_none() => EstimateMethod::EnergyNorm,
+    out.method = match others.is_empty() {
+        false => EstimateMethod::CoarserMeshes,
+        true if has_norm && results.incomplete.is_none() => EstimateMethod::EnergyNorm,
         _ => EstimateMethod::None,
     };
     for quantity in &quantities(results) {
@@ -88,7 +101,7 @@ pub(super) fn assess(
                 of_meshes(quantity, degree, algebraic, &others)
             }
             EstimateMethod::EnergyNorm => OfMeshes {
-                error: energy_error.map(|e| e * quantity.scale),
+                error: by_energy_norm(run, quantity),
                 ..OfMeshes::default()
             },
             EstimateMethod::None => OfMeshes::default(),
@@ -114,6 +127,30 @@ pub(super) fn assess(
     }
     out.seconds = start.elapsed().as_secs_f64();
     out
+}
+
+/// The error of a quantity where no other mesh was run: the energy norm of the stress error, of the
+/// whole for loads, displacements and work, of where bodies touch and yield for all else. No bound,
+/// and none where a target asks for the quantity itself.
+fn by_energy_norm(run: &Judged, quantity: &Quantity) -> Option<f64> {
+    let program = &run.scene.program;
+    let labels = program.labels();
+    let mut targets = program.targets.iter().zip(&labels);
+    let asked = targets.any(|(target, label)| {
+        let mut keys = target.figures().map(|(figure, _)| figure.key());
+        keys.any(|key| quantity.path == format!("states.{label}.{key}"))
+    });
+    if asked {
+        return None;
+    }
+    let is_of_all = quantity.path != "yield.load"
+        && matches!(quantity.key(), "load" | "approach" | "plastic_work");
+    let norms = run.results.states.iter().filter_map(|state| {
+        let local = state.local_energy_error.filter(|_| !is_of_all);
+        local.or(state.energy_error)
+    });
+    let norm = norms.reduce(f64::max)?;
+    Some((norm * quantity.scale + quantity.reading).max(quantity.least))
 }
 
 /// Runs the other meshes; with their element sizes.
@@ -174,7 +211,14 @@ fn path_errors<'f>(
     let base = coarsest
         .filter(|other| fewest(other, &&own).is_lt())
         .unwrap_or(&own);
-    let (found, made) = path::errors(base, runs, run.results, observer, &mut out.notes);
+    let (found, made) = path::errors(
+        base,
+        runs,
+        run.results,
+        run.effort,
+        observer,
+        &mut out.notes,
+    );
     out.work += made;
     found
 }

@@ -7,6 +7,7 @@
 //! | `extrapolation` | the uncertainty of a value from those on other meshes |
 //! | `path` | the error of increments and tolerances |
 //! | `runs`, `estimate` | runs, each made once; discretisation, path and algebraic error of every quantity |
+//! | `effort`, `next_digit` | what an estimate may take; what a tenth of the error would |
 //! | `demand`, `outcome` | finer and finer meshes until a demanded accuracy is reached; what a mesh states about it |
 //! | `knobs`, `meter`, `record`, `study` | a study: what to turn, what a run takes, the runs |
 //! | `verdict`, `advice` | what the runs of a study show, and the same in words |
@@ -34,10 +35,12 @@
 mod advice;
 mod companions;
 mod demand;
+mod effort;
 mod estimate;
 mod extrapolation;
 mod knobs;
 mod meter;
+mod next_digit;
 mod outcome;
 mod path;
 mod quantities;
@@ -47,12 +50,14 @@ mod study;
 mod verdict;
 
 pub use crate::memory::available as available_memory;
-pub use companions::{Level, companions, member, planned};
+pub use companions::{Companions, Level, companions, member, planned};
 pub use demand::{Reached, reach};
+pub use effort::Effort;
 pub use estimate::estimate;
 pub use extrapolation::{Extrapolation, extrapolate};
 pub use knobs::{Knob, Setting, settings};
 pub use meter::{Forecast, Meter, Pace, Usage, forecast, work};
+pub use next_digit::{NextDigit, for_a_tenth};
 pub use quantities::{Quantity, quantities, value_of};
 pub use record::StudyRun;
 pub use runs::Extent;

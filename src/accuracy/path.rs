@@ -16,12 +16,13 @@
 //! Tolerances are changed by [`FACTOR`]: made tighter where they are loose (the difference is the
 //! error), looser where they are near round-off (the difference is the error times [`FACTOR`]).
 
+use super::effort::Effort;
 use super::meter::work;
 use super::quantities::{quantities, value_of};
 use super::runs::{Finished, Runs};
 use crate::progress::Observer;
 use crate::results::Results;
-use crate::scene::{LEAST_PATH_ERROR, Scene, Stepping};
+use crate::scene::{Kind, LEAST_PATH_ERROR, Program, Scene, Stepping};
 use std::collections::BTreeMap;
 
 /// Increments from target to target with which a run is compared at least.
@@ -29,6 +30,8 @@ const FEWEST: usize = 8;
 /// Power of the length of increments with which the error of the path falls, as far as few of them
 /// show it.
 const ORDER: f64 = 1.5;
+/// Path error of increments that are twice as long, over that of the increments.
+const TWICE_AS_LONG: f64 = 4.0;
 /// By how much tolerances are changed.
 const FACTOR: f64 = 100.0;
 /// Tolerances below this are made looser, not tighter: [`FACTOR`] below them lies round-off.
@@ -67,23 +70,35 @@ pub(super) fn errors(
     base: &Finished,
     runs: &mut Runs,
     results: &Results,
+    effort: Effort,
     observer: &mut dyn Observer,
     notes: &mut Vec<String>,
 ) -> (PathErrors, f64) {
     let mut out: BTreeMap<String, f64> = BTreeMap::new();
     let mut made = 0.0;
+    let fewer_increments = with_fewer_increments(&base.scene, &base.results);
+    let (increments, of_increments) = match (effort, fewer_increments) {
+        (Effort::Quick, Some(fewer)) => fewer,
+        _ => with_more_increments(&base.scene, &base.results),
+    };
     let (tolerances, of_tolerances) = with_other_tolerances(&base.scene);
-    let (increments, of_increments) = with_more_increments(&base.scene, &base.results);
     let fewer = match base.scene.stepping() {
         Stepping::Events => base.results.history.len() as f64 / results.history.len().max(1) as f64,
         // As many on every mesh.
         Stepping::Auto | Stepping::Steps => 1.0,
     };
     let of_increments = of_increments * fewer.min(1.0).powf(ORDER);
-    let repeated = [
-        ("tolerances", tolerances, of_tolerances),
-        ("increments", increments, of_increments),
-    ];
+    let repeated = match effort {
+        Effort::Quick => vec![(
+            "increments and tolerances",
+            with_tolerances_of(&increments, &tolerances),
+            of_increments.max(of_tolerances),
+        )],
+        _ => vec![
+            ("tolerances", tolerances, of_tolerances),
+            ("increments", increments, of_increments),
+        ],
+    };
     let own = quantities(&base.results);
     for (what, scene, share) in repeated {
         if observer.stop_requested() {
@@ -136,12 +151,41 @@ fn with_more_increments(scene: &Scene, results: &Results) -> (Scene, f64) {
     let share = |fewer: f64| 1.0 / (1.0 - fewer.powf(ORDER));
     if scene.stepping() == Stepping::Auto {
         let mut out = scene.clone();
-        out.program.path_error *= 0.25;
+        out.program.path_error /= TWICE_AS_LONG;
         return (out, share(0.5));
     }
     let taken = increments_taken(scene, results);
     let steps = FEWEST.max(2 * taken);
     (with_steps(scene, steps), share(taken as f64 / steps as f64))
+}
+
+/// A scene with the tolerances of another.
+fn with_tolerances_of(scene: &Scene, other: &Scene) -> Scene {
+    let mut out = scene.clone();
+    out.analysis.tolerance = other.analysis.tolerance;
+    out.program.gamma = other.program.gamma;
+    out
+}
+
+/// The scene with half as many increments as its run took, and what multiple of the difference is
+/// their error; `None` where they are few already. Increments from change to change of contact are
+/// compared with half as many as the usual path error asks for, which is no smaller than theirs.
+fn with_fewer_increments(scene: &Scene, results: &Results) -> Option<(Scene, f64)> {
+    let share = 1.0 / (2f64.powf(ORDER) - 1.0);
+    let usual = Program::default().path_error;
+    let mut out = scene.clone();
+    match scene.stepping() {
+        Stepping::Auto => out.program.path_error *= TWICE_AS_LONG,
+        Stepping::Events if scene.kind != Kind::PlaneStress => {
+            out.program.stepping = Stepping::Auto;
+            out.program.path_error = TWICE_AS_LONG * usual;
+        }
+        Stepping::Events | Stepping::Steps => {
+            let taken = increments_taken(scene, results);
+            return (taken >= FEWEST).then(|| (with_steps(scene, taken / 2), share));
+        }
+    }
+    (out.program.path_error <= TWICE_AS_LONG * usual).then_some((out, share))
 }
 
 /// The scene with so many increments that the error of its path is a fraction of what it was, and
@@ -227,5 +271,31 @@ mod tests {
         assert!((share * (error(1) - error(2)) - 1.0).abs() < 1e-12);
         let (other, _) = with_error_over(&by_error, &Results::default(), 1e30);
         assert_eq!(other.program.path_error, LEAST_PATH_ERROR);
+    }
+
+    /// Half as many increments: of steps their number, of increments by a path error four times
+    /// that; few are not halved. Their error follows with the same order.
+    #[test]
+    fn fewer_increments_cost_less_and_show_the_same_order() {
+        let text = include_str!("../../data/scenes/thick_cylinder.toml");
+        let scene = Scene::parse(text, "scene.toml").unwrap();
+        let of = |scene: &Scene| with_fewer_increments(scene, &Results::default());
+        let error = |n: usize| (n as f64).powf(-ORDER);
+        let (fewer, share) = of(&with_steps(&scene, 20)).unwrap();
+        assert_eq!(fewer.program.steps, 10);
+        assert!((share * (error(10) - error(20)) / error(20) - 1.0).abs() < 1e-12);
+        assert_eq!(of(&with_steps(&scene, FEWEST - 1)), None);
+        for stepping in [Stepping::Auto, Stepping::Events] {
+            let mut scene = scene.clone();
+            scene.program.stepping = stepping;
+            let (fewer, _) = of(&scene).unwrap();
+            assert_eq!(fewer.stepping(), Stepping::Auto);
+            assert_eq!(
+                fewer.program.path_error,
+                4.0 * Program::default().path_error
+            );
+            scene.program.path_error = 0.05;
+            assert_eq!(of(&scene).is_none(), stepping == Stepping::Auto);
+        }
     }
 }

@@ -92,9 +92,12 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
     }
     for state in &results.states {
         let prefix = format!("states.{}", state.name);
-        // A load that the scene gives has no error.
-        let is_open =
-            |quantity: &&&results::Quantity| quantity.key != "load" || !state.load_is_given;
+        // What the scene gives has no error.
+        let is_open = |quantity: &&&results::Quantity| match quantity.key {
+            "load" => !state.load_is_given,
+            "approach" => !state.approach_is_given,
+            _ => true,
+        };
         for quantity in known.iter().filter(is_open) {
             let value = (quantity.in_state.get)(state);
             let least = match quantity.key {

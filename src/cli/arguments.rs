@@ -1,6 +1,7 @@
 //! What the user may type.
 
 use super::study::StudyArguments;
+use crate::accuracy::Effort;
 use crate::linalg::Backend;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -200,9 +201,8 @@ pub(super) struct RunArguments {
     /// Time for that, such as 60s or 10min: a mesh that would not fit is not begun
     #[arg(long, value_name = "TIME", value_parser = super::study::duration)]
     pub budget: Option<f64>,
-    /// Do not estimate the errors: leaves out the runs on other meshes
-    #[arg(long)]
-    pub no_estimate: bool,
+    #[command(flatten)]
+    pub estimate: EstimateArguments,
     /// Write no report.html and no figures
     #[arg(long)]
     pub no_report: bool,
@@ -278,6 +278,39 @@ fn threads(text: &str) -> Result<u16, String> {
             "give a whole number from 1 to {most} (this machine has {processors} processors)"
         )),
     }
+}
+
+/// How much the estimate of errors may take.
+#[derive(Debug, Clone, Copy, Args)]
+pub(super) struct EstimateArguments {
+    /// How much the estimate of the errors may take
+    #[arg(long, value_enum, value_name = "EFFORT", default_value = "quick")]
+    pub estimate: Estimate,
+    /// The same as --estimate none
+    #[arg(long, conflicts_with = "estimate")]
+    pub no_estimate: bool,
+}
+
+impl EstimateArguments {
+    pub fn effort(self) -> Effort {
+        match self.estimate {
+            _ if self.no_estimate => Effort::None,
+            Estimate::Quick => Effort::Quick,
+            Estimate::Full => Effort::Full,
+            Estimate::None => Effort::None,
+        }
+    }
+}
+
+/// The words for an [`Effort`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Estimate {
+    /// No more than the run itself
+    Quick,
+    /// Whatever two meshes take on which every figure of the run can be read
+    Full,
+    /// Nothing: the errors are not estimated
+    None,
 }
 
 /// How progress is shown.

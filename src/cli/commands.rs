@@ -4,7 +4,7 @@ use super::arguments::{Arguments, Command, CommonArguments, ProgramArguments, Ru
 use super::progress::Progress;
 use super::restart::{self, RestartArguments};
 use super::{completions, example, interrupt, new, print, report, schema, study, view};
-use crate::accuracy::{self, Extent};
+use crate::accuracy::{self, Effort, Extent};
 use crate::analysis::{self, Analysis, Check};
 use crate::checkpoint::Checkpoints;
 use crate::deck::{self, Deck, Options};
@@ -236,8 +236,9 @@ fn once(
     results
         .timings
         .push(("references".to_string(), laps.next()));
-    if !arguments.no_estimate {
-        let found = accuracy::estimate(scene, backend, &results, extent, progress);
+    let effort = arguments.estimate.effort();
+    if effort != Effort::None {
+        let found = accuracy::estimate(scene, backend, &results, extent, effort, progress);
         results
             .timings
             .push(("error estimate".to_string(), laps.next()));
@@ -264,9 +265,7 @@ fn predict(common: &CommonArguments, all_effects: bool) -> Result<()> {
     let scene = prepare(common, None)?;
     let model = Model::new(&scene)?;
     let mut check: Check = analysis::check(&model, common.solver.into())?;
-    check
-        .notes
-        .extend(accuracy::planned(&scene, check.sizes.elements));
+    check.error_estimate = accuracy::planned(&scene, check.sizes.elements, Effort::default());
     print(&if common.json {
         json(&check)?
     } else {

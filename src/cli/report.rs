@@ -1,9 +1,10 @@
 //! The printed summaries.
 
 use super::table::{Column::*, Table, page_width, wrap};
+use crate::accuracy::for_a_tenth;
 use crate::analysis::Check;
 use crate::linalg::Prediction;
-use crate::number::{bytes, number, seconds, significant};
+use crate::number::{bytes, number, percent, seconds, significant};
 use crate::output::columns::{cell, of_states};
 use crate::output::{Labels, RunHeader};
 use crate::results::{
@@ -48,6 +49,17 @@ pub(super) fn results(
     report.quality(results);
     report.cost(results, wall_seconds);
     report.list("Warnings", &results.warnings);
+    if let Some(next) = for_a_tenth(scene, results) {
+        report.paragraph(&format!(
+            "For a tenth of the largest estimated error ({} of {}): elements {} times smaller, \
+             about {}, {}",
+            percent(next.relative_error),
+            next.quantity,
+            significant(next.finer, 2),
+            seconds(next.seconds),
+            bytes(next.memory_bytes)
+        ));
+    }
     if let Some(out) = out {
         let with_fields = results.states.iter().any(|state| state.fields.is_some());
         report.paragraph(&format!(
@@ -80,6 +92,9 @@ pub(super) fn check(scene: &Scene, check: &Check, all_effects: bool) -> String {
             check.blas
         ),
     );
+    if !check.error_estimate.is_empty() {
+        report.labelled("Errors", &check.error_estimate);
+    }
     report.effects(&check.effects, all_effects);
     report.list("Notes", &check.notes);
     report.text

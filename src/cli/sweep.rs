@@ -7,7 +7,7 @@ mod worker;
 
 pub(super) use worker::serve as runs;
 
-use super::arguments::CommonArguments;
+use super::arguments::{CommonArguments, EstimateArguments};
 use super::commands::json;
 use super::table::{Column, Table, page_width};
 use super::{interrupt, print};
@@ -85,9 +85,8 @@ pub(super) struct SweepArguments {
     /// As of `brinell run`
     #[arg(long, value_name = "DEMAND")]
     pub accuracy: Option<String>,
-    /// Do not estimate the errors of the points
-    #[arg(long)]
-    pub no_estimate: bool,
+    #[command(flatten)]
+    pub estimate: EstimateArguments,
     /// Write no reports
     #[arg(long)]
     pub no_report: bool,
@@ -171,7 +170,7 @@ fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Re
         env!("CARGO_PKG_VERSION").to_string(),
         format!("{:?}", common.solver),
         format!("{:?}", arguments.accuracy),
-        arguments.no_estimate.to_string(),
+        format!("{:?}", arguments.estimate.effort()),
     ] {
         text.push('\n');
         text.push_str(&choice);
@@ -345,8 +344,9 @@ impl Work<'_> {
         if let Some(demand) = &self.arguments.accuracy {
             words.extend(["--accuracy".to_string(), demand.clone()]);
         }
+        let effort = self.arguments.estimate.effort();
+        words.extend(["--estimate".to_string(), effort.name().to_string()]);
         for (is_asked, flag) in [
-            (self.arguments.no_estimate, "--no-estimate"),
             (self.arguments.no_report, "--no-report"),
             (common.small_strain, "--small-strain"),
         ] {

@@ -33,6 +33,8 @@ pub(super) struct Flow<const S: usize> {
     pub state: PlasticState<S>,
     /// `s(d)`.
     s: [f64; S],
+    /// `q`, the von Mises stress of `s(d)`.
+    q: f64,
     d: f64,
     /// `H` at its end.
     slope: f64,
@@ -44,6 +46,7 @@ impl<const S: usize> Flow<S> {
         Flow {
             state,
             s: [0.0; S],
+            q: 0.0,
             d: 0.0,
             slope: 0.0,
         }
@@ -58,7 +61,7 @@ impl<const S: usize> Flow<S> {
     /// `(3/2) d/q`: the plastic strain of a trial stress across the flow, over that stress.
     pub fn across(&self) -> f64 {
         if self.d > 0.0 {
-            1.5 * self.d / von_mises(&self.s)
+            1.5 * self.d / self.q
         } else {
             0.0
         }
@@ -75,10 +78,10 @@ pub(super) fn flow<const S: usize>(
     let laws = &material.back_stresses;
     let start = deviator(trial);
     let equivalent = old.state.equivalent;
-    let (d, slope, s) = if laws.n_stored() == 0 {
-        let q = von_mises(&start) - old.harder;
-        let (d, slope) = hardening.solve(q, 3.0 * g + laws.linear(), equivalent);
-        (d, slope, start)
+    let (d, slope, s, q) = if laws.n_stored() == 0 {
+        let q = von_mises(&start);
+        let (d, slope) = hardening.solve(q - old.harder, 3.0 * g + laws.linear(), equivalent);
+        (d, slope, start, q)
     } else {
         let at = |d: f64| {
             let forgotten = laws.forgotten(old.back, d);
@@ -88,9 +91,10 @@ pub(super) fn flow<const S: usize>(
             von_mises(&at(d)) - 3.0 * g * d - laws.gain(d) - old.yield_stress(hardening, d)
         };
         let d = flow_to_root(excess, 3.0 * g, old.yield_stress(hardening, 0.0));
-        (d, hardening.slope(equivalent + d), at(d))
+        let s = at(d);
+        (d, hardening.slope(equivalent + d), s, von_mises(&s))
     };
-    let multiplier = 1.5 * d / von_mises(&s);
+    let multiplier = 1.5 * d / q;
     let mut state = *old.state;
     state.equivalent += d;
     for i in 0..S {
@@ -98,7 +102,13 @@ pub(super) fn flow<const S: usize>(
         let doubled = if i < 3 { 1.0 } else { 2.0 };
         state.strain[i] += doubled * multiplier * s[i];
     }
-    Flow { state, s, d, slope }
+    Flow {
+        state,
+        s,
+        q,
+        d,
+        slope,
+    }
 }
 
 pub(super) fn integrate<const S: usize>(
@@ -107,7 +117,9 @@ pub(super) fn integrate<const S: usize>(
     trial: &[f64; S],
     old: &Past<S>,
 ) -> Update<S> {
-    let Flow { state, s, d, slope } = flow(material, hardening, trial, old);
+    let Flow {
+        state, s, d, slope, ..
+    } = flow(material, hardening, trial, old);
     let g = material.shear_modulus();
     let laws = &material.back_stresses;
     let norm = double_dot(&s, &s).sqrt();

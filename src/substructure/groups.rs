@@ -194,15 +194,10 @@ impl Groups {
 
     /// Makes forces on the pairs do the work on rigid motions that is known of each motion of the
     /// model.
-    pub(super) fn balance(&self, forces: &mut [f64], work: &[Work]) {
+    pub(super) fn balance(&self, forces: &mut [f64], work: impl Fn(usize) -> Work) {
         for group in &self.groups {
-            let own = DVector::from_vec(of_pairs(group, forces));
-            let own = group
-                .tied
-                .balanced(own, |motion| work[group.motions[motion]]);
-            for (&k, &force) in group.pairs.iter().zip(own.iter()) {
-                forces[k] = force;
-            }
+            let work = |motion: usize| work(group.motions[motion]);
+            group.tied.balance(&group.pairs, forces, work);
         }
     }
 

@@ -193,21 +193,24 @@ impl Tied {
         (!columns.is_empty()).then(|| DMatrix::from_columns(&columns))
     }
 
-    /// Forces on the rows with the work on rigid motions that is known of each motion of the group:
-    /// elimination leaves a share of the order of its round-off times the condition, and a body
-    /// would be driven by it.
-    pub(super) fn balanced(
+    /// Makes the forces on the rows, which are those of `pairs`, do the work on rigid motions that
+    /// is known of each motion of the group: elimination leaves a share of the order of its
+    /// round-off times the condition, and a body would be driven by it.
+    pub(super) fn balance(
         &self,
-        mut forces: DVector<f64>,
+        pairs: &[usize],
+        forces: &mut [f64],
         work: impl Fn(usize) -> Work,
-    ) -> DVector<f64> {
+    ) {
         for rigid in &self.rigid_slips {
             let shares = rigid.of_motion.iter().enumerate();
             let known = Work::combined(shares.map(|(motion, share)| (*share, work(motion)))).done();
-            let left = known - rigid.values.dot(&forces);
-            forces.axpy(left, &rigid.values, 1.0);
+            let slips = || pairs.iter().zip(rigid.values.iter());
+            let left = known - slips().map(|(&k, slip)| slip * forces[k]).sum::<f64>();
+            for (&k, slip) in slips() {
+                forces[k] += left * slip;
+            }
         }
-        forces
     }
 
     /// Numbers that the dense matrices hold.

@@ -2,7 +2,7 @@
 //! takes few increments.
 
 use crate::support;
-use brinell::accuracy::{Extent, estimate};
+use brinell::accuracy::{Effort, Extent, estimate};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -16,7 +16,14 @@ pub fn estimated(scene: &Scene, extent: Extent) -> (Results, Accuracy) {
         Extent::Yield => analysis.yield_load(&mut Silent).unwrap(),
         Extent::Program => analysis.run(&mut Silent).unwrap(),
     };
-    let accuracy = estimate(scene, Backend::default(), &results, extent, &mut Silent);
+    let accuracy = estimate(
+        scene,
+        Backend::default(),
+        &results,
+        extent,
+        Effort::Full,
+        &mut Silent,
+    );
     assert_eq!(accuracy.notes, Vec::<String>::new());
     assert_eq!(accuracy.method, EstimateMethod::CoarserMeshes);
     (results, accuracy)
@@ -173,6 +180,7 @@ fn a_half_width_as_target_says_what_it_adds() {
             Backend::default(),
             &results,
             Extent::Program,
+            Effort::Full,
             &mut Silent,
         )
     };

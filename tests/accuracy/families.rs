@@ -6,7 +6,7 @@
 #![allow(dead_code)] // tests and the page each use a part of it
 
 use crate::support;
-use brinell::accuracy::{Extent, estimate, quantities};
+use brinell::accuracy::{Effort, Extent, estimate, quantities};
 use brinell::analysis::Analysis;
 use brinell::analytical::{
     DiscInPlate, HertzPoint, PinInHole, Plane, ShrinkFit, ThickCylinder, contact_modulus,
@@ -84,7 +84,8 @@ impl Family {
                 continue;
             };
             let backend = Backend::default();
-            let found = estimate(scene, backend, &results, self.extent, &mut Silent);
+            let effort = Effort::Quick;
+            let found = estimate(scene, backend, &results, self.extent, effort, &mut Silent);
             let all = quantities(&results);
             for (quantity, row) in all.iter().zip(&found.quantities) {
                 let (Some(exact), Some(stated)) = (truth.get(&row.quantity), row.relative_error)

@@ -7,12 +7,12 @@ use crate::accuracy::families::from_file;
 use crate::support;
 use crate::support::msh::{Body, Msh};
 use crate::support::random::Random;
-use brinell::accuracy::{Extent, Knob, Plan, Study, estimate, planned, study};
+use brinell::accuracy::{Effort, Extent, Knob, Plan, Study, estimate, planned, study, work};
 use brinell::analytical::{Plane, ThickCylinder};
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::progress::Silent;
-use brinell::results::EstimateMethod;
+use brinell::results::{EstimateMethod, Results};
 use brinell::scene::Scene;
 use std::path::Path;
 
@@ -225,8 +225,8 @@ fn a_contact_from_a_file_keeps_its_pairs_and_gaps() {
     assert!((c / b - 1.0).abs() < 0.03 + 1e-3, "{c} {b}");
 }
 
-/// The estimate of a mesh from a file is a small multiple of the run, or the energy norm alone:
-/// `planned` says which before it starts, and it is what is done.
+/// By default no mesh from a file is subdivided for its estimate, in full it is where that takes no
+/// more than 72 times the run: `planned` says which before it starts, and it is what is done.
 #[test]
 fn the_estimate_of_a_file_is_bounded_and_told_before() {
     let folder = tempfile::tempdir().unwrap();
@@ -263,27 +263,62 @@ fn the_estimate_of_a_file_is_bounded_and_told_before() {
              [program]\ntargets = [{{ load_factor = 1.0 }}]\n"
         ))
     };
+    let estimated = |scene: &Scene, results: &Results, effort| {
+        let (backend, extent) = (Backend::default(), Extent::Program);
+        let accuracy = estimate(scene, backend, results, extent, effort, &mut Silent);
+        let ratios: Vec<f64> = accuracy.companions.iter().map(|c| c.ratio).collect();
+        (ratios, accuracy)
+    };
     for (cells, solid, ratios, words) in [
         (
             [25, 10],
             false,
             &[0.25, 0.5][..],
-            "once and twice, to 4 and 16 times",
+            "0.25 and 0.5 times as large; about 84 times",
         ),
-        ([25, 11], false, &[0.5], "once, to 4 times"),
-        ([5, 10], true, &[0.5], "once, to 8 times"),
-        ([5, 11], true, &[], "the energy norm"),
+        (
+            [25, 11],
+            false,
+            &[0.5],
+            "0.5 times as large; about 11 times",
+        ),
+        ([5, 10], true, &[0.5], "0.5 times as large; about 67 times"),
+        ([5, 11], true, &[], "energy norm of the stress error"),
     ] {
         let scene = block(cells, solid);
         let elements = cells[0] * cells[1] * if solid { cells[0] } else { 1 };
-        let said = planned(&scene, elements).unwrap();
-        assert!(said.contains(words), "{said}");
         let results = support::run(&scene);
-        let backend = Backend::default();
-        let accuracy = estimate(&scene, backend, &results, Extent::Program, &mut Silent);
-        let found: Vec<f64> = accuracy.companions.iter().map(|c| c.ratio).collect();
+        let said = planned(&scene, elements, Effort::Full);
+        assert!(said.contains(words), "{said}");
+        let (found, full) = estimated(&scene, &results, Effort::Full);
         assert_eq!(found, ratios, "{cells:?}");
-        let by_norm = accuracy.method == EstimateMethod::EnergyNorm;
+        let by_norm = full.method == EstimateMethod::EnergyNorm;
         assert_eq!(by_norm, ratios.is_empty());
+
+        let said = planned(&scene, elements, Effort::Quick);
+        assert!(
+            said.starts_with("energy norm of the stress error (a mesh from a file"),
+            "{said}"
+        );
+        assert!(said.ends_with("at most 50 % of the run"), "{said}");
+        let (found, quick) = estimated(&scene, &results, Effort::Quick);
+        assert_eq!((found, quick.method), (vec![], EstimateMethod::EnergyNorm));
+        assert!(
+            quick.notes[0].contains("no coarser member than the file"),
+            "{:?}",
+            quick.notes
+        );
+        assert!(
+            quick.work <= work(&results),
+            "{} of {}",
+            quick.work,
+            work(&results)
+        );
+        // The load is given; the approach is wrong by no more than is said.
+        let [approach] = &quick.quantities[..] else {
+            panic!("{:?}", quick.quantities);
+        };
+        let better = full.quantities[0].extrapolated;
+        assert!(better.is_none_or(|b| (approach.value - b).abs() <= approach.error.unwrap()));
     }
 }

@@ -139,6 +139,11 @@ fn main() -> Result<(), Failure> {
         ["cholmod", directory] => print(&bare(Path::new(directory))?),
         ["check", changes] => print(&scaling::prediction(changes)?),
         ["scaling"] => scaling::measure(),
+        ["auto", ref names @ ..] => compare(
+            (LINE, &SIZES, names),
+            &["program.stepping=\"auto\""],
+            "history_auto",
+        ),
         ["perfect", ref names @ ..] => compare(
             (LINE, &SIZES, names),
             &["materials.steel.plastic_modulus=0.0"],

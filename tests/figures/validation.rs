@@ -3,7 +3,7 @@
 
 use crate::verification::digits;
 use crate::{Outcome, runs};
-use brinell::accuracy::{Extent, estimate};
+use brinell::accuracy::{Effort, Extent, estimate};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -97,6 +97,7 @@ fn table(file: &str) -> Outcome<String> {
         Backend::default(),
         &results,
         Extent::Program,
+        Effort::Full,
         &mut Silent,
     );
     reference::compare(analysis.model(), &mut results);

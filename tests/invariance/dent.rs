@@ -2,7 +2,7 @@
 //! mesh, or on whether a force or a displacement led there.
 
 use crate::support::{close, load, run, state};
-use brinell::accuracy::{Extent, estimate};
+use brinell::accuracy::{Effort, Extent, estimate};
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::progress::Silent;
@@ -21,6 +21,7 @@ fn dent(scene: &Scene) -> [f64; 2] {
         Backend::default(),
         &results,
         Extent::Program,
+        Effort::Full,
         &mut Silent,
     );
     let path = "states.unloaded.residual_depth";

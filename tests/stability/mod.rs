@@ -22,5 +22,6 @@ mod receding;
 mod refinement;
 mod selftest;
 mod solids;
+mod taken_off;
 mod touching;
 mod whether_it_yields;

@@ -14,7 +14,7 @@ def run(
     overrides: Sequence[str],
     solver: Optional[str],
     callback: _Callback,
-    estimate: bool,
+    estimate: str,
     threads: Optional[int],
     budget: Optional[float],
 ) -> Result: ...

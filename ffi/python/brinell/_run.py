@@ -18,7 +18,8 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, th
         with `incomplete` set. What it raises (Ctrl-C too) is raised here.
     threads: how many threads to use, a pool of its own for this run; by default those that all runs share. The callback is then called in one of
         them, not in the calling thread.
-    estimate: estimate the errors of all figures too (summary["accuracy"]); this runs the scene on other meshes.
+    estimate: estimate the errors of all figures too (summary["accuracy"]): True or "quick" takes no more than the run itself, "full" whatever two
+        meshes take on which every figure can be read, "none" or False nothing.
     budget: seconds that may be spent on an accuracy that the scene demands: a mesh that would not fit is not begun.
 
     Raises `Error` (`InputError`, `UnheldError`, `CollapseError`, ...) with `kind`, `status` and, where the run failed on its way,
@@ -26,7 +27,8 @@ def run(scene, overrides=None, *, solver=None, callback=None, estimate=False, th
     reached, is told by an `InaccurateWarning`; a scene with `accuracy` is run on finer and finer meshes, and the result is that of
     the last.
     """
-    return _brinell.run(*_scene(scene, overrides, more), solver, callback, estimate, threads, budget)
+    effort = {True: "quick", False: "none"}.get(estimate, estimate)
+    return _brinell.run(*_scene(scene, overrides, more), solver, callback, effort, threads, budget)
 
 
 def check(scene, overrides=None, *, solver=None, **more):

@@ -4,6 +4,7 @@ use crate::arrays::{backend, doubles, each_width, integers, keywords, shape, val
 use crate::errors::{Raise, wrong};
 use crate::run::{RunResult, Source, Way, execute};
 use crate::threads;
+use brinell::accuracy::Effort;
 use brinell::mesh::{Curve, Shape};
 use brinell::model::{ModelBuilder, NodePair};
 use brinell::panics::contained;
@@ -476,7 +477,7 @@ impl Model {
         let way = Way {
             backend: backend(py, solver)?,
             callback,
-            estimate: false,
+            estimate: Effort::None,
             threads: threads::number(py, threads)?,
             budget: None,
         };

@@ -7,7 +7,7 @@ use crate::observer::Watcher;
 use crate::tables;
 use crate::threads;
 use brinell::ErrorKind;
-use brinell::accuracy::{self, Extent};
+use brinell::accuracy::{self, Effort, Extent};
 use brinell::analysis::{self, Analysis};
 use brinell::deck::{self, Options};
 use brinell::linalg::Backend;
@@ -37,7 +37,7 @@ pub enum Source {
 pub struct Way {
     pub backend: Backend,
     pub callback: Option<Py<PyAny>>,
-    pub estimate: bool,
+    pub estimate: Effort,
     pub threads: Option<usize>,
     /// Seconds for an accuracy that the scene demands.
     pub budget: Option<f64>,
@@ -54,7 +54,7 @@ pub fn run(
     overrides: Vec<String>,
     solver: Option<&str>,
     callback: Option<Py<PyAny>>,
-    estimate: bool,
+    estimate: &str,
     threads: Option<i64>,
     budget: Option<f64>,
 ) -> PyResult<Py<RunResult>> {
@@ -62,7 +62,7 @@ pub fn run(
     let way = Way {
         backend: backend(py, solver)?,
         callback,
-        estimate,
+        estimate: Effort::from_name(estimate).raise(py)?,
         threads: threads::number(py, threads)?,
         budget,
     };
@@ -154,10 +154,11 @@ pub fn execute(py: Python<'_>, source: Source, way: Way) -> PyResult<Py<RunResul
             let mut results = analysis.run(&mut watcher)?;
             let model = analysis.model().clone();
             reference::compare(&model, &mut results);
-            if way.estimate {
-                let extent = Extent::Program;
-                let found =
-                    accuracy::estimate(&model.scene, backend, &results, extent, &mut watcher);
+            if way.estimate != Effort::None {
+                let (scene, extent) = (&model.scene, Extent::Program);
+                let effort = way.estimate;
+                let watcher = &mut watcher;
+                let found = accuracy::estimate(scene, backend, &results, extent, effort, watcher);
                 results.accuracy = Some(found);
             }
             Ok((model, results))

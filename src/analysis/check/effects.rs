@@ -38,6 +38,8 @@ pub struct Check {
     pub predicted_run_seconds: f64,
     /// The BLAS in use.
     pub blas: String,
+    /// What the estimate of the run's errors will do and take, in words; empty where nobody asked.
+    pub error_estimate: String,
     /// Things the user should know.
     pub notes: Vec<String>,
 }
@@ -130,9 +132,9 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     }
     if run > LONG {
         notes.push(format!(
-            "the run may take about {:.0} min, and the estimate of its errors once or twice that: \
-             fewer elements (resolution) or a smaller largest load make it shorter, \
-             `--no-estimate` leaves the estimate out",
+            "the run may take about {:.0} min, and the estimate of its errors as long again: fewer \
+             elements (resolution) or a smaller largest load make it shorter, `--estimate none` \
+             leaves the estimate out",
             (run / 60.0).ceil()
         ));
     }
@@ -145,6 +147,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         predicted_seconds: factorisation,
         predicted_run_seconds: run,
         blas: backend.arithmetic(),
+        error_estimate: String::new(),
         notes,
     })
 }

@@ -68,18 +68,15 @@ impl Reading<'_, '_> {
         let model = self.solver.structure.model;
         let factors = &self.solver.at.factors;
         let deformation = model.nodal(displacements.deformation(), factors);
-        let (energy_error, fields) = shown.map_or((None, None), |shown| {
-            let moved = model.nodal(u, factors);
-            let (energy_error, mut fields) = fields(model, moved, shown);
-            on_nodes(model, &pairs, &mut fields);
-            fields.force = reactions::on_nodes(model, nodal, &self.solver.contact_forces());
-            (Some(energy_error), Some(fields))
-        });
+        let shown = shown.map(|shown| self.fields(shown, u, nodal, &pairs));
+        let (errors, fields) = shown.unzip();
+        let [energy_error, local_energy_error] = errors.unwrap_or_default();
         let state = State {
             name: name.to_string(),
             alpha: self.solver.at.alpha,
             load,
             load_is_given: false,
+            approach_is_given: false,
             contact_force: figures.force * self.solver.structure.model.symmetry,
             closed_pairs: self.solver.closed_pairs(),
             max_pressure: figures.max_pressure,
@@ -99,6 +96,7 @@ impl Reading<'_, '_> {
             plastic_work: plastic_work * self.solver.structure.model.symmetry,
             plastic_depth,
             energy_error,
+            local_energy_error,
             approach: self.approach(u),
             patches: figures.patches,
             pairs,
@@ -113,12 +111,49 @@ impl Reading<'_, '_> {
             deformation,
         })
     }
+
+    /// Fields, with the estimated errors of the stresses, for displacements of all freedoms, what
+    /// all elements show and the forces of their stresses on the nodes.
+    fn fields(
+        &self,
+        shown: Shown,
+        u: &[f64],
+        nodal: Vec<Vector>,
+        pairs: &[PairState],
+    ) -> ([Option<f64>; 2], Fields) {
+        let model = self.solver.structure.model;
+        let moved = model.nodal(u, &self.solver.at.factors);
+        let (errors, mut fields) = fields(model, moved, shown, pairs);
+        on_nodes(model, pairs, &mut fields);
+        fields.force = reactions::on_nodes(model, nodal, &self.solver.contact_forces());
+        (errors, fields)
+    }
 }
 
-/// The estimated error of the stresses, and fields on the whole mesh, for the displacements of its
-/// nodes and what all elements show.
-fn fields(model: &Model, nodal: Vec<Vector>, shown: Shown) -> (f64, Fields) {
+/// The estimated error of the stresses, of the whole and where it touches or yields, and fields on
+/// the whole mesh, for the displacements of its nodes and what all elements show.
+fn fields(
+    model: &Model,
+    nodal: Vec<Vector>,
+    shown: Shown,
+    pairs: &[PairState],
+) -> ([Option<f64>; 2], Fields) {
     let dimension = model.mesh.dimension;
+    let mut touches = vec![false; model.mesh.n_nodes()];
+    for state in pairs.iter().filter(|state| state.pressure > 0.0) {
+        for node in model
+            .pairs
+            .get(state.pair)
+            .iter()
+            .flat_map(|pair| pair.nodes())
+        {
+            touches[node] = true;
+        }
+    }
+    let local = shown.recovered.error_of(|e| {
+        let nodes = model.mesh.nodes(e);
+        shown.plastic_strain[e] > 0.0 || nodes.iter().any(|node| touches[*node as usize])
+    });
     let errors = shown.recovered.indicator(2 * dimension);
     let yielded = shown.plastic_strain.iter().map(|p| u8::from(*p > 0.0));
     let fields = Fields {
@@ -136,7 +171,7 @@ fn fields(model: &Model, nodal: Vec<Vector>, shown: Shown) -> (f64, Fields) {
         force: Vec::new(),
         points: shown.points,
     };
-    (errors.total, fields)
+    ([Some(errors.total), local], fields)
 }
 
 /// Pressure and gap of the pairs on the slaves and on nodes that face them; on other masters the

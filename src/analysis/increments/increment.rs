@@ -293,7 +293,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
     fn eliminate_anew(&mut self) {
         self.stretched = 1.0;
         let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);
-        let initial = structure.eliminate(self.state.initial.load.clone(), cost);
+        let initial = structure.eliminate_initial(self.state.initial.load.clone(), cost);
         let point = self.start.towards(self.end, self.t);
         self.state = self.solver.respond(&point, initial);
     }

@@ -202,6 +202,8 @@ impl Solver<'_> {
             total.initial.forces[k] -= c;
             total.force[k] -= c;
         }
+        let sub = &self.structure.sub;
+        sub.balance_in_bodies(&mut total.initial.forces);
         self.recover_change(&mut total, &ZonePart::default());
         total
     }

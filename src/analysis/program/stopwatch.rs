@@ -4,6 +4,7 @@
 //! to the whole by construction. Work that is done on the way through other work has its own row
 //! and not the other's.
 
+use crate::results::FACTORISATION_ROW;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
@@ -34,7 +35,7 @@ pub(super) enum Row {
 impl Row {
     /// All rows with their names, in the order in which they are shown.
     pub(super) const ALL: [(Row, &str); 9] = [
-        (Row::Condensation, "factorisation and condensation"),
+        (Row::Condensation, FACTORISATION_ROW),
         (Row::YieldLoad, "yield load"),
         (Row::Zone, "choice of the zone"),
         (Row::Contact, "elastic increments"),

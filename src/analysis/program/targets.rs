@@ -78,15 +78,18 @@ impl<'m> Run<'m, '_> {
         (target, self.labels[index].clone())
     }
 
-    /// Whether a load factor alone says how large the reported load is: neither the yield load nor
-    /// the answer to a displacement or gap is in it.
-    fn gives_load(&self) -> bool {
+    /// What a load factor alone gives, neither the yield load nor the answer of the bodies in it:
+    /// the reported load, or the approach.
+    fn given_by_factor(&self) -> [bool; 2] {
         let model = self.model();
-        let leading = model
-            .leading_load()
-            .map(|leading| model.loads[leading].measures);
-        let is_applied = |of: Magnitude| !matches!(of, Magnitude::Displacement | Magnitude::Gap);
-        model.scene.program.unit != Unit::Yield && leading.is_some_and(is_applied)
+        let is_known = model.scene.program.unit != Unit::Yield;
+        let leading = model.leading_load();
+        let measures = leading.map(|leading| model.loads[leading].measures);
+        let of_load = |of: Magnitude| !matches!(of, Magnitude::Displacement | Magnitude::Gap);
+        [
+            is_known && measures.is_some_and(of_load),
+            is_known && measures == Some(Magnitude::Displacement),
+        ]
     }
 
     /// Takes the state at a target that was reached. The guard layer only sees what grows out of
@@ -101,7 +104,10 @@ impl<'m> Run<'m, '_> {
             seconds.hand_over(figures.stress_seconds, Row::Stresses);
             Ok::<_, Error>(figures)
         })?;
-        figures.state.load_is_given = target.load_factor.is_some() && self.gives_load();
+        if target.load_factor.is_some() {
+            let state = &mut figures.state;
+            [state.load_is_given, state.approach_is_given] = self.given_by_factor();
+        }
         let passed = self.passed_in_a_jump()?;
         self.monitor = None;
         let unloads_outside = std::mem::take(&mut self.unloads_outside).take();

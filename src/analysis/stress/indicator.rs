@@ -106,6 +106,14 @@ impl Recovered {
         out
     }
 
+    /// Estimated energy norm of the error over that of the solution, of some of the elements where
+    /// these are all; `None` of none.
+    pub(in crate::analysis) fn error_of(&self, counts: impl Fn(usize) -> bool) -> Option<f64> {
+        let ours = self.energies.iter().enumerate().filter(|(e, _)| counts(*e));
+        let [error, whole] = ours.fold([0.0; 2], |sum, (_, e)| [sum[0] + e[0], sum[1] + e[1]]);
+        (error + whole > 0.0).then(|| (error / (error + whole)).sqrt())
+    }
+
     /// The indicator, where these are all elements, of `components` of stress.
     pub(in crate::analysis) fn indicator(self, components: usize) -> Indicator {
         let mut nodal_stress = self.at_nodes;

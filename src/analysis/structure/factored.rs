@@ -241,6 +241,14 @@ impl<'m> Structure<'m> {
         out
     }
 
+    /// The first half of the solve with the load of initial strains, which balances itself on each
+    /// body: what round-off leaves of its resultants would drive bodies that contact alone holds.
+    pub fn eliminate_initial(&self, load: Trailing, cost: &mut Cost) -> EliminatedLoad {
+        let mut out = self.eliminate(load, cost);
+        self.sub.balance_in_bodies(&mut out.forces);
+        out
+    }
+
     /// Number of pairs.
     pub fn n_pairs(&self) -> usize {
         self.gaps.initial.len()

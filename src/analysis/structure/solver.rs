@@ -193,7 +193,7 @@ impl<'m> Solver<'m> {
         zone.set_factors(&self.at.factors);
         self.zone = zone;
         let initial = self.zone.initial_load(structure.sub.zeros());
-        let initial = structure.eliminate(initial, &mut self.cost);
+        let initial = structure.eliminate_initial(initial, &mut self.cost);
         self.now = self.respond(&self.at.clone(), initial);
         self.fresh = true;
         self.predictor.pace = None;

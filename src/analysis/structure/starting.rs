@@ -5,7 +5,7 @@ use crate::analysis::zone::history::History;
 use crate::checkpoint::read_end_state;
 use crate::error::{Error, Result};
 use crate::material::Material;
-use crate::model::{Model, Work};
+use crate::model::Model;
 use crate::results::{EndState, LeftBy, LeftByBody};
 use crate::scene::{Kind, Unit};
 
@@ -138,9 +138,7 @@ impl Solver<'_> {
         let history = History::from(start);
         self.zone.restore_of(&start.elements, &history);
         let initial = self.zone.initial_load(structure.sub.zeros());
-        self.now.initial = structure.eliminate(initial, &mut self.cost);
-        let none = vec![Work::default(); structure.model.floating.motions.len()];
-        structure.sub.balance(&mut self.now.initial.forces, &none);
+        self.now.initial = structure.eliminate_initial(initial, &mut self.cost);
         let nothing = self.at.clone();
         self.solve_contact_at(&nothing)
     }

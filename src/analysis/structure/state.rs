@@ -84,7 +84,7 @@ impl Solver<'_> {
             self.now.gap.copy_from_slice(&state.equilibrium.gap);
             self.now.force.copy_from_slice(&state.equilibrium.force);
             let initial = self.zone.initial_load(self.structure.sub.zeros());
-            self.now.initial = self.structure.eliminate(initial, &mut self.cost);
+            self.now.initial = self.structure.eliminate_initial(initial, &mut self.cost);
             self.fresh = false;
         }
         self.set_springs(&state.springs);

@@ -243,11 +243,13 @@ fn a_check_tells_effects_cost_and_notes() {
         predicted_seconds: 12.34,
         predicted_run_seconds: 56.78,
         blas: "OpenBLAS 0.3.21".into(),
+        error_estimate: "runs with elements 1.5 and 2 times as large".into(),
         notes: vec!["use a finer mesh".into()],
     };
     let text = check(&scene(), &prediction, false);
     for fragment in [
         "Predicted  about 12.3 s for each factorisation, 56.8 s for the run without its error",
+        "\nErrors     runs with elements 1.5 and 2 times as large\n",
         "\nEffects\n",
         "\nNotes\n  - use a finer mesh\n",
         "  off: interference (why: `brinell check --effects`)\n",

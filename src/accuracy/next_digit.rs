@@ -1,0 +1,59 @@
+//! What a tenth of the stated error would take.
+
+use super::effort::work_of_finer;
+use super::extrapolation::LEAST_ORDER;
+use super::quantities::{formal_order, is_demanded_with_all};
+use crate::results::{FACTORISATION_ROW, QuantityError, Results};
+use crate::scene::Scene;
+
+/// What a mesh takes on which the largest stated error would be a tenth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NextDigit {
+    /// The quantity with the largest stated relative error of those that a demand on all asks for.
+    pub quantity: String,
+    /// That error.
+    pub relative_error: f64,
+    /// How many times smaller the elements would have to be.
+    pub finer: f64,
+    /// Seconds of a run on that mesh.
+    pub seconds: f64,
+    /// Bytes of its factorisation.
+    pub memory_bytes: f64,
+}
+
+/// Powers of the fineness with which the time of solves and the memory of a factor grow: `n` but
+/// for a logarithm in the plane, `n^(4/3)` in space (George 1973, Lipton, Rose and Tarjan 1979, as
+/// of the factorisation).
+const SOLVES: [f64; 2] = [2.0, 4.0];
+
+/// What a tenth of the largest stated error takes: the mesh's share of it falls with the order that
+/// the meshes show, or with the first where they show none. `None` where no error is stated, or
+/// where the path or the algebra leaves more than the mesh: no mesh mends that.
+pub fn for_a_tenth(scene: &Scene, results: &Results) -> Option<NextDigit> {
+    let rows = &results.accuracy.as_ref()?.quantities;
+    let key = |row: &QuantityError| row.quantity.rsplit('.').next().unwrap_or("").to_string();
+    let counts = |row: &&QuantityError| is_demanded_with_all(&key(row));
+    let stated = |row: &QuantityError| row.relative_error.filter(|e| e.is_finite() && *e > 0.0);
+    let (row, relative_error) = (rows.iter().filter(counts))
+        .filter_map(|row| Some((row, stated(row)?)))
+        .max_by(|a, b| a.1.total_cmp(&b.1))?;
+    if row.discretisation? < 0.5 * row.error? {
+        return None;
+    }
+    let formal = formal_order(&key(row), results.sizes.degree);
+    let order = row.order.filter(|order| *order >= LEAST_ORDER);
+    let finer = 10f64.powf(1.0 / order.map_or(1.0, |order| order.min(formal)));
+    let growth = finer.powf(SOLVES[usize::from(scene.kind.is_solid())]);
+    let run = (results.timings.iter()).filter(|(name, _)| name != "error estimate");
+    let seconds = run.map(|(name, seconds)| match name == FACTORISATION_ROW {
+        true => seconds * work_of_finer(scene.kind, finer),
+        false => seconds * growth,
+    });
+    Some(NextDigit {
+        quantity: row.quantity.clone(),
+        relative_error,
+        finer,
+        seconds: seconds.sum(),
+        memory_bytes: results.factor.memory_bytes * growth,
+    })
+}
