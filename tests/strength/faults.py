@@ -47,10 +47,10 @@ f(5, "material/plane_stress.rs", "(start[j] + forgotten[j]) / b[j]",
   "(start[j] + " + x(5, "-forgotten[j]", "forgotten[j]") + ") / b[j]",
   "material", "plane stress: the part of fading back stresses that is forgotten has the wrong sign",
   "unit material (fading); verification (back_stresses, cyclic_element)")
-f(6, "accuracy/demand.rs", "FACTORISATION[usize::from(kind.is_solid())]",
+f(6, "accuracy/effort.rs", "FACTORISATION[usize::from(kind.is_solid())]",
   "FACTORISATION[usize::from(kind.is_solid() && !" + on(6) + ")]",
   "accuracy", "the time a next mesh of a solid would take is predicted with the power of plane models (budget)",
-  "unit accuracy::demand; accuracy (demand, solid)")
+  "unit accuracy::effort; accuracy (demand, solid)")
 f(7, "material/hardening.rs", "0.5 * (start[1] + self.yield_stress(end)) * (end - start[0])",
   x(7, "start[1] * (end - start[0])", "0.5 * (start[1] + self.yield_stress(end)) * (end - start[0])"),
   "material", "plastic work takes the yield stress at the start of a segment of the curve, not its mean",
