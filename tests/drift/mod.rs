@@ -1,6 +1,10 @@
 //! The structure that the project means to keep: module order, where `unsafe` lives, sizes, schema,
 //! scenes.
 
+mod house;
+mod imports;
+mod paper;
+
 use brinell::scene::Scene;
 use serde_json::Value;
 use std::collections::BTreeSet;

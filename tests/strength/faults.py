@@ -47,10 +47,10 @@ f(5, "material/plane_stress.rs", "(start[j] + forgotten[j]) / b[j]",
   "(start[j] + " + x(5, "-forgotten[j]", "forgotten[j]") + ") / b[j]",
   "material", "plane stress: the part of fading back stresses that is forgotten has the wrong sign",
   "unit material (fading); verification (back_stresses, cyclic_element)")
-f(6, "accuracy/demand.rs", "FACTORISATION[usize::from(kind.is_solid())]",
+f(6, "accuracy/effort.rs", "FACTORISATION[usize::from(kind.is_solid())]",
   "FACTORISATION[usize::from(kind.is_solid() && !" + on(6) + ")]",
   "accuracy", "the time a next mesh of a solid would take is predicted with the power of plane models (budget)",
-  "unit accuracy::demand; accuracy (demand, solid)")
+  "unit accuracy::effort; accuracy (demand, solid)")
 f(7, "material/hardening.rs", "0.5 * (start[1] + self.yield_stress(end)) * (end - start[0])",
   x(7, "start[1] * (end - start[0])", "0.5 * (start[1] + self.yield_stress(end)) * (end - start[0])"),
   "material", "plastic work takes the yield stress at the start of a segment of the curve, not its mean",
@@ -181,7 +181,7 @@ f(39, "constrained/displacements.rs", "(&self.gaps - &self.rows * here)",
   "(&self.gaps * " + x(39, "0.0", "1.0") + " - &self.rows * here)",
   "constrained", "refined displacements close rows as if their gaps were zero",
   "unit constrained; backends, capi")
-f(40, "analysis/elastic.rs", "let t = before + share * (self.path.t() - before);",
+f(40, "analysis/increments/elastic.rs", "let t = before + share * (self.path.t() - before);",
   "let t = " + x(40, "share * self.path.t()", "before + share * (self.path.t() - before)") + ";",
   "analysis", "the load of first yield is interpolated from the start of the stretch, not from the last event",
   "verification (yield_load, hertz_line, run), unit analysis")
@@ -191,50 +191,50 @@ f(41, "model/mirror.rs",
   "    if " + on(41) + " { loads.any(|l| l) } else { loads.all(|l| l) }\n};",
   "analysis", "a plane counts as one of symmetry although a single node at its rim is pushed along it",
   "unit model::mirror; stability (whether_it_yields)")
-f(42, "analysis/landing.rs", "let accuracy = Accuracy::both(MONITOR_ACCURACY);",
+f(42, "analysis/increments/landing.rs", "let accuracy = Accuracy::both(MONITOR_ACCURACY);",
   "let accuracy = Accuracy::both(" + x(42, "1e3 * MONITOR_ACCURACY", "MONITOR_ACCURACY") + ");",
   "analysis", "landing on a target (half width, displacement) in plastic steps is a thousand times less accurate",
   "verification (run), properties (steps), stability (numbers), unit analysis")
-f(43, "analysis/plastic.rs", "rules.program.steps.saturating_sub(self.taken)",
+f(43, "analysis/increments/plastic.rs", "rules.program.steps.saturating_sub(self.taken)",
   "rules.program.steps.saturating_sub(self.taken + usize::from(" + on(43) + "))",
   "analysis", "a program of n equal steps takes n-1",
   "properties (steps), cost (counts), verification (cycles)")
-f(44, "analysis/step_length.rs", "share(k) <= smallest * (1.0 + TIE)",
+f(44, "analysis/increments/step_length.rs", "share(k) <= smallest * (1.0 + TIE)",
   "share(k) <= smallest * (1.0 + " + x(44, "1e3 * TIE", "TIE") + ")",
   "analysis", "changes of contact within 1e-4 instead of 1e-7 of a step count as one event",
-  "unit analysis::step_length; properties (steps), invariance (numbering)")
-f(45, "analysis/collapse.rs", "if left <= LOST && attempt.round_off <= LOST {",
+  "unit analysis::increments::step_length; properties (steps), invariance (numbering)")
+f(45, "analysis/increments/collapse.rs", "if left <= LOST && attempt.round_off <= LOST {",
   "if " + x(45, "left <= LOST || attempt.round_off <= LOST", "left <= LOST && attempt.round_off <= LOST") + " {",
   "analysis", "every increment that does not converge is reported as a limit load",
   "stability (collapse, numbers), cli")
-f(46, "analysis/dent.rs", "0 => [-slave, faced],", "0 => " + x(46, "[faced, -slave]", "[-slave, faced]") + ",",
+f(46, "analysis/figures/dent.rs", "0 => [-slave, faced],", "0 => " + x(46, "[faced, -slave]", "[-slave, faced]") + ",",
   "analysis", "the dent's shares of the two bodies are exchanged, with wrong signs, where the first surface is the slave",
   "invariance (dent), mortar, selftest")
-f(47, "analysis/contact_patch.rs",
+f(47, "analysis/figures/contact_patch.rs",
   "let bracket = [distance - 0.5 * spacing, distance + spacing];",
   "let bracket = [distance - 0.5 * spacing, distance + " + x(47, "0.5", "1.0") + " * spacing];",
   "analysis", "the edge of contact is never sought in the outer half of the element that it ends in",
   "verification (hertz_line, hertz_point, hertz_line_history), unit analysis")
-f(48, "analysis/contact_area/readings.rs", "stays.filter(|off| *off <= near).count() as f64",
+f(48, "analysis/figures/contact_area/readings.rs", "stays.filter(|off| *off <= near).count() as f64",
   x(48, "1.0", "stays.filter(|off| *off <= near).count() as f64"),
   "analysis", "areas of pairs on planes of symmetry are not doubled when a patch in space is read",
-  "solid (patches, hertz), unit analysis::contact_area")
-f(49, "analysis/reactions.rs", "forces[node] = along(forces[node], -force, axis);",
+  "solid (patches, hertz), unit analysis::figures::contact_area")
+f(49, "analysis/figures/reactions.rs", "forces[node] = along(forces[node], -force, axis);",
   "forces[node] = along(forces[node], " + x(49, "0.0", "-force") + ", axis);",
   "analysis", "forces of nodes that follow others (ties, equations) are handed on but not taken off there",
   "mortar (tied_bodies), verification (equations), output (fields)")
-f(50, "analysis/cycles.rs", "0.5 * square(shear)", x(50, "1.0", "0.5") + " * square(shear)",
+f(50, "analysis/program/cycles.rs", "0.5 * square(shear)", x(50, "1.0", "0.5") + " * square(shear)",
   "analysis", "growth and flow per cycle count engineering shear strains twice",
   "stability (cycles), verification (cycles, shakedown)")
-f(51, "analysis/restart.rs", "(first + 1..=end).contains(&point.increment)",
+f(51, "analysis/program/checkpoints.rs", "(first + 1..=end).contains(&point.increment)",
   "(first + usize::from(!" + on(51) + ")..=end).contains(&point.increment)",
   "analysis", "after --resume a point of the path at the end of a stored part is there twice",
   "stability (checkpoint, killed), cli")
-f(52, "analysis/zone_choice.rs", ".map(|&e| !core[e])",
+f(52, "analysis/choice/zone_choice.rs", ".map(|&e| !core[e])",
   ".map(|&e| !core[e] && !" + on(52) + ")",
   "analysis", "no element of the plastic zone is a guard: the zone is not made larger when its rim yields",
-  "unit analysis::zone_choice; cost (counts)")
-f(53, "analysis/measure.rs", "sum * model.symmetry",
+  "unit analysis::choice::zone_choice; cost (counts)")
+f(53, "analysis/figures/measure.rs", "sum * model.symmetry",
   "sum * " + x(53, "1.0", "model.symmetry"),
   "analysis", "the load of a run that a gap drives is that of the meshed part, not of all its copies",
   "verification (gap_load), invariance (loads, mirrors), stability (prescribed)")
@@ -242,7 +242,7 @@ f(54, "analysis/zone/points.rs", "self.back.put(points, &history.back, from);",
   "if !" + on(54) + " {\n            self.back.put(points, &history.back, from);\n        }",
   "analysis", "going back to an earlier state leaves the strains of fading back stresses as they are",
   "verification (back_stresses, cyclic_element), stability (checkpoint, cycles)")
-f(55, "analysis/figures.rs",
+f(55, "analysis/figures/at_target.rs",
   "plastic_work: plastic_work * self.solver.structure.model.symmetry,",
   "plastic_work: plastic_work * " + x(55, "1.0", "self.solver.structure.model.symmetry") + ",",
   "analysis", "the plastic work reported is that of the meshed part, not of all its copies",
@@ -278,7 +278,7 @@ f(62, "output/report/tables.rs", "100.0 * (ratio - 1.0)",
 f(63, "results/quality.rs", ".filter(|(_, value, most)| value.is_nan() || value > most)",
   ".filter(|(_, value, most)| (value.is_nan() && !" + on(63) + ") || value > most)",
   "results", "a figure of quality that is not a number misses no tolerance",
-  "unit analysis::quality, unit results; stability (quality)")
+  "unit analysis::figures::quality, unit results; stability (quality)")
 f(64, "cli/sweep.rs", "common.overrides.iter().cloned().chain(of_point).collect()",
   "if " + on(64) + " {\n        return of_point.chain(common.overrides.iter().cloned()).collect();\n    }\n    "
   "common.overrides.iter().cloned().chain(of_point).collect()",

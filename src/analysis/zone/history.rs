@@ -1,6 +1,6 @@
 //! What the points of a zone have gone through, and what back stresses that fade remember of it.
 
-use crate::analysis::packed;
+use super::packed;
 use crate::material::{Memory, PlasticState, resized};
 use crate::results::EndState;
 use rayon::iter::Either;

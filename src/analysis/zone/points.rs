@@ -1,11 +1,9 @@
 //! The elements of the zone and the points at which they may yield.
 
-use super::history::{BackStrains, PathEnds, chunks_or_none};
-use super::softening::KeptSoftening;
-use super::{Evaluation, History};
-use crate::analysis::free_strain::FreeStrains;
-use crate::analysis::gather::{GatheredElements, Nodal, Places};
-use crate::analysis::local_yield;
+use super::free_strain::FreeStrains;
+use super::gather::{GatheredElements, Nodal, Places};
+use super::history::{BackStrains, History, PathEnds, chunks_or_none};
+use super::local_yield;
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, Material, Past, PlasticState, Softening};
 use crate::model::Model;
@@ -13,17 +11,33 @@ use crate::substructure::Trailing;
 use rayon::prelude::*;
 
 /// Elements that a thread takes at a time.
-pub(super) const GRAIN: usize = 128;
+pub(in crate::analysis) const GRAIN: usize = 128;
+
+/// Result of evaluating the material over the zone.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Evaluation {
+    /// Gauss points that yield in this increment.
+    pub yielding: usize,
+    /// Guard elements in which a point yields.
+    pub guard_yields: usize,
+}
+
+/// `D - D_ep` of all points at some state, and the elements with any.
+#[derive(Default)]
+pub struct KeptSoftening<const S: usize> {
+    pub(in crate::analysis) softening: Vec<Softening<S>>,
+    pub(in crate::analysis) active: Vec<u32>,
+}
 
 /// The plastic zone with its history. Arrays over points give every element the same number of
 /// places (`stride`), so that they are cut by element without a list.
 pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize> {
     kernel: Kernel<D, S, P, N>,
-    pub(super) elements: GatheredElements,
-    pub(super) gradients: Vec<Gradients<D, S, P, N>>,
+    pub(in crate::analysis) elements: GatheredElements,
+    pub(in crate::analysis) gradients: Vec<Gradients<D, S, P, N>>,
     /// Elements in which flow means that the zone is too small.
     guard: Vec<bool>,
-    pub(super) stride: usize,
+    pub(in crate::analysis) stride: usize,
     materials: Vec<(Material, Lame)>,
     committed: Vec<PlasticState<S>>,
     /// What back stresses that fade remember of it.
@@ -35,19 +49,19 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     /// How the last evaluated state was reached, where it `yields`.
     path_ends: PathEnds<S>,
     /// `D - D_ep` at the last evaluated state; zero except where `yields`.
-    pub(super) softening: Vec<Softening<S>>,
+    pub(in crate::analysis) softening: Vec<Softening<S>>,
     /// What is not symmetric of it, times the dyad with its normal; empty where no back stress
     /// fades.
-    pub(super) turn: Vec<[f64; S]>,
+    pub(in crate::analysis) turn: Vec<[f64; S]>,
     /// Points that yielded at the last evaluated state.
-    pub(super) yields: Vec<bool>,
+    pub(in crate::analysis) yields: Vec<bool>,
     /// Flowing points of each element at the last evaluated state.
     yielding: Vec<u8>,
     /// Elements with a yielding point, ascending.
-    pub(super) active: Vec<u32>,
+    pub(in crate::analysis) active: Vec<u32>,
     /// The tangent of an earlier state.
-    pub(super) kept: Option<KeptSoftening<S>>,
-    pub(super) forces: Vec<[[f64; D]; N]>,
+    pub(in crate::analysis) kept: Option<KeptSoftening<S>>,
+    pub(in crate::analysis) forces: Vec<[[f64; D]; N]>,
     /// What loads by temperature strain freely.
     free: FreeStrains<P>,
     /// Factor of each load.
@@ -59,8 +73,8 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     /// Displacements and load factors that the history belongs to: where the strain paths of an
     /// increment begin. None before they are known: the whole is one step then.
     begin: Option<Begin>,
-    pub(super) nodal: Nodal,
-    pub(super) sums: Nodal,
+    pub(in crate::analysis) nodal: Nodal,
+    pub(in crate::analysis) sums: Nodal,
 }
 
 /// Where the strain paths of an increment begin.
@@ -457,7 +471,7 @@ pub(super) fn at_point<const S: usize, const P: usize>(
 }
 
 #[inline]
-pub(super) fn put<const S: usize, const P: usize>(
+pub(in crate::analysis) fn put<const S: usize, const P: usize>(
     components: &mut Components<S, P>,
     g: usize,
     values: [f64; S],

@@ -1,7 +1,6 @@
 //! What flow takes off the stiffness of the zone's elements.
 
-use super::ZoneOf;
-use super::points::{GRAIN, at_point, put};
+use super::points::{GRAIN, ZoneOf, at_point, put};
 use crate::element::Gradients;
 use crate::material::Softening;
 use crate::substructure::Trailing;
@@ -9,13 +8,6 @@ use rayon::prelude::*;
 
 /// Elements whose matrices are held at a time.
 const AT_ONCE: usize = 256;
-
-/// `D - D_ep` of all points at some state, and the elements with any.
-#[derive(Default)]
-pub struct KeptSoftening<const S: usize> {
-    softening: Vec<Softening<S>>,
-    active: Vec<u32>,
-}
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S, P, N> {
     /// `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that vanishes

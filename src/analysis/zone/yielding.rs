@@ -1,8 +1,8 @@
 //! What a checkpoint keeps of the zone besides the history: what the next increment is predicted
 //! from.
 
-use super::ZoneOf;
-use crate::analysis::packed::Ascending;
+use super::packed::Ascending;
+use super::points::ZoneOf;
 use crate::material::{Softening, resized};
 use serde::{Deserialize, Serialize};
 

@@ -1,0 +1,465 @@
+//! Which effects a scene calls for, and what the run will cost: before anything is solved.
+
+use super::seconds;
+use crate::analysis::choice::zone_choice;
+use crate::analysis::structure::factored::zone_freedoms;
+use crate::analysis::structure::starting;
+use crate::assembly::assemble;
+use crate::error::Result;
+use crate::linalg::{Backend, Partition, Prediction};
+use crate::memory;
+use crate::model::{LoadCase, Magnitude, Model};
+use crate::number::exact;
+use crate::results::{Effect, EndState, LOADS_FOUND, Sizes};
+use crate::substructure::ContactCost;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// What a run of the scene will do and cost.
+#[derive(Debug, Clone, Serialize)]
+pub struct Check {
+    /// Effects that the scene calls for.
+    pub effects: Vec<Effect>,
+    /// Sizes of the model.
+    pub sizes: Sizes,
+    /// Cost of the factorisation, from the symbolic analysis.
+    pub prediction: Prediction,
+    /// Memory that this process may still take, in bytes: what the run has to fit into. `None`
+    /// where the system does not report it.
+    pub available_bytes: Option<f64>,
+    /// Cost of the dense part of contact, from the pairs that bodies join.
+    pub contact: ContactCost,
+    /// Rough time of one factorisation, at the speed that is typical of one core.
+    pub predicted_seconds: f64,
+    /// Rough time of the whole run without the estimate of its errors and without the report: mesh
+    /// and assembly, factorisation, yield load, increments, states. On the machine that it was
+    /// fitted to it is within a factor of 3 of what the scenes of `data/scenes` take, but for runs
+    /// that come near a limit load, which may take 50 times as long.
+    pub predicted_run_seconds: f64,
+    /// The BLAS in use.
+    pub blas: String,
+    /// What the estimate of the run's errors will do and take, in words; empty where nobody asked.
+    pub error_estimate: String,
+    /// Things the user should know.
+    pub notes: Vec<String>,
+}
+
+impl Check {
+    /// Whether the run fits into the memory that is there; `None` where that is not known.
+    pub fn fits(&self) -> Option<bool> {
+        let needed = self.prediction.memory_bytes;
+        self.available_bytes.map(|available| needed <= available)
+    }
+}
+
+/// Freedoms of the smaller of the two solids of which faer was measured to be faster on one thread
+/// (`cargo bench --features faer --bench history -- backends 110k 300k`).
+const FASTER_BY_FAER: usize = 100_000;
+
+/// Seconds from which on a run is worth a warning before it begins.
+const LONG: f64 = 60.0;
+
+/// Predicts effects and cost of a model; solves nothing.
+///
+/// # Errors
+/// Limits of the backend; those of the directory that the scene starts from.
+pub fn check(model: &Model, backend: Backend) -> Result<Check> {
+    let start = starting::read(model)?;
+    let system = assemble(model, backend)?;
+    let choice = zone_choice::first_guess(model);
+    let zone = zone_freedoms(model, &choice.elements);
+    let partition = Partition {
+        n: model.freedoms.n,
+        zone,
+        contact: model.rows.freedoms.clone(),
+    };
+    let mut prediction = system.stiffness.predict(backend, &partition)?;
+    let contact = ContactCost::of(model);
+    prediction.memory_bytes += contact.memory_bytes;
+    if let Some(first) = prediction.memory_by_rank.first_mut() {
+        *first += contact.memory_bytes;
+        let ranks = prediction.memory_by_rank.iter().copied();
+        prediction.memory_bytes = ranks.fold(0.0, f64::max);
+    }
+    let sizes = Sizes {
+        freedoms: model.freedoms.n,
+        nodes: model.mesh.n_nodes(),
+        elements: model.mesh.n_elements(),
+        contact_pairs: model.pairs.len(),
+        zone_freedoms: partition.zone.len(),
+        zone_elements: choice.elements.len(),
+        degree: model.mesh.degree(),
+    };
+    let plastic = !choice.elements.is_empty();
+    let mut notes = model.warnings.clone();
+    if model.scene.accuracy.is_some() {
+        notes.push(
+            "the scene demands an accuracy: a run chooses its meshes itself, the figures here are \
+             of the scene's own"
+                .to_string(),
+        );
+    }
+    let cycles = model.scene.program.cycles;
+    if cycles > 1 {
+        notes.push(format!(
+            "the program has at most {cycles} cycles: memory is that of all, time that of one"
+        ));
+    }
+    let of_contact = seconds::of_contact(&contact);
+    let factorisation = seconds::of_factorisation(&prediction, backend) + of_contact;
+    let run = seconds::of_run(model, &sizes, &prediction, factorisation);
+    if backend == Backend::Cholmod
+        && Backend::Faer.is_built_in()
+        && model.mesh.is_solid()
+        && sizes.freedoms >= FASTER_BY_FAER
+        && Backend::Cholmod.threads() == Some(1)
+    {
+        notes.push(
+            "on one thread the solver faer takes about a tenth less for such solids: --solver faer \
+             (on two CHOLMOD does: OPENBLAS_NUM_THREADS)"
+                .to_string(),
+        );
+    }
+    if of_contact > LONG {
+        notes.push(format!(
+            "{} pairs are joined by bodies: the dense matrices of their contact take about \
+             {:.0} min (the cube of their number) and {:.0} MB (the square); fewer pairs, or \
+             bodies that nothing joins, take less",
+            contact.largest_group,
+            (of_contact / 60.0).ceil(),
+            (contact.memory_bytes / 1e6).ceil()
+        ));
+    }
+    if run > LONG {
+        notes.push(format!(
+            "the run may take about {:.0} min, and the estimate of its errors as long again: fewer \
+             elements (resolution) or a smaller largest load make it shorter, `--estimate none` \
+             leaves the estimate out",
+            (run / 60.0).ceil()
+        ));
+    }
+    Ok(Check {
+        effects: effects(model, plastic, start.as_ref()),
+        sizes,
+        prediction,
+        available_bytes: memory::available(),
+        contact,
+        predicted_seconds: factorisation,
+        predicted_run_seconds: run,
+        blas: backend.arithmetic(),
+        error_estimate: String::new(),
+        notes,
+    })
+}
+
+fn effect(name: &str, on: bool, why: String) -> Effect {
+    Effect {
+        name: name.into(),
+        on,
+        asked: on,
+        why,
+        seconds: 0.0,
+        memory_bytes: 0,
+    }
+}
+
+/// An effect that the scene asks for and that is off where it turns out to be nothing.
+fn effect_asked_for(name: &str, asked: bool, on: bool, why: String) -> Effect {
+    Effect {
+        asked,
+        ..effect(name, asked && on, why)
+    }
+}
+
+fn kinematic_hardening(model: &Model, yields: bool) -> Effect {
+    let materials = model.materials.iter().zip(&model.may_yield);
+    let asked = materials.filter(|(m, may)| **may && !m.back_stresses.is_none());
+    let asked: BTreeMap<&str, usize> = asked
+        .map(|(m, _)| (m.name.as_str(), m.back_stresses.n_stored()))
+        .collect();
+    let names = asked.keys().copied().collect::<Vec<_>>().join(", ");
+    let why = match (asked.is_empty(), yields, asked.values().max()) {
+        (false, true, Some(0)) => format!("{names} hardens so; its back stress is stored nowhere"),
+        (false, true, Some(1)) => format!("{names} hardens so, with a back stress that fades"),
+        (false, true, Some(n)) => format!("{names} hardens so, with {n} back stresses that fade"),
+        (false, ..) => format!("{names} would, but stays elastic under these loads"),
+        (true, ..) => "no material that may yield has a back stress".to_string(),
+    };
+    effect_asked_for("kinematic hardening", !asked.is_empty(), yields, why)
+}
+
+fn yield_by_depth(model: &Model, yields: bool) -> Effect {
+    let bodies = model.mesh.bodies.iter().zip(&model.yield_by_depth);
+    let asked = bodies
+        .zip(&model.may_yield)
+        .filter(|((_, profile), may)| profile.is_some() && **may);
+    let names: Vec<&str> = asked.map(|((name, _), _)| name.as_str()).collect();
+    let names = names.join(", ");
+    let why = match (names.is_empty(), yields) {
+        (true, _) => {
+            "no body that may yield has another yield stress than its material".to_string()
+        }
+        (false, true) => format!("the yield stress of {names} depends on the depth"),
+        (false, false) => format!("{names} stays elastic under these loads"),
+    };
+    effect_asked_for("yield stress by depth", !names.is_empty(), yields, why)
+}
+
+fn volume_forces(model: &Model) -> Effect {
+    let loads = model.scene.load.iter().zip(&model.loads);
+    let asked = loads.filter(|(load, _)| load.acceleration.is_some() || load.rotation.is_some());
+    let (asked, acting) = asked.fold((0, 0), |(n, acting), (_, case)| {
+        (n + 1, acting + usize::from(case.magnitude != 0.0))
+    });
+    let why = match (asked, acting) {
+        (0, _) => "no load by acceleration or rotation".to_string(),
+        (_, 0) => "the accelerations and speeds are zero".to_string(),
+        (_, 1) => "a load acts on the volume of a body".to_string(),
+        (_, n) => format!("{n} loads act on the volumes of bodies"),
+    };
+    effect_asked_for("forces on volumes", asked > 0, acting > 0, why)
+}
+
+fn temperature(model: &Model) -> Effect {
+    let loads = model.loads.iter();
+    let asked = loads.filter(|load| load.measures == Magnitude::Temperature);
+    let (asked, acting) = asked.fold((0, 0), |(n, acting), load| {
+        (n + 1, acting + usize::from(!load.free_strain.is_empty()))
+    });
+    let why = match (asked, acting) {
+        (0, _) => "no load by temperature".to_string(),
+        (_, 0) => "no temperature changes, or nothing expands by it".to_string(),
+        (_, 1) => "a load changes the temperature of a body".to_string(),
+        (_, n) => format!("{n} loads change the temperatures of bodies"),
+    };
+    effect_asked_for("temperature", asked > 0, acting > 0, why)
+}
+
+fn over_temperature(model: &Model) -> Effect {
+    let scene = &model.scene;
+    let asked = scene
+        .bodies
+        .iter()
+        .filter(|(_, body)| body.temperature.is_some());
+    let asked: Vec<(&String, &str)> = asked
+        .map(|(name, body)| (name, body.material.as_str()))
+        .collect();
+    let varies = |material: &str| {
+        let material = scene.materials.get(material);
+        material.is_some_and(|material| material.temperatures().is_some())
+    };
+    let acting = asked.iter().filter(|(_, material)| varies(material));
+    let names: Vec<&str> = acting.map(|(name, _)| name.as_str()).collect();
+    let why = match (asked.is_empty(), names.is_empty()) {
+        (true, _) => "no body has a temperature of its own".to_string(),
+        (_, true) => "no material of the bodies with a temperature depends on it".to_string(),
+        _ => format!(
+            "{} at the temperature of the whole run: another one is another factorisation",
+            names.join(", ")
+        ),
+    };
+    let name = "materials over temperature";
+    effect_asked_for(name, !asked.is_empty(), !names.is_empty(), why)
+}
+
+fn initial_state(model: &Model) -> Effect {
+    let loads = model.loads.iter();
+    let acting = loads.filter(|load| load.measures == Magnitude::Strain);
+    let names: Vec<&str> = acting.map(|load| load.name.as_str()).collect();
+    let bodies = model.mesh.bodies.iter();
+    let mut bodies = bodies.filter_map(|name| model.scene.bodies.get(name));
+    let asked = bodies.any(|body| body.brought_along().next().is_some());
+    let why = match (names.is_empty(), asked) {
+        (false, _) => format!("{}, before the loads", names.join(", ")),
+        (true, true) => "what the bodies bring along is zero".to_string(),
+        (true, false) => "no body brings stresses or plastic strains along".to_string(),
+    };
+    effect_asked_for("initial state", asked, !names.is_empty(), why)
+}
+
+fn earlier_run(model: &Model, start: Option<&EndState>) -> Effect {
+    let folder = model.scene.start_from.as_ref().map(|dir| dir.display());
+    let why = match (folder, start) {
+        (None, _) => "the run starts from a virgin state".to_string(),
+        (Some(folder), None) => format!("nothing had yielded in the run in {folder}"),
+        (Some(folder), Some(start)) => format!(
+            "the run in {folder} left plastic strains in {} elements",
+            start.elements.len()
+        ),
+    };
+    let asked = model.scene.start_from.is_some();
+    effect_asked_for("earlier run", asked, start.is_some(), why)
+}
+
+fn prescribed_displacements(model: &Model) -> Effect {
+    let loads = model.loads.iter();
+    let prescribing = |load: &&LoadCase| load.measures == Magnitude::Displacement;
+    let asked: Vec<&LoadCase> = loads.filter(prescribing).collect();
+    let acting = asked.iter().filter(|load| load.acts());
+    let acting: Vec<&str> = acting.map(|load| load.name.as_str()).collect();
+    let why = match (asked.is_empty(), acting.is_empty()) {
+        (true, _) => "no load prescribes one".to_string(),
+        (false, true) => "all that loads prescribe are zero: they hold as supports do".to_string(),
+        (false, false) => format!("by {}: the force that it takes is found", acting.join(", ")),
+    };
+    let name = "prescribed displacements";
+    effect_asked_for(name, !asked.is_empty(), !acting.is_empty(), why)
+}
+
+fn cycles(model: &Model) -> Effect {
+    let why = match model.scene.program.cycles {
+        1 => "the program is gone through once".to_string(),
+        n => format!("the targets at most {n} times, until a cycle is like the last"),
+    };
+    effect("cycles", model.scene.program.cycles > 1, why)
+}
+
+/// Targets whose load is the answer.
+fn loads_found(model: &Model) -> Effect {
+    let program = &model.scene.program;
+    let labels = program.labels();
+    let mut words = Vec::new();
+    for (target, label) in program.targets.iter().zip(&labels) {
+        let found = target.figures().next();
+        let what = match (found, target.half_width) {
+            (Some((figure, value)), _) => format!("{} = {}", figure.key(), exact(value)),
+            (None, Some(width)) => format!("half_width = {}", exact(width)),
+            (None, None) => continue,
+        };
+        words.push(format!("`{label}` ({what})"));
+    }
+    let why = match words.is_empty() {
+        true => "no target is a figure of the state".to_string(),
+        false => format!("the load is searched for {}", words.join(", ")),
+    };
+    effect(LOADS_FOUND, !words.is_empty(), why)
+}
+
+/// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
+/// yield.
+pub(in crate::analysis) fn effects(
+    model: &Model,
+    yields: bool,
+    start: Option<&EndState>,
+) -> Vec<Effect> {
+    let bodies = &model.mesh.bodies;
+    let able: Vec<&str> = bodies
+        .iter()
+        .zip(&model.may_yield)
+        .filter(|(_, may)| **may)
+        .map(|(name, _)| name.as_str())
+        .collect();
+    let contact = match model.pairs.len() {
+        0 => effect("contact", false, "the scene names no contact".into()),
+        n => effect(
+            "contact",
+            true,
+            match (model.contacts.len(), model.freedoms.springs.len()) {
+                (1, 0) => format!("{n} pairs of nodes may touch"),
+                (surfaces, 0) => {
+                    format!("{n} pairs of nodes on {surfaces} pairs of surfaces may touch")
+                }
+                (_, soft) => format!("{n} pairs of nodes may touch, {soft} of them softly"),
+            },
+        ),
+    };
+    let tied = model.freedoms.n_tied();
+    let plasticity = if able.is_empty() {
+        effect(
+            "plasticity",
+            false,
+            "no body may yield (no yield stress, or plastic = false)".into(),
+        )
+    } else if yields {
+        effect(
+            "plasticity",
+            true,
+            format!("{} may yield and the loads reach yield", able.join(", ")),
+        )
+    } else {
+        effect_asked_for(
+            "plasticity",
+            true,
+            false,
+            format!(
+                "{} could yield but stays elastic under these loads",
+                able.join(", ")
+            ),
+        )
+    };
+    let interference = model.pairs.iter().any(|p| p.interference != 0.0);
+    let changed: Vec<&str> = (model.loads.iter())
+        .filter(|load| load.measures == Magnitude::Gap && load.acts())
+        .map(|load| load.name.as_str())
+        .collect();
+    let floating = &model.floating.bodies;
+    let loaded = |load: &LoadCase| {
+        load.measures != Magnitude::Strain && load.acts() && load.factor(0.0, 1.0) != 0.0
+    };
+    let preload = model.loads.iter().any(loaded);
+    let on_off = |on: bool, yes: String, no: &str| if on { yes } else { no.to_string() };
+    vec![
+        contact,
+        plasticity,
+        kinematic_hardening(model, yields),
+        yield_by_depth(model, yields),
+        volume_forces(model),
+        temperature(model),
+        over_temperature(model),
+        initial_state(model),
+        earlier_run(model, start),
+        effect(
+            "ties",
+            tied > 0,
+            on_off(
+                tied > 0,
+                format!(
+                    "{tied} displacements follow others: surfaces tied {}, equations {}",
+                    model.scene.tie.len(),
+                    model.scene.equation.len()
+                ),
+                "the scene ties no surfaces and has no equations",
+            ),
+        ),
+        effect(
+            "interference",
+            interference || !changed.is_empty(),
+            match (interference, changed.is_empty()) {
+                (true, _) => "a contact states an interference, applied before the load".into(),
+                (false, true) => "no contact states one".into(),
+                (false, false) => format!("{} changes gaps", changed.join(", ")),
+            },
+        ),
+        prescribed_displacements(model),
+        cycles(model),
+        loads_found(model),
+        effect(
+            "preload",
+            preload,
+            on_off(
+                preload,
+                "a load acts at load factor 0".into(),
+                "no load acts at load factor 0",
+            ),
+        ),
+        effect(
+            "floating bodies",
+            !floating.is_empty(),
+            on_off(
+                !floating.is_empty(),
+                format!("{} held by contact alone", floating.join(", ")),
+                "supports hold every body",
+            ),
+        ),
+        effect(
+            "friction",
+            false,
+            "not modelled: contact forces are normal".into(),
+        ),
+        effect(
+            "large displacements",
+            false,
+            "not modelled: small strains, contact pairs fixed".into(),
+        ),
+    ]
+}

@@ -1,0 +1,183 @@
+//! A patch as its pairs show it, and a second reading of it.
+
+use super::edge::{Edge, EdgeFace};
+use super::fit::{Cloud, Known};
+use super::moments::{Moments, Polygon, Sums};
+use super::shape::{Shape, middle};
+use crate::model::images::Reflection;
+use crate::space::{difference, dot, length};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// Layers of pairs at the edge whose pressures are not believed one by one where the contact is
+/// smooth, and where it is not: under plastic flow the pressure stays up to the edge, and what the
+/// pairs further inside go on to passes open ones.
+const SMOOTH: usize = 2;
+const STEEP: usize = 1;
+/// Layers inside those whose pressures are corrected for being means.
+const CORRECTED: usize = 3;
+
+impl Shape<'_> {
+    /// The patch's moments, and another reading of them: by how much they differ is what they may
+    /// be off by. The pairs are too few for that where there is none.
+    pub(super) fn readings(&self) -> (Moments, Option<Moments>) {
+        let layers = self.layers();
+        let [smooth, steep] = [SMOOTH, STEEP].map(|skipped| self.moments(&layers, skipped));
+        match (smooth, steep) {
+            (Some((smooth, true)), steep) => (smooth, steep.map(|(steep, _)| steep)),
+            (smooth, Some((steep, _))) => (steep, smooth.map(|(smooth, _)| smooth)),
+            _ => (self.moments_of_few(), None),
+        }
+    }
+
+    /// The patch by the pairs inside the `skipped` outer layers, and whether these go on to no open
+    /// pair; `None` where they do not determine a polynomial at each face of the edge.
+    fn moments(&self, layers: &BTreeMap<usize, usize>, skipped: usize) -> Option<(Moments, bool)> {
+        let believed = self.believed(layers, skipped);
+        let mut sums = Sums::default();
+        let mut faces = Vec::new();
+        for (face, corners) in self.member_faces() {
+            let places = self.places(corners);
+            let parts = || self.covered(face).unwrap_or_else(|| vec![places.clone()]);
+            if corners.iter().all(|k| layers[k] > skipped) {
+                sums.add_all(&parts());
+                continue;
+            }
+            let left = |k: &usize| (skipped + 1).saturating_sub(layers[k]) as f64;
+            let pressure = |k: &usize| match self.members.contains(k) {
+                true => self.pressure[*k],
+                false => 0.0,
+            };
+            faces.push(EdgeFace {
+                fit: believed.fit(middle(&places), &[])?,
+                layers: corners.iter().map(left).collect(),
+                pressures: corners.iter().map(pressure).collect(),
+                parts: parts(),
+                corners: places,
+            });
+        }
+        let edge = Edge::balanced(faces);
+        edge.add_to(&mut sums);
+        for (near, parts) in self.slivers() {
+            let is_believed = |k: &usize| layers.get(k).is_some_and(|l| *l > skipped);
+            if near.iter().all(is_believed) {
+                sums.add_all(&parts);
+            } else if let Some(fit) = believed.fit(middle(&self.places(near)), &[]) {
+                sums.add_parts(&parts, |x| fit.value(x));
+            }
+        }
+        Some((self.with_images(&sums), !edge.passes_open_pairs()))
+    }
+
+    /// Layer of each pair of the patch, counted from the open ones, and these with 0.
+    fn layers(&self) -> BTreeMap<usize, usize> {
+        let mut layers: BTreeMap<usize, usize> = BTreeMap::new();
+        for &k in &self.members {
+            for other in self.topology.around(k) {
+                if !self.members.contains(&other) {
+                    layers.insert(other, 0);
+                }
+            }
+        }
+        let mut edge: Vec<usize> = layers.keys().copied().collect();
+        for layer in 1.. {
+            let mut next = BTreeSet::new();
+            for k in edge {
+                next.extend(
+                    self.topology.around(k).filter(|other| {
+                        self.members.contains(other) && !layers.contains_key(other)
+                    }),
+                );
+            }
+            if next.is_empty() {
+                break;
+            }
+            layers.extend(next.iter().map(|&k| (k, layer)));
+            edge = next.into_iter().collect();
+        }
+        // A patch that reaches the end of the candidates all round has no open pair beside it.
+        for &k in &self.members {
+            layers.entry(k).or_insert(usize::MAX);
+        }
+        layers
+    }
+
+    /// The square of the pressure at the pairs that are believed, and at their mirror images: those
+    /// inside the `skipped` outer layers.
+    ///
+    /// A pair's pressure is a mean over the faces round it: along each axis it exceeds
+    /// `p = sqrt(s)` by `h^2/12 p''` (the mean of `x^2` by a hat function is `h^2/6`),
+    /// `p'' = s''/(2 p) - s'^2/(4 p^3)`, so that `s = p^2 + h^2 (s'^2/(24 p^2) - s''/12)`; `h^2` is
+    /// the pair's area.
+    fn believed(&self, layers: &BTreeMap<usize, usize>, skipped: usize) -> Cloud {
+        let inner = layers.iter().filter(|(_, layer)| **layer > skipped);
+        let known = |value: &dyn Fn(usize) -> f64| -> Vec<Known> {
+            let images = |k: usize| {
+                let value = value(k);
+                self.mirrored(k)
+                    .into_iter()
+                    .map(move |at| Known { at, value })
+            };
+            inner.clone().flat_map(|(&k, _)| images(k)).collect()
+        };
+        let square = |k: usize| self.pressure[k].max(0.0).powi(2);
+        let means = Cloud::new(known(&square));
+        Cloud::new(known(&|k| {
+            let mean = square(k);
+            if layers[&k] > skipped + CORRECTED {
+                return mean;
+            }
+            let area = self.area(k) * self.copies_of(k);
+            means.fit(self.place(k), &[]).map_or(mean, |fit| {
+                mean + area * (fit.slope().powi(2) / (24.0 * mean) - fit.laplacian() / 12.0)
+            })
+        }))
+    }
+
+    /// How many images of a pair's area, its own included, lie round it.
+    fn copies_of(&self, k: usize) -> f64 {
+        let x = self.model.mesh.point(self.model.pairs[k].slave);
+        let near = 2e-6 * self.model.pairs[k].area.sqrt();
+        let stays = self
+            .images
+            .iter()
+            .map(|image| length(difference(image.of(x), x)));
+        stays.filter(|off| *off <= near).count() as f64
+    }
+
+    /// The patch halfway between pairs that touch and pairs that do not.
+    fn moments_of_few(&self) -> Moments {
+        let mut sums = Sums::default();
+        for (face, corners) in self.member_faces() {
+            let places = self.places(corners);
+            let sign = |k: &usize| if self.members.contains(k) { 1.0 } else { -1.0 };
+            let signs: Vec<f64> = corners.iter().map(sign).collect();
+            match self.covered(face) {
+                Some(parts) if signs.iter().all(|sign| *sign > 0.0) => {
+                    sums.add_all(&parts);
+                }
+                _ => sums.add_corners(&places, &signs),
+            }
+        }
+        self.with_images(&sums)
+    }
+
+    fn with_images(&self, sums: &Sums) -> Moments {
+        let reflections = self.images.iter().filter_map(|image| image.reflection());
+        let in_plane = |reflection: Reflection| {
+            [0, 1].map(|i| {
+                [0, 1].map(|j| {
+                    let entry = dot(self.axes[i], reflection.of_direction(self.axes[j]));
+                    entry * self.units[j] / self.units[i]
+                })
+            })
+        };
+        sums.moments(&reflections.map(in_plane).collect::<Vec<_>>())
+    }
+
+    /// Pieces with too few pairs of their own beside a pair of the patch, with the pairs near.
+    fn slivers(&self) -> impl Iterator<Item = (&[usize], Vec<Polygon>)> {
+        let slivers = self.topology.slivers.iter();
+        let ours = slivers.filter(|(near, _)| near.iter().any(|k| self.members.contains(k)));
+        ours.map(|(near, parts)| (near.as_slice(), self.in_plane(parts)))
+    }
+}

@@ -1,0 +1,314 @@
+//! A patch on the plane across its mean normal: coordinates, moments and what is read of it.
+
+use super::fit::{Cloud, Known};
+use super::moments::{Moments, Polygon, Sums};
+use super::topology::Topology;
+use crate::model::images::Images;
+use crate::model::mirror::Mirror;
+use crate::model::{ContactSurface, Model};
+use crate::results::ContactPatch;
+use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
+use std::collections::BTreeSet;
+
+/// Mean normal, as a share of the area's, below which a patch closes round a body: round-off.
+const CLOSED: f64 = 1e-6;
+
+/// A patch with how it was read.
+pub(in crate::analysis::figures) struct ReadPatch {
+    pub(in crate::analysis::figures) patch: ContactPatch,
+    /// What its smaller half axis may be off by, from another reading.
+    pub(in crate::analysis::figures) reading: f64,
+    /// Closed pairs over that half axis over which fewer lie.
+    pub(in crate::analysis::figures) pairs: usize,
+    /// Pressure at the centroid.
+    pub(in crate::analysis::figures) pole_pressure: f64,
+}
+
+/// A unit vector across another.
+fn across(normal: Vector) -> Vector {
+    let share = |d: &usize| normal[*d].abs();
+    let axis = (0..3).min_by(|a, b| share(a).total_cmp(&share(b)));
+    let axis = unit(axis.unwrap_or(0));
+    direction(along(axis, -dot(axis, normal), normal))
+}
+
+pub(super) fn middle(places: &[[f64; 2]]) -> [f64; 2] {
+    [0, 1].map(|d| places.iter().map(|x| x[d]).sum::<f64>() / places.len() as f64)
+}
+
+/// A patch on the plane across its mean normal.
+pub(super) struct Shape<'a> {
+    pub(super) model: &'a Model,
+    pub(super) topology: &'a Topology<'a>,
+    pub(super) pressure: &'a [f64],
+    pub(super) members: BTreeSet<usize>,
+    pub(super) planes: Vec<Mirror>,
+    pub(super) images: Images,
+    /// Those opposite to one of the planes.
+    pub(super) opposite: Vec<Mirror>,
+    /// Distance between the planes of symmetry at its two ends and the direction across them, where
+    /// it has both.
+    pub(super) endless: Option<(f64, Vector)>,
+    /// Whether the patch closes round a body.
+    pub(super) closes: bool,
+    pub(super) origin: Vector,
+    pub(super) axes: [Vector; 2],
+    /// The unit of each coordinate.
+    pub(super) units: [f64; 2],
+}
+
+impl<'a> Shape<'a> {
+    pub(super) fn new(
+        model: &'a Model,
+        (surface, topology): (&'a ContactSurface, &'a Topology<'a>),
+        pressure: &'a [f64],
+        members: BTreeSet<usize>,
+    ) -> Self {
+        let ends_on = |plane: &&Mirror| {
+            let mut places = members
+                .iter()
+                .map(|&k| model.mesh.point(model.pairs[k].slave));
+            places.any(|x| plane.holds(x, surface.facet_length))
+        };
+        let ends = surface.mirrors.iter().filter(ends_on);
+        let (planes, opposite) = Images::planes(ends.copied());
+        let images = Images::of(&planes);
+        let mut normal = [0.0; 3];
+        let mut origin = [0.0; 3];
+        let mut area = 0.0;
+        for &k in &members {
+            let pair = &model.pairs[k];
+            area += pair.area;
+            normal = along(normal, pair.area, pair.normal);
+            origin = along(
+                origin,
+                1.0 / members.len() as f64,
+                model.mesh.point(pair.slave),
+            );
+        }
+        let (origin, normal) = (images.mean(origin), images.mean_direction(normal));
+        let closes = length(normal) <= CLOSED * area;
+        let normal = match &planes[..] {
+            _ if !closes => direction(normal),
+            [] => unit(2),
+            [one] => across(one.normal()),
+            [one, two, ..] => direction(cross(one.normal(), two.normal())),
+        };
+        let first = planes
+            .first()
+            .map_or_else(|| across(normal), |plane| plane.normal());
+        let endless = opposite.first().map(|plane| {
+            let between = planes.iter().map(|other| {
+                // Those at right angles differ in direction, and count nothing.
+                let parallel = dot(other.normal(), plane.normal()).abs().round();
+                parallel
+                    * plane
+                        .beyond(along(origin, -other.beyond(origin), other.normal()))
+                        .abs()
+            });
+            (between.fold(0.0, f64::max), plane.normal())
+        });
+        let mut shape = Shape {
+            model,
+            topology,
+            pressure,
+            members,
+            planes,
+            images,
+            opposite,
+            endless,
+            closes,
+            origin,
+            axes: [first, cross(normal, first)],
+            units: [1.0; 2],
+        };
+        shape.measure();
+        shape
+    }
+
+    /// Turns the axes along the principal ones of the pairs' places, unless planes of symmetry give
+    /// them, and takes the spacing of the pairs along them as units.
+    pub(super) fn measure(&mut self) {
+        if self.planes.is_empty() {
+            let mut sums = Sums::default();
+            self.member_faces().for_each(|(_, corners)| {
+                sums.add_parts(&[self.places(corners)], |_| 1.0);
+            });
+            let (_, [x, y]) = sums.moments(&[]).axes();
+            let [a, b] = self.axes;
+            self.axes = [
+                along(along([0.0; 3], x, a), y, b),
+                along(along([0.0; 3], -y, a), x, b),
+            ];
+        }
+        let (mut faces, mut extents) = (0.0, [0.0; 2]);
+        for (_, corners) in self.member_faces() {
+            let places = || corners.iter().map(|k| self.place(*k));
+            faces += 1.0;
+            for (d, extent) in extents.iter_mut().enumerate() {
+                let low = places().map(|x| x[d]).fold(f64::INFINITY, f64::min);
+                *extent += places().map(|x| x[d] - low).fold(0.0, f64::max);
+            }
+        }
+        self.units = extents.map(|extent| extent / faces);
+        let first = |plane: &Mirror| dot(plane.normal(), self.planes[0].normal()).abs();
+        if self.planes.iter().skip(1).any(|plane| first(plane) > 1e-6) {
+            // A sector that fills the turn has no axis before another.
+            self.units = [0.5 * (self.units[0] + self.units[1]); 2];
+        }
+    }
+
+    /// The faces at the pairs that touch, by number and corners.
+    pub(super) fn member_faces(&self) -> impl Iterator<Item = (usize, &[usize])> {
+        let faces: BTreeSet<u32> = (self.members.iter())
+            .flat_map(|&k| self.topology.at[k - self.topology.start].iter().copied())
+            .collect();
+        faces
+            .into_iter()
+            .map(|face| (face as usize, self.topology.faces[face as usize].as_slice()))
+    }
+
+    /// What is covered of a face, where that is not all.
+    pub(super) fn covered(&self, face: usize) -> Option<Vec<Polygon>> {
+        let parts = self.topology.covered.get(&face)?;
+        Some(self.in_plane(parts))
+    }
+
+    pub(super) fn in_plane(&self, parts: &[Vec<Vector>]) -> Vec<Polygon> {
+        let places = |part: &Vec<Vector>| part.iter().map(|&x| self.place_of(x)).collect();
+        parts.iter().map(places).collect()
+    }
+
+    pub(super) fn places(&self, pairs: &[usize]) -> Polygon {
+        pairs.iter().map(|k| self.place(*k)).collect()
+    }
+
+    pub(super) fn place(&self, k: usize) -> [f64; 2] {
+        self.place_of(self.model.mesh.point(self.model.pairs[k].slave))
+    }
+
+    pub(super) fn place_of(&self, x: Vector) -> [f64; 2] {
+        let from = difference(x, self.origin);
+        [0, 1].map(|d| dot(self.axes[d], from) / self.units[d])
+    }
+
+    /// A pair's area in these coordinates.
+    pub(super) fn area(&self, k: usize) -> f64 {
+        self.model.pairs[k].area / (self.units[0] * self.units[1])
+    }
+
+    /// The place of a pair and its mirror images.
+    pub(super) fn mirrored(&self, k: usize) -> Vec<[f64; 2]> {
+        let pair = &self.model.pairs[k];
+        let near = 1e-6 * pair.area.sqrt();
+        let x = self.model.mesh.point(pair.slave);
+        let mut images: Vec<Vector> = Vec::new();
+        for image in self.images.iter().map(|image| image.of(x)) {
+            if images
+                .iter()
+                .all(|other| length(difference(image, *other)) > 2.0 * near)
+            {
+                images.push(image);
+            }
+        }
+        for plane in &self.opposite {
+            for i in 0..images.len() {
+                if plane.beyond(images[i]).abs() > near {
+                    images.push(plane.image(images[i]));
+                }
+            }
+        }
+        images.into_iter().map(|x| self.place_of(x)).collect()
+    }
+
+    /// How many mirror images make the whole, the model's part included, as far as the scene
+    /// declares them where it does; of a strip without end those across its width.
+    pub(super) fn copies(&self) -> f64 {
+        let images = self.images.count();
+        let copies = match self.model.scene.symmetry {
+            1 if self.endless.is_some() => images / 2,
+            1 => images,
+            declared => images.min(declared),
+        };
+        copies as f64
+    }
+
+    /// Half axes, the larger first.
+    pub(super) fn semi_axes(&self, moments: &Moments) -> [f64; 2] {
+        let Some((length, _)) = self.endless else {
+            return moments.axes().0;
+        };
+        // Planes across the width halve the model's share of it.
+        let halves = (1usize << (self.planes.len() - 1)) as f64;
+        [f64::INFINITY, 0.5 * halves * moments.area / length]
+    }
+
+    pub(super) fn read(
+        &self,
+        contact: usize,
+        force: &[f64],
+        moments: Moments,
+        other: Option<Moments>,
+    ) -> ReadPatch {
+        let copies = self.copies();
+        let in_space =
+            |[x, y]: [f64; 2], from: Vector| along(along(from, x, self.axes[0]), y, self.axes[1]);
+        let pole = moments.center;
+        // An element more or less follows from where in it the edge is read.
+        let layers = moments.axes().0[1];
+        let closed = || self.members.iter().copied();
+        let scaled = |moments: Moments| {
+            let scaled = moments.scaled(self.units);
+            match self.closes {
+                true => scaled.with_area(closed().map(|k| self.model.pairs[k].area).sum()),
+                false => scaled,
+            }
+        };
+        let (moments, other) = (scaled(moments), other.map(scaled));
+        let (_, major) = moments.axes();
+        let mut direction = in_space(major, [0.0; 3]);
+        if let Some((_, along)) = self.endless {
+            direction = along;
+        }
+        let semi_axes = self.semi_axes(&moments);
+        let off = other.map_or(0.5 * semi_axes[1] / layers.max(1.0), |other| {
+            (self.semi_axes(&other)[1] - semi_axes[1]).abs()
+        });
+        // Pairs on a plane of symmetry carry their share of the whole's already halved.
+        let total: f64 = closed().map(|k| force[k]).sum::<f64>() * copies;
+        let area = moments.area * copies;
+        let pole_pressure = {
+            let images = |k: usize| {
+                let value = self.pressure[k];
+                self.mirrored(k)
+                    .into_iter()
+                    .map(move |at| Known { at, value })
+            };
+            let known: Vec<Known> = closed().flat_map(images).collect();
+            let away = |k: usize| {
+                let x = self.place(k);
+                (x[0] - pole[0]).hypot(x[1] - pole[1])
+            };
+            let nearest = closed().min_by(|&a, &b| away(a).total_cmp(&away(b)));
+            match Cloud::new(known).fit(pole, &[]) {
+                Some(fit) => fit.value(pole),
+                None => nearest.map_or(0.0, |k| self.pressure[k]),
+            }
+        };
+        ReadPatch {
+            patch: ContactPatch {
+                contact,
+                area,
+                centroid: in_space(moments.center, self.origin),
+                semi_axes,
+                direction,
+                max_pressure: closed().map(|k| self.pressure[k]).fold(0.0, f64::max),
+                mean_pressure: if area > 0.0 { total / area } else { 0.0 },
+                force: total,
+            },
+            reading: off,
+            pairs: layers.round() as usize,
+            pole_pressure,
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Where a contact ends, to a hundredth of an element.
+//!
+//! Near the end of a smooth contact the pressure squared is `(e^2 - s^2) (c0 + c1 s^2)`, `s` the
+//! distance from the middle and `e` that of the edge: exactly so, with `c1 = 0`, in Hertz' contact.
+//! The pressures of the last two pairs depend on where in its facet the contact ends (on Hertz'
+//! line contact they alone would put the edge off by -0.06 and 0.08 elements, those before by
+//! 0.01), their force together does not: equilibrium passes it on whole. For any `e` the constants
+//! follow from the pairs before them by least squares; the edge is the `e` whose pressure over the
+//! last pairs has their force.
+//!
+//! Measured with 4 to 24 elements over the contact: off by 0.003 to 0.01 elements on Hertz' contact
+//! of a line and of a point, by 0.02 to 0.1 on the disc in a plate. A line through the squared
+//! pressures, extrapolated to zero without the force, is off by 0.015 to 0.4 and by 0.08 to 0.2.
+
+use crate::root;
+
+/// Points and weights of Gauss' rule on [0, 1].
+const GAUSS: [(f64, f64); 4] = [
+    (0.069_431_844_202_973_71, 0.173_927_422_568_726_93),
+    (0.330_009_478_207_571_87, 0.326_072_577_431_273_07),
+    (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
+    (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
+];
+/// Share of its factors below which a determinant is round-off.
+const SINGULAR: f64 = 1e-12;
+
+/// A pair before the last ones of a contact.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct EdgePoint {
+    /// Squared distance from the middle of the contact.
+    pub squared: f64,
+    /// Squared pressure.
+    pub pressure_squared: f64,
+    /// Its weight: the width of the surface there.
+    pub weight: f64,
+}
+
+/// The end of a contact: its last pairs, and those before from which the pressure there is known.
+pub(super) struct Tail<'a> {
+    /// The pairs before.
+    pub points: &'a [EdgePoint],
+    /// Distance of the first of the last pairs from the middle.
+    pub from: f64,
+    /// Distance and width of the surface at the first and last of them.
+    pub near: [(f64, f64); 2],
+    /// Length of the surface that belongs to the first of them.
+    pub length: f64,
+}
+
+impl Tail<'_> {
+    /// The distance of the edge from the middle, between the given ones, for which the last pairs
+    /// carry `force`.
+    pub(in crate::analysis) fn edge(&self, force: f64, [low, high]: [f64; 2]) -> f64 {
+        root::of(|edge| self.force(edge) - force, low, high)
+    }
+
+    /// Force on the last pairs if the contact ends at the distance `edge` from its middle.
+    fn force(&self, edge: f64) -> f64 {
+        let [c0, c1] = self.constants(edge * edge);
+        let pressure = |s: f64| ((edge * edge - s * s) * (c0 + c1 * s * s)).max(0.0).sqrt();
+        let [(s0, w0), (s1, w1)] = self.near;
+        let width = |s: f64| w0 + (w1 - w0) * (s - s0) / (s1 - s0);
+        // The area of the last pairs begins half the length of the first before it: there its shape
+        // function has risen from 0 to 1.
+        let begin = self.from - 0.5 * self.length;
+        if edge <= begin {
+            return 0.0;
+        }
+        // s = edge - (edge - begin) t^2 takes the root at the edge out of the integrand.
+        let span = edge - begin;
+        let sum: f64 = GAUSS
+            .iter()
+            .map(|(t, weight)| {
+                let s = edge - span * t * t;
+                weight * 2.0 * t * pressure(s) * width(s)
+            })
+            .sum();
+        // It rises along an element, not at once: the pressure falls over it, so that this takes
+        // more.
+        let rise = self.length / 12f64.sqrt();
+        let x = begin * begin;
+        let fall = begin * (c0 + c1 * x - (edge * edge - x) * c1) / pressure(begin);
+        let more = if fall.is_finite() {
+            0.5 * rise * rise * fall
+        } else {
+            0.0
+        };
+        span * sum + more.max(0.0) * width(begin)
+    }
+
+    /// Least squares of the pressure squared, weighted with the width; with one point `c1 = 0`.
+    fn constants(&self, edge_squared: f64) -> [f64; 2] {
+        // Rows (e^2 - x) (c0 + c1 x) = p^2.
+        let (mut m00, mut m01, mut m11, mut r0, mut r1) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for point in self.points {
+            let (x, a) = (point.squared / edge_squared, edge_squared - point.squared);
+            let weight = point.weight * a;
+            m00 += weight * a;
+            m01 += weight * a * x;
+            m11 += weight * a * x * x;
+            r0 += weight * point.pressure_squared;
+            r1 += weight * point.pressure_squared * x;
+        }
+        let determinant = m00 * m11 - m01 * m01;
+        if self.points.len() < 2 || determinant <= SINGULAR * m00 * m11 {
+            return [r0 / m00, 0.0];
+        }
+        [
+            (m11 * r0 - m01 * r1) / determinant,
+            (m00 * r1 - m01 * r0) / determinant / edge_squared,
+        ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Average of a pressure over the elements of size 1 beside a node, weighted with its shape
+    /// function.
+    fn nodal(pressure: &dyn Fn(f64) -> f64, node: f64) -> f64 {
+        const N: usize = 4000;
+        let points = (0..N).map(|i| 2.0 * (i as f64 + 0.5) / N as f64 - 1.0);
+        let sum: f64 = points.map(|x| (1.0 - x.abs()) * pressure(node + x)).sum();
+        sum * 2.0 / N as f64
+    }
+
+    #[test]
+    fn the_edge_is_found_wherever_in_its_element_it_lies() {
+        for bend in [0.0, -0.1, -0.3] {
+            for edge in [8.2, 8.4, 8.6, 8.8, 9.0] {
+                let pressure = |s: f64| {
+                    let x = (s / edge) * (s / edge);
+                    ((1.0 - x) * (1.0 + bend * x)).max(0.0).sqrt()
+                };
+                let points = [7.0, 6.0, 5.0, 4.0].map(|s| EdgePoint {
+                    squared: s * s,
+                    pressure_squared: nodal(&pressure, s).powi(2),
+                    weight: 1.0,
+                });
+                let tail = Tail {
+                    points: &points,
+                    from: 8.0,
+                    near: [(8.0, 1.0), (9.0, 1.0)],
+                    length: 1.0,
+                };
+                let force = nodal(&pressure, 8.0) + nodal(&pressure, 9.0);
+                let found = tail.edge(force, [8.5, 10.0].map(|e| e - 0.5));
+                // The averages before the last pairs fall short of the pressures, by a hundredth of
+                // an element of the edge.
+                assert!((found - edge).abs() < 0.015, "{bend} {edge}: {found}");
+            }
+        }
+    }
+
+    #[test]
+    fn one_point_makes_it_hertzian() {
+        let pressure_squared = |s: f64| 9.0 - s * s;
+        let points = [EdgePoint {
+            squared: 1.0,
+            pressure_squared: pressure_squared(1.0),
+            weight: 1.0,
+        }];
+        let tail = Tail {
+            points: &points,
+            from: 2.0,
+            near: [(2.0, 1.0), (3.0, 1.0)],
+            length: 1.0,
+        };
+        let [c0, c1] = tail.constants(9.0);
+        assert!((c0 - 1.0).abs() < 1e-15 && c1 == 0.0);
+    }
+}

@@ -1,0 +1,157 @@
+//! Whether what is computed is small, as the theory takes it to be.
+//!
+//! With the gradient `H` of the displacements the exact (Green) strain is
+//!
+//! ```text
+//! E = (H + H')/2 + H'H/2
+//! ```
+//!
+//! Small strains leave the second term out: of a stretch `|H|` the share `|H|/2`, and a rotation
+//! `|H|` adds the strain `|H|^2/2` that is none. Between two nodes of an element `|H|` is at least
+//! the change of their difference over their distance. (G. A. Holzapfel, *Nonlinear Solid
+//! Mechanics* (2000), section 2.5.)
+
+use crate::mesh::Mesh;
+use crate::model::Model;
+use crate::results::Results;
+use crate::space::{Vector, difference, length};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Gradient beyond which a user is told: a twentieth of the strains is left out.
+const LARGE: f64 = 0.1;
+
+/// The largest displacement gradient of the states so far.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(in crate::analysis) struct Deformation {
+    largest: f64,
+    /// The state, and the body it is in.
+    state: String,
+    body: String,
+}
+
+impl Deformation {
+    /// Takes in a state with the displacements of its nodes.
+    pub(in crate::analysis) fn take(&mut self, mesh: &Mesh, state: &str, displacements: &[Vector]) {
+        let of_element = |e: usize| {
+            let corners = &mesh.nodes(e)[..mesh.shapes[e].n_corners()];
+            let mut largest = 0.0f64;
+            for (i, &a) in corners.iter().enumerate() {
+                for &b in &corners[..i] {
+                    let [a, b] = [a as usize, b as usize];
+                    let apart = length(difference(mesh.point(a), mesh.point(b)));
+                    let moved = length(difference(displacements[a], displacements[b]));
+                    if apart > 0.0 {
+                        largest = largest.max(moved / apart);
+                    }
+                }
+            }
+            (largest, e)
+        };
+        let more = |a: (f64, usize), b: (f64, usize)| if b.0 > a.0 { b } else { a };
+        let (largest, element) = (0..mesh.n_elements())
+            .into_par_iter()
+            .with_min_len(1 << 12)
+            .map(of_element)
+            .reduce(|| (0.0, 0), more);
+        if largest > self.largest {
+            *self = Deformation {
+                largest,
+                state: state.to_string(),
+                body: mesh.bodies[mesh.element_body[element] as usize].clone(),
+            };
+        }
+    }
+
+    /// What a user is to know of it.
+    pub(in crate::analysis) fn warning(&self) -> Option<String> {
+        let Deformation {
+            largest,
+            state,
+            body,
+        } = self;
+        (*largest > LARGE).then(|| {
+            format!(
+                "state `{state}`: neighbouring nodes of body `{body}` move against each other by \
+                 {:.0} % of their distance, and strains and rotations are taken for small: there \
+                 strains are wrong by half of that share. Where less was expected, look for units \
+                 that contradict each other (a modulus in GPa beside stresses in MPa)",
+                100.0 * largest
+            )
+        })
+    }
+
+    /// What a deck is told that asks for large displacements at a place, and whether small ones
+    /// will do.
+    pub(in crate::analysis) fn taken_small(&self, place: &str) -> (String, bool) {
+        let is_small = self.largest <= LARGE;
+        let text = format!(
+            "{place}: *STEP: NLGEOM: displacements are taken for small{}: neighbouring nodes move \
+             against each other by {:.2} % of their distance at most (state `{}`, body {}), of \
+             which half is left out of the strains there{}",
+            if is_small {
+                ", and are"
+            } else {
+                ", and are not"
+            },
+            100.0 * self.largest,
+            self.state,
+            self.body,
+            match is_small {
+                true => "",
+                false => "; take NLGEOM out, or compute with --small-strain, to have it so",
+            }
+        );
+        (text, is_small)
+    }
+}
+
+/// What a deck is told that asks for large displacements where material flows at a stress that is
+/// not small beside the slope of its curve: where flow spreads through a body, the change of its
+/// sections then matters as much as hardening does (A. Considere, *Annales des ponts et chaussees*,
+/// 1885), however small strains are.
+pub(in crate::analysis) fn softened(
+    model: &Model,
+    results: &Results,
+    place: &str,
+) -> Option<String> {
+    let states = &results.states;
+    let strain = states
+        .iter()
+        .map(|state| state.max_equivalent_plastic_strain);
+    let strain = strain.fold(0.0, f64::max);
+    let flowed = |body: usize| {
+        let mut counts = states
+            .iter()
+            .map(|state| state.plastic_points_by_body.get(body));
+        counts.any(|count| count.is_some_and(|count| *count > 0))
+    };
+    let shares = model
+        .materials
+        .iter()
+        .enumerate()
+        .filter_map(|(body, material)| {
+            let curve = material.hardening.as_ref().filter(|_| flowed(body))?;
+            let slope = curve.slope(strain) + material.back_stresses.linear();
+            Some((curve.yield_stress(strain) / slope, body))
+        });
+    let (share, body) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let body = &model.mesh.bodies[body];
+    (share > LARGE).then(|| {
+        let (how, added) = match share.is_finite() {
+            true => {
+                let share = format!("{:.0} %", 100.0 * share);
+                (
+                    format!("at a stress of {share} of the slope of its curve"),
+                    format!("some {share}"),
+                )
+            }
+            false => ("without hardening".to_string(), "a multiple".to_string()),
+        };
+        format!(
+            "{place}: *STEP: NLGEOM: body {body} flows {how}: where flow spreads through all of a \
+             section, the change of the section adds {added} to plastic strains and \
+             displacements; small displacements leave that out"
+        )
+    })
+}

@@ -1,0 +1,126 @@
+//! The dent: what plastic strains leave of the surfaces' shape once loads and contact forces are
+//! gone.
+
+use super::measure::on_axis;
+use super::reading::Reading;
+use crate::mesh::Mesh;
+use crate::model::{ContactSurface, Pair};
+
+/// The dent of a state.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::analysis) struct Dent {
+    /// Depth of both surfaces together at the deepest place; negative where they have moved towards
+    /// each other everywhere.
+    pub depth: f64,
+    /// Each body's share in it.
+    pub by_body: Vec<f64>,
+    /// The most that a surface rises above its undeformed shape.
+    pub rim: f64,
+}
+
+/// Displacement of the two surfaces at a place of a contact into their own bodies.
+type Sunk = [f64; 2];
+
+impl Reading<'_, '_> {
+    /// The dent of the current plastic strains: displacements under their initial loads alone,
+    /// every pair open, less the rigid motion of each body's far boundary. Half a trailing solve
+    /// where there are any.
+    pub(in crate::analysis) fn dent(&mut self) -> Dent {
+        let mut dent = Dent {
+            depth: 0.0,
+            by_body: vec![0.0; self.solver.structure.model.mesh.bodies.len()],
+            rim: 0.0,
+        };
+        if self.solver.now.initial.load.largest() == 0.0 || self.solver.now.gap.is_empty() {
+            return dent;
+        }
+        let model = self.solver.structure.model;
+        let sunk = self.sunk();
+        let mut largest = None;
+        let mut deepest_of = vec![None; dent.by_body.len()];
+        for contact in &model.contacts {
+            let places = places_of(contact, &sunk, |side| {
+                let values: Vec<f64> = sunk.iter().map(|sunk| sunk[side]).collect();
+                on_axis(model, contact, &values)
+            });
+            let deepest = places
+                .iter()
+                .max_by(|a, b| (a[0] + a[1]).total_cmp(&(b[0] + b[1])));
+            let Some(&deepest) = deepest else { continue };
+            let depth = deepest[0] + deepest[1];
+            largest = Some(largest.map_or(depth, |other: f64| other.max(depth)));
+            for (name, share) in contact.names.iter().zip(deepest) {
+                if let Some(body) = body_of(&model.mesh, name) {
+                    let known = &mut deepest_of[body];
+                    *known = Some(known.map_or(share, |other: f64| other.max(share)));
+                }
+            }
+            dent.rim = places
+                .iter()
+                .flatten()
+                .fold(dent.rim, |m, sunk| m.max(-sunk));
+        }
+        dent.depth = largest.unwrap_or(0.0);
+        for (depth, deepest) in dent.by_body.iter_mut().zip(deepest_of) {
+            *depth = deepest.unwrap_or(0.0);
+        }
+        dent
+    }
+
+    /// How far each pair's two sides have sunk into their bodies without any load.
+    fn sunk(&mut self) -> Vec<Sunk> {
+        let forces = &self.solver.now.initial.forces;
+        let n = forces.len();
+        let mut unloaded = self.solver.structure.sub.tableau();
+        unloaded.reset(&vec![true; n]);
+        let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
+        unloaded.solve(forces, &mut gap, &mut force);
+        // Pairs that hold the rigid motion of a floating body stay closed: initial loads balance,
+        // they carry nothing.
+        let slip: Vec<f64> = gap.iter().map(|g| -g).collect();
+        let mut u = self.solver.now.initial.eliminated.clone();
+        self.solver.structure.sub.recover(&mut u, &slip);
+        self.solver.cost.count_half();
+        let mut normal = u.contact.clone();
+        let structure = &self.solver.structure;
+        let motions = structure.model.floating.motions.iter();
+        for (motion, far) in motions.zip(&structure.loads.far) {
+            let amplitude = far.dot(&u);
+            for (value, &freedom) in normal
+                .iter_mut()
+                .zip(&self.solver.structure.sub.partition.contact)
+            {
+                *value -= amplitude * motion.at(freedom);
+            }
+        }
+        let model = structure.model;
+        let of_pair = |(k, pair): (usize, &Pair)| {
+            // The normal points from the slave's body to the other.
+            let [faced, slave] = model.rows.both_sides(k, &normal);
+            match model.contacts[pair.contact].slave {
+                0 => [-slave, faced],
+                _ => [faced, -slave],
+            }
+        };
+        model.pairs.iter().enumerate().map(of_pair).collect()
+    }
+}
+
+/// The places of a contact: its pairs, and the axis of revolution where no pair stands there.
+fn places_of(
+    contact: &ContactSurface,
+    sunk: &[Sunk],
+    axis: impl Fn(usize) -> Option<f64>,
+) -> Vec<Sunk> {
+    let mut places = sunk[contact.range.clone()].to_vec();
+    if let (Some(first), Some(second)) = (axis(0), axis(1)) {
+        places.push([first, second]);
+    }
+    places
+}
+
+/// The body that a surface bounds.
+pub(super) fn body_of(mesh: &Mesh, surface: &str) -> Option<usize> {
+    let facet = mesh.surfaces.get(surface)?.facets.first()?;
+    Some(mesh.element_body[facet.element] as usize)
+}

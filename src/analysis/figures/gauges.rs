@@ -1,0 +1,100 @@
+//! What each row of the history has besides its own figures, where the scene asks for it: motion
+//! and force of sets of nodes, approach, force and area of each contact.
+
+use super::approaches::Approach;
+use super::reactions;
+use crate::analysis::structure::solver::Solver;
+use crate::error::{Error, Result};
+use crate::model::Model;
+use crate::space::Vector;
+
+/// Names of the axes in columns.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// What is read off after each increment.
+pub(in crate::analysis) struct Gauges {
+    /// Nodes of each set.
+    sets: Vec<Vec<usize>>,
+    /// Of each contact, how far its bodies have come together.
+    approaches: Vec<Option<Approach>>,
+}
+
+impl Gauges {
+    /// Those that the scene asks for; `None` where it asks for none.
+    ///
+    /// # Errors
+    /// A set that the mesh does not have.
+    pub(in crate::analysis) fn of(model: &Model) -> Result<Option<Self>> {
+        let names = &model.scene.program.history;
+        let nodes = |name: &String| {
+            let nodes = model.mesh.set_nodes(name).filter(|nodes| !nodes.is_empty());
+            nodes.ok_or_else(|| Error::input(format!("program.history: no nodes in `{name}`")))
+        };
+        let sets = names.iter().map(nodes).collect::<Result<Vec<_>>>()?;
+        Ok((!sets.is_empty()).then(|| Gauges {
+            sets,
+            approaches: Approach::of_contacts(model),
+        }))
+    }
+
+    /// Names of the columns, in the order of [`Gauges::read`]; none where the scene asks for none.
+    pub(in crate::analysis) fn columns(model: &Model) -> Vec<String> {
+        let names = &model.scene.program.history;
+        if names.is_empty() {
+            return Vec::new();
+        }
+        let mut out = vec!["approach".to_string()];
+        for number in 1..=model.contacts.len() {
+            out.extend(["approach", "force", "area"].map(|key| format!("contact_{number}.{key}")));
+        }
+        for name in names {
+            for key in ["displacement", "force"] {
+                let axes = &AXES[..model.mesh.dimension];
+                out.extend(axes.iter().map(|axis| format!("{name}.{key}_{axis}")));
+            }
+        }
+        out
+    }
+
+    /// The values in the current state. Half a full solve, and the stresses of all elements.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub(in crate::analysis) fn read(&self, solver: &mut Solver) -> Result<Vec<f64>> {
+        let model = solver.structure.model;
+        let mut reading = solver.reading();
+        let displacements = reading.displacements()?;
+        let stresses = reading.stresses(displacements.deformation(), false)?;
+        let mut out = vec![reading.approach(&displacements.total)];
+        let moved = model.nodal(&displacements.total, &solver.at.factors);
+        for (contact, approach) in self.approaches.iter().enumerate() {
+            let figures = solver.contact_figures_of(contact);
+            let approach = approach.as_ref().map_or(f64::NAN, |a| a.at(&moved));
+            out.extend([approach, figures.force * model.symmetry, figures.area]);
+        }
+        let forces = reactions::on_nodes(model, stresses.nodal, &solver.contact_forces());
+        let d = model.mesh.dimension;
+        let sum = |nodes: &[usize], of: &dyn Fn(usize) -> Vector| -> Vector {
+            nodes.iter().fold([0.0; 3], |mut sum, &node| {
+                let value = of(node);
+                (0..d).for_each(|axis| sum[axis] += value[axis]);
+                sum
+            })
+        };
+        for nodes in &self.sets {
+            let motion = sum(nodes, &|node| moved[node]);
+            let force = sum(nodes, &|node| {
+                std::array::from_fn(|axis| {
+                    if axis < d {
+                        forces[d * node + axis]
+                    } else {
+                        0.0
+                    }
+                })
+            });
+            out.extend(motion[..d].iter().map(|u| u / nodes.len() as f64));
+            out.extend(force[..d].iter().map(|f| f * model.symmetry));
+        }
+        Ok(out)
+    }
+}

@@ -1,0 +1,208 @@
+//! Whether an increment that was not found shows a limit load, or only an iteration that did not
+//! converge.
+//!
+//! The increments of associated plasticity minimise a convex energy (Simo and Hughes). Where every
+//! point hardens with a slope of at least `H`, its second derivative, the consistent tangent `S -
+//! K_p`, is nowhere below `H/(3G + H)` of the elastic stiffness `S`: there is one equilibrium under
+//! every load, and an iteration that does not find it has not converged. Beyond a limit load there
+//! is none: displacements grow without bound along a mechanism, in which the tangent has no
+//! stiffness left. The evidence of a collapse is therefore the current stiffness
+//!
+//! ```text
+//!     d'(S - K_p) d / d'S d        (elastic: 1, hardening: at least H/(3G + H), limit load: 0)
+//! ```
+//!
+//! at the state that the smallest increment led to, `d` the direction in which the structure moved.
+//! It is an upper bound of the smallest eigenvalue: a stiffness that it shows to be lost is lost.
+//!
+//! Increments beyond a limit load are given up as soon as the structure flows away along a Newton
+//! direction: without stiffness, and driven as before when it has gone as far along it as no
+//! increment that is held would move it.
+//!
+//! # Source
+//! P. G. Bergan, G. Horrigmoe, B. Krakeland, T. H. Soreide, *Solution techniques for non-linear
+//! finite element problems* (1978), doi:10.1002/nme.1620121106 (the current stiffness parameter);
+//! M. A. Crisfield, *Non-linear Finite Element Analysis of Solids and Structures*, vol. 1 (1991),
+//! chapter 9; J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998).
+
+use super::outcome::Attempt;
+use super::step::SMALLEST_CUT;
+use crate::analysis::structure::equilibrium::Equilibrium;
+use crate::analysis::structure::load_point::LoadPoint;
+use crate::analysis::structure::round_off::{LOOSEST, ROUND_OFF_OF_FORCES};
+use crate::analysis::structure::solver::Solver;
+use crate::error::{Error, ErrorKind, Result};
+use crate::scene::Settings;
+use crate::substructure::Trailing;
+
+/// Share of the elastic stiffness below which a structure has collapsed: to take up the smallest
+/// increment of the load it would have to move as far as elastically under the whole piece of the
+/// load path.
+pub(super) const LOST: f64 = SMALLEST_CUT;
+
+/// Answers of the structure to a direction whose stiffness decides: each is one trailing solve, and
+/// a mechanism stands out among motions of a tenth of the elastic stiffness by a tenth each time.
+const MOST_ANSWERS: usize = 8;
+
+/// Share of the force that drives a mechanism that is not yet taken up.
+const DRIVEN: f64 = 0.5;
+
+/// What no iteration can be sure to get below: the round-off of the forces of the zone's
+/// elements that follow from displacements `u`.
+pub(super) fn round_off_of_balance(solver: &Solver, u: &Trailing) -> Result<f64> {
+    let partition = &solver.structure.sub.partition;
+    let mut all = vec![0.0; partition.n];
+    for (freedoms, values) in [(&partition.zone, &u.zone), (&partition.contact, &u.contact)] {
+        for (&freedom, value) in freedoms.iter().zip(values) {
+            all[freedom] = *value;
+        }
+    }
+    let stiffness = &solver.structure.system.stiffness;
+    Ok(ROUND_OFF_OF_FORCES * stiffness.largest_terms(&all)?)
+}
+
+/// Whether forces out of balance by the share `floor` leave little open: displacements are off
+/// by no more than `floor` over the stiffness that is left, relative to elastic ones. Beyond a
+/// limit load displacements grow until their round-off hides what is out of balance: there
+/// nothing settles.
+pub(super) fn settles(solver: &mut Solver, state: &Equilibrium, floor: f64) -> bool {
+    floor <= LOOSEST && floor <= LOOSEST * stiffness_left(solver, state, 1)
+}
+
+/// Whether the structure flows away along a Newton direction of an increment to `goal` that it
+/// went to its end (`length` 1, to the `trial` state with its force out of balance): the share
+/// of the elastic stiffness that the direction has there.
+///
+/// It does where that is lost and the force that drove it, `driven`, still does when it has
+/// gone so far that the secant stiffness of the increment is lost, too. The energy of the
+/// increment is convex and has fallen all the way: an equilibrium, if there is any, lies
+/// beyond. Where a gap closes on that way, as when a tube is expanded into a sleeve, what it
+/// closes may hold the load, and where back stresses fade the increment has no such energy:
+/// nothing is said.
+pub(super) fn flows_away(
+    solver: &mut Solver,
+    goal: &LoadPoint,
+    direction: &Equilibrium,
+    (driven, length): (&Trailing, f64),
+    trial: &(Equilibrium, Trailing),
+) -> Option<f64> {
+    let enough = DRIVEN * driven.dot(&direction.u);
+    if !solver.zone.is_symmetric() || length < 1.0 || trial.1.dot(&direction.u) < enough {
+        return None;
+    }
+    let mut force = solver.structure.sub.zeros();
+    solver.zone.softening_times(&direction.u, &mut force);
+    let left = 1.0 - force.dot(&direction.u) / direction.initial.load.dot(&direction.u);
+    if left.is_nan() || left > LOST {
+        return None;
+    }
+    let initial = solver.now.initial.clone();
+    let mut elastic = solver.respond(goal, initial);
+    elastic.add(-1.0, &solver.now);
+    let far = elastic.u.largest() / (LOST * direction.u.largest());
+    let mut beyond = trial.0.clone();
+    beyond.add(far.max(1.0), direction);
+    let mut open = solver.tableau.open().iter().zip(&beyond.gap);
+    if open.any(|(is_open, gap)| *is_open && *gap <= 0.0) {
+        return None;
+    }
+    solver.out_of_balance_at(&beyond, &mut force);
+    if force.dot(&direction.u) >= enough {
+        return Some(left);
+    }
+    solver.out_of_balance_at(&trial.0, &mut force);
+    None
+}
+
+/// The error of an increment to `goal`, the smallest that is tried, that was not found:
+/// [`ErrorKind::Collapse`] where the stiffness is lost, else [`ErrorKind::Analysis`] with what
+/// was tried.
+pub(super) fn not_found(
+    solver: &mut Solver,
+    settings: &Settings,
+    goal: &LoadPoint,
+    attempt: &Attempt,
+) -> Error {
+    let left = match attempt.mechanism {
+        Some(left) => left,
+        None => stiffness_left(solver, &attempt.state, MOST_ANSWERS),
+    };
+    let residual = attempt.residual;
+    let (held, tried) = (solver.at.alpha, goal.alpha);
+    // Round-off disturbs the quotient by about its own share.
+    if left <= LOST && attempt.round_off <= LOST {
+        return Error::new(
+            ErrorKind::Collapse,
+            format!(
+                "limit load: load factor {held:.9} is the last that was held, at {tried:.9} \
+                 no equilibrium was found (out-of-balance force {residual:.1e} of the largest \
+                 force; at most {:.0e} of the elastic stiffness is left)",
+                left.max(f64::EPSILON)
+            ),
+        );
+    }
+    if !left.is_finite() || !residual.is_finite() {
+        return Error::analysis(no_number(held, tried, attempt.iterations));
+    }
+    Error::analysis(format!(
+        "not converged: load factor {held:.9} is the last that was held, at {tried:.9} (the \
+         smallest increment, {SMALLEST_CUT:e} of the load step) the out-of-balance force was \
+         {residual:.1e} of the largest force after {} iterations (analysis.max_iterations = \
+         {}); analysis.tolerance asks for {:.1e}, round-off alone may leave {:.1e}. {left:.1e} \
+         of the elastic stiffness is left: this shows no limit load. Raise \
+         analysis.max_iterations, loosen analysis.tolerance, or use elements that are less \
+         slender",
+        attempt.iterations, settings.max_iterations, settings.tolerance, attempt.round_off,
+    ))
+}
+
+/// Share of the elastic stiffness that the tangent at a state has in the direction in which the
+/// structure moves there from the last state that was held; not a number where the iteration
+/// left all numbers. The direction is answered by the structure some times, each time with the
+/// forces it loses: what of it has stiffness left weighs less each time (power iteration).
+fn stiffness_left(solver: &mut Solver, state: &Equilibrium, answers: usize) -> f64 {
+    let mut load = solver.structure.sub.zeros();
+    solver.out_of_balance_at(state, &mut load);
+    let mut moved = state.u.clone();
+    moved.add(-1.0, &solver.now.u);
+    solver.zone.softening_times(&moved, &mut load);
+    if load.largest() == 0.0 {
+        return 1.0;
+    }
+    let mut left = 1.0;
+    for _ in 0..answers {
+        let softest = solver.direction(load.clone());
+        solver.zone.softening_times(&softest.u, &mut load);
+        left = 1.0 - load.dot(&softest.u) / softest.initial.load.dot(&softest.u);
+        if left.is_nan() || left <= LOST {
+            break;
+        }
+    }
+    left
+}
+
+/// Why an increment was not found whose numbers went beyond all bounds, and what to do.
+fn no_number(held: f64, tried: f64, iterations: usize) -> String {
+    format!(
+        "not converged: load factor {held:.9} is the last that was held, at {tried:.9} (the \
+         smallest increment, {SMALLEST_CUT:e} of the load step) displacements or stresses grew \
+         beyond what a number can hold within {iterations} iterations, so that nothing can be said \
+         of the stiffness that is left. Check loads, target and material for values that are too \
+         large by far, and their units; if they are right, give more increments (program.steps, \
+         or more targets on the way) or another analysis.plastic_iteration"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_beyond_all_bounds_are_told_in_words() {
+        let text = no_number(0.5, 1e300, 7);
+        let message = Error::analysis(text).to_string();
+        assert!(message.contains("at 1e300 "), "{message}");
+        assert!(message.contains("beyond what a number can hold within 7 iterations"));
+        assert!(!message.contains("NaN") && message.contains("units"));
+    }
+}

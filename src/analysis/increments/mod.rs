@@ -1,0 +1,47 @@
+//! Along a straight piece of the load path, increment by increment.
+//!
+//! | file | what | paper |
+//! |---|---|---|
+//! | `step` | what a drive is told and answers | |
+//! | `outcome` | how an increment may end, and what a search for one comes to | 4.18, 4.23 |
+//! | `outgrown` | contact that reaches the end of its candidates | |
+//! | `acceptance` | what is accepted: increments and events | |
+//! | `yield_load` | the load at first yield | 3.13, 3.14 |
+//! | `elastic` | pieces on which contact alone changes | 3.9, 3.10 |
+//! | `stretch` | stretches of an elastoplastic drive on which nothing yields | |
+//! | `step_length` | how much of an increment contact allows | 4.8 to 4.22 |
+//! | `search` | equilibrium and length at once, or one after the other | 4.17, 4.22 |
+//! | `line_search` | how far along a Newton direction | |
+//! | `tangent` | the elastoplastic tangent, solved on the elastic factor | |
+//! | `tangent_by_factor` | the tangent solved on a factor of its own | |
+//! | `acceleration` | Anderson's acceleration of the initial loads | |
+//! | `prediction` | the rates that an increment is predicted by | 4.5 |
+//! | `settling` | contact at the end of an increment whose end is given | 4.8, 4.9 |
+//! | `collapse` | limit load, or an iteration that did not converge | |
+//! | `increment` | one elastoplastic increment | 4.4 to 4.23 |
+//! | `stepping` | statuses that come out wrong, increments that do not converge | |
+//! | `landing` | the last increment again, to where a quantity is zero | |
+//! | `plastic` | elastoplastic drives | |
+//! | `drive` | a drive of either kind | |
+
+mod acceleration;
+mod acceptance;
+mod collapse;
+pub(super) mod drive;
+pub(super) mod elastic;
+mod increment;
+mod landing;
+mod line_search;
+mod outcome;
+mod outgrown;
+pub(super) mod plastic;
+mod prediction;
+mod search;
+mod settling;
+pub(super) mod step;
+mod step_length;
+mod stepping;
+mod stretch;
+mod tangent;
+mod tangent_by_factor;
+mod yield_load;

@@ -1,0 +1,96 @@
+//! Contact in an increment whose end is given: statuses change with the iterates of plastic flow.
+
+use super::outcome::NoIncrement;
+use crate::analysis::structure::equilibrium::Equilibrium;
+use crate::analysis::structure::load_point::LoadPoint;
+use crate::analysis::structure::solver::Solver;
+use crate::contact;
+
+/// Share of the largest gap or force by which a pair violates its condition.
+const WRONG: f64 = 1e-9;
+/// Rounds of status changes without progress after which they change one by one.
+const PATIENCE: usize = 6;
+
+/// How many of the statuses that are wrong change in a round: all while that makes them fewer, or
+/// has done so in the last few rounds, else the least index alone (finite for a given load:
+/// Habetler and Kostreva 1978, doi:10.1137/0316011).
+#[derive(Debug)]
+pub(super) struct Rounds {
+    fewest: usize,
+    patience: usize,
+}
+
+impl Default for Rounds {
+    fn default() -> Self {
+        Rounds {
+            fewest: usize::MAX,
+            patience: PATIENCE,
+        }
+    }
+}
+
+impl Rounds {
+    /// Of so many that are wrong.
+    pub(in crate::analysis) fn take(&mut self, wrong: usize) -> usize {
+        if wrong < self.fewest {
+            *self = Rounds {
+                fewest: wrong,
+                patience: PATIENCE,
+            };
+        } else {
+            self.patience = self.patience.saturating_sub(1);
+        }
+        if self.patience > 0 { wrong } else { 1 }
+    }
+}
+
+/// Changes the statuses that an iterate shows to be wrong, and gives it the gaps and forces of
+/// the others; whether there were any. Half a trailing solve if so.
+///
+/// Once in each Newton iterate, whose gaps and forces are those of the tangent: the primal-dual
+/// active set method (M. Hintermüller, K. Ito, K. Kunisch 2002, doi:10.1137/S1052623401383558).
+/// To solve contact to the end each time, with the plastic flow at hand as a load, would answer
+/// like the elastic body: near a limit load, not at all. So it is where bodies would be set
+/// free alone; and the least index alone changes where all at once do not make them fewer.
+pub(super) fn settle_contact(
+    solver: &mut Solver,
+    point: &LoadPoint,
+    state: &mut Equilibrium,
+    rounds: &mut Rounds,
+) -> Result<bool, NoIncrement> {
+    let mut wrong = wrong_at_end(solver, state);
+    if wrong.is_empty() {
+        return Ok(false);
+    }
+    let take = rounds.take(wrong.len());
+    let tableau = &mut solver.tableau;
+    if take > 1 {
+        // Closing first keeps bodies held.
+        wrong.sort_by_key(|&k| !tableau.open()[k]);
+    }
+    let changes = (wrong.iter().filter(|&&k| tableau.flip(k)))
+        .take(take)
+        .count();
+    solver.cost.counts.contact_changes += changes;
+    if changes == 0 {
+        let q = solver.forces_if_tied(point, &state.initial);
+        let (gap, force) = (&mut state.gap, &mut state.force);
+        let solved = contact::solve(&mut solver.tableau, &q, gap, force);
+        let certificate = solved.map_err(|_| NoIncrement::Undecided)?;
+        solver.cost.counts.contact_changes += certificate.changes;
+    }
+    *state = solver.respond(point, state.initial.clone());
+    Ok(true)
+}
+
+/// Pairs whose condition a state violates.
+pub(super) fn wrong_at_end(solver: &Solver, state: &Equilibrium) -> Vec<usize> {
+    let (gap, force) = (&state.gap, &state.force);
+    let largest_force = (force.iter()).fold(solver.scales.force, |m, r| m.max(*r));
+    let largest_gap = gap.iter().fold(0.0f64, |m, g| m.max(*g));
+    let is_wrong = |k: usize| match solver.tableau.open()[k] {
+        true => gap[k] < -WRONG * largest_gap,
+        false => force[k] < -WRONG * largest_force,
+    };
+    (0..gap.len()).filter(|&k| is_wrong(k)).collect()
+}

@@ -1,0 +1,130 @@
+//! What a drive along a straight piece of the load path is told, and what it answers.
+
+use crate::analysis::stress::recovery::Peak;
+use crate::analysis::structure::solver::Solver;
+use crate::contact::Change;
+use crate::error::{Error, ErrorKind, Result};
+use crate::scene::{Program, Settings, Stepping};
+
+/// An accepted increment.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct IncrementReport {
+    /// What ended it.
+    pub event: String,
+    /// Material evaluations.
+    pub iterations: usize,
+    /// Trailing solves.
+    pub trailing_solves: usize,
+    /// Relative out-of-balance force.
+    pub residual: f64,
+}
+
+/// A measured quantity that ends a drive when it changes sign.
+pub type Monitor<'a> = dyn Fn(&mut Solver) -> Result<f64> + 'a;
+
+/// How a drive ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Arrival {
+    /// At the end of the piece.
+    End,
+    /// Where the monitored quantity is zero.
+    Monitor,
+    /// At first yield.
+    Yield(Peak),
+    /// A guard element yields: the zone must grow, the last increment was not taken.
+    ZoneTooSmall,
+    /// The load factor has left the range that the zone was chosen for.
+    ZoneOutgrown,
+}
+
+/// What a step of a drive came to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Step {
+    /// The increment that was accepted, if one was.
+    pub increment: Option<IncrementReport>,
+    /// How the drive ended, if it did.
+    pub arrival: Option<Arrival>,
+}
+
+impl Step {
+    /// The end of a drive without a further increment.
+    pub fn arrived(arrival: Arrival) -> Self {
+        Step {
+            increment: None,
+            arrival: Some(arrival),
+        }
+    }
+}
+
+/// How increments are taken.
+#[derive(Clone, Copy)]
+pub struct Rules<'a> {
+    /// Solver settings.
+    pub settings: &'a Settings,
+    /// How increments are chosen.
+    pub stepping: Stepping,
+    /// The program: the tolerances and numbers of increments.
+    pub program: &'a Program,
+    /// Absolute load factor up to which the zone was chosen.
+    pub zone_until: f64,
+    /// Asked between iterations: true stops the run at the last accepted increment.
+    pub stop: &'a dyn Fn() -> bool,
+}
+
+/// Accuracy with which a monitored quantity (of order 1) is landed on, and relative accuracy of the
+/// place.
+pub(in crate::analysis) const MONITOR_ACCURACY: f64 = 1e-10;
+/// Share of a piece of the load path below which increments are not cut: the load has passed the
+/// limit load, which is then known to this share.
+pub(super) const SMALLEST_CUT: f64 = 1e-6;
+
+/// Whether a drive begins where the monitored quantity is zero already: on the way it would not
+/// change its sign there.
+pub(super) fn is_hit(monitored: Option<f64>) -> bool {
+    monitored.is_some_and(|value| value.abs() <= MONITOR_ACCURACY)
+}
+
+/// Whether a monitored quantity is zero or has changed its sign.
+pub(in crate::analysis) fn crosses(was: f64, is: f64) -> bool {
+    is == 0.0 || (is > 0.0) != (was > 0.0)
+}
+
+/// The error of a run that its caller stopped.
+pub fn stopped() -> Error {
+    Error::new(ErrorKind::Stopped, "stopped on request")
+}
+
+/// What ended an increment, in words.
+pub fn describe(changes: &[Change]) -> String {
+    let words: Vec<String> = changes
+        .iter()
+        .take(4)
+        .map(|c| match c {
+            Change::Closes(k) => format!("closes: pair {}", k + 1),
+            Change::Opens(k) => format!("opens: pair {}", k + 1),
+        })
+        .collect();
+    let more = if changes.len() > 4 {
+        format!(" and {} more", changes.len() - 4)
+    } else {
+        String::new()
+    };
+    words.join(", ") + &more
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Pairs count from 1 in words, whichever way they change.
+    #[test]
+    fn events_name_their_pairs() {
+        let one = [Change::Closes(0), Change::Opens(3)];
+        assert_eq!(describe(&one), "closes: pair 1, opens: pair 4");
+        let many: Vec<Change> = (0..6).map(Change::Opens).collect();
+        assert_eq!(
+            describe(&many),
+            "opens: pair 1, opens: pair 2, opens: pair 3, opens: pair 4 and 2 more"
+        );
+    }
+}

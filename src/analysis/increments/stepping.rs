@@ -1,0 +1,324 @@
+//! Finding an increment: statuses that come out wrong are mended, increments that do not converge
+//! cut.
+
+use super::collapse::not_found;
+use super::increment::increment;
+use super::outcome::{Attempt, EndsAt, Increment, NoIncrement};
+use super::search::Search;
+use super::settling::Rounds;
+use super::settling::wrong_at_end;
+use super::step::{Rules, stopped};
+use crate::analysis::structure::equilibrium::Equilibrium;
+use crate::analysis::structure::load_point::LoadPoint;
+use crate::analysis::structure::solver::Solver;
+use crate::error::{Error, ErrorKind, Result};
+use crate::scene::Stepping;
+use std::collections::HashSet;
+
+/// Cut factor after an increment that did not converge.
+const CUT: f64 = 0.25;
+/// Share of an increment below which equilibrium and length are no longer searched together: three
+/// cuts cost less than a search apart where they help, and where they do not, more do not either.
+const CUT_TOGETHER: f64 = 0.02;
+/// Status corrections at one point of the path before they are taken to cycle.
+const MOST_CORRECTIONS: usize = 60;
+
+/// Cuts of an increment in which a pair goes back over the border it began at.
+const MOST_CROSSINGS: usize = 2;
+
+/// What was tried for one increment, and what is tried next.
+struct Tries {
+    /// Share of the way that was asked for, and the smallest that is tried.
+    left: f64,
+    smallest: f64,
+    /// Share of the way that is tried.
+    most: f64,
+    /// Corrections of statuses, and cuts where a pair went back over its border.
+    corrections: usize,
+    crossings: usize,
+    /// Statuses that were corrected.
+    seen: Vec<Vec<bool>>,
+    /// Statuses at the start, and pairs at the border of their condition there.
+    open: Vec<bool>,
+    border: Vec<usize>,
+    usual: Stepping,
+    /// How the increment is chosen; where no statuses are right at its end it is followed from
+    /// change to change.
+    stepping: Stepping,
+    search: Search,
+}
+
+/// Finds elastoplastic increments by the rules of a program.
+pub(super) struct Stepper<'s, 'm> {
+    pub(super) solver: &'s mut Solver<'m>,
+    pub(super) rules: Rules<'s>,
+}
+
+impl<'s, 'm> Stepper<'s, 'm> {
+    pub(super) fn new(solver: &'s mut Solver<'m>, rules: Rules<'s>) -> Self {
+        Stepper { solver, rules }
+    }
+
+    /// See [`increment`].
+    fn increment(
+        &mut self,
+        end: &LoadPoint,
+        most: f64,
+        how: (EndsAt, Search),
+        ahead: Option<(LoadPoint, Equilibrium)>,
+    ) -> std::result::Result<Increment, NoIncrement> {
+        increment(self.solver, self.rules, (end, most), how, ahead)
+    }
+
+    /// An increment with statuses that are right at its begin (events) or at its end (steps).
+    /// Increments that do not converge are cut, searched with equilibrium and length apart and cut
+    /// again, down to the share `smallest`; returns whether any was. A state that is known `ahead`
+    /// predicts the first that is tried.
+    pub(super) fn find_increment(
+        &mut self,
+        end: &LoadPoint,
+        left: f64,
+        smallest: f64,
+        mut ahead: Option<(LoadPoint, Equilibrium)>,
+    ) -> Result<(Increment, bool)> {
+        self.solver.move_loose_bodies(end)?;
+        self.solver.forget_tangent();
+        let mut tries = Tries {
+            left,
+            smallest,
+            most: left,
+            corrections: 0,
+            crossings: 0,
+            seen: Vec::new(),
+            open: self.solver.tableau.open().to_vec(),
+            border: self.solver.border.clone(),
+            usual: self.rules.stepping,
+            stepping: self.rules.stepping,
+            search: Search::FIRST,
+        };
+        loop {
+            match self.try_once(&tries, end, ahead.take())? {
+                Ok(increment) => {
+                    self.refuse_free_motion(&increment)?;
+                    let at_once = tries.search == Search::FIRST && tries.stepping == tries.usual;
+                    self.solver.cost.counts.hard_increments += usize::from(!at_once);
+                    return Ok((increment, tries.most < left));
+                }
+                Err(why) => self.try_otherwise(&mut tries, end, why)?,
+            }
+        }
+    }
+
+    /// Looks for an increment in the way that is to be tried next.
+    fn try_once(
+        &mut self,
+        tries: &Tries,
+        end: &LoadPoint,
+        ahead: Option<(LoadPoint, Equilibrium)>,
+    ) -> Result<std::result::Result<Increment, NoIncrement>> {
+        let (most, search) = (tries.most, tries.search);
+        let gamma = self.rules.program.gamma;
+        Ok(match tries.stepping {
+            Stepping::Events if tries.corrections < MOST_CORRECTIONS => {
+                self.increment(end, most, (EndsAt::NextChange { gamma }, search), ahead)
+            }
+            Stepping::Events => self.solve_step((end, 1e-3 * most), search, ahead)?,
+            Stepping::Auto => self.solve_together((end, most), search, ahead),
+            Stepping::Steps => self.solve_step((end, most), search, ahead)?,
+        })
+    }
+
+    /// Changes what is tried next after a try that found no increment.
+    ///
+    /// # Errors
+    /// What no other try is worth while for.
+    fn try_otherwise(
+        &mut self,
+        tries: &mut Tries,
+        end: &LoadPoint,
+        why: NoIncrement,
+    ) -> Result<()> {
+        match why {
+            // The rate of a pair at its border turned within the increment: a shorter one shows
+            // where, unless it turned at the very begin.
+            NoIncrement::Crossed(_) if tries.crossings < MOST_CROSSINGS => {
+                tries.crossings += 1;
+                tries.most *= CUT;
+            }
+            NoIncrement::WrongStatus(pairs) | NoIncrement::Crossed(pairs) => {
+                self.correct_statuses(tries, &pairs);
+            }
+            // Contact at the end of a short increment is solved whatever happens on the way.
+            NoIncrement::Jumps => tries.corrections = MOST_CORRECTIONS,
+            NoIncrement::Stopped => return Err(stopped()),
+            NoIncrement::Failed(error) => return Err(error),
+            NoIncrement::Undecided
+                if tries.stepping != Stepping::Events && tries.stepping == tries.usual =>
+            {
+                self.solver.restore_statuses(&tries.open, &tries.border);
+                tries.stepping = Stepping::Events;
+            }
+            NoIncrement::Undecided => return Err(self.not_settled(end, tries.most)),
+            NoIncrement::NotConverged(attempt) => {
+                // The points yield as in the state that failed: its tangent, often singular, must
+                // not predict the next.
+                self.solver.assume_elastic();
+                self.after_no_convergence(tries, end, &attempt)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Changes the statuses of pairs that were wrong: all at once; one alone (the least index) once
+    /// a set of statuses has come back.
+    fn correct_statuses(&mut self, tries: &mut Tries, pairs: &[usize]) {
+        tries.corrections += 1;
+        let open = self.solver.tableau.open().to_vec();
+        let repeated = tries.seen.contains(&open);
+        tries.seen.push(open);
+        for &k in pairs.iter().take(if repeated { 1 } else { pairs.len() }) {
+            if self.solver.tableau.flip(k) {
+                self.solver.cost.counts.contact_changes += 1;
+            }
+            if !self.solver.border.contains(&k) {
+                self.solver.border.push(k);
+            }
+        }
+    }
+
+    /// What is tried after an increment that did not converge: a shorter one, or another search.
+    ///
+    /// # Errors
+    /// Those of [`not_found`], where nothing is left to try.
+    fn after_no_convergence(
+        &mut self,
+        tries: &mut Tries,
+        end: &LoadPoint,
+        attempt: &Attempt,
+    ) -> Result<()> {
+        // Written so that a way of no length, of which nothing is a share, ends here too.
+        let worth_cutting = CUT * tries.most >= tries.smallest;
+        let cut_enough = !worth_cutting || tries.most < CUT_TOGETHER * tries.left;
+        // Where the structure flows away no other search at this length helps.
+        let flows = attempt.mechanism.is_some();
+        if tries.stepping == Stepping::Auto {
+            self.solver.restore_statuses(&tries.open, &tries.border);
+            if tries.most < tries.left || !worth_cutting {
+                tries.stepping = Stepping::Events;
+            }
+            tries.most = match tries.stepping == Stepping::Auto || flows && worth_cutting {
+                true => CUT * tries.most,
+                false => tries.left,
+            };
+            return Ok(());
+        }
+        let events = tries.stepping == Stepping::Events;
+        if flows && worth_cutting {
+            tries.most *= CUT;
+        } else if events && tries.search.together && cut_enough && !flows {
+            (tries.search, tries.most) = (Search::APART, tries.left);
+        } else if !worth_cutting && !flows && tries.search != tries.search.to_the_end() {
+            tries.search = tries.search.to_the_end();
+        } else if worth_cutting {
+            tries.most *= CUT;
+        } else {
+            let goal = self.solver.at.towards(end, tries.most);
+            let error = not_found(self.solver, self.rules.settings, &goal, attempt);
+            // Close to a limit load no length may be right: a fixed one needs none.
+            let undecided = error.kind() == ErrorKind::Analysis;
+            if !(undecided && events && tries.usual != Stepping::Steps) {
+                return Err(error);
+            }
+            tries.stepping = Stepping::Steps;
+            (tries.search, tries.most) = (Search::FIRST, tries.left);
+        }
+        Ok(())
+    }
+
+    /// A pair that cannot open must not be in tension: the load would carry its body away.
+    fn refuse_free_motion(&self, increment: &Increment) -> Result<()> {
+        let force = &increment.state.force;
+        match (0..force.len()).find(|&k| {
+            force[k] < -1e-6 * self.solver.scales.force && self.solver.tableau.would_free(k)
+        }) {
+            Some(k) => Err(self.solver.structure.unbounded(k, self.solver.at.alpha)),
+            None => Ok(()),
+        }
+    }
+
+    /// An increment at whose end contact is solved in one iteration with the plastic flow.
+    fn solve_together(
+        &mut self,
+        (end, most): (&LoadPoint, f64),
+        search: Search,
+        ahead: Option<(LoadPoint, Equilibrium)>,
+    ) -> std::result::Result<Increment, NoIncrement> {
+        // The end of the increment is the end of a piece of its own: a pair that closes has no gap
+        // there, whatever gap it had.
+        let goal = self.solver.at.towards(end, most);
+        let increment = self.increment(&goal, 1.0, (EndsAt::EndOfPiece, search), ahead)?;
+        self.solver.border.clear();
+        Ok(Increment {
+            t: most,
+            changes: Vec::new(),
+            ..increment
+        })
+    }
+
+    /// As [`Stepper::solve_together`] or, where that does not converge, with plastic flow for each
+    /// set of statuses.
+    fn solve_step(
+        &mut self,
+        (end, most): (&LoadPoint, f64),
+        search: Search,
+        mut ahead: Option<(LoadPoint, Equilibrium)>,
+    ) -> Result<std::result::Result<Increment, NoIncrement>> {
+        let goal = self.solver.at.towards(end, most);
+        let open = self.solver.tableau.open().to_vec();
+        match self.solve_together((end, most), search, ahead.take()) {
+            Err(NoIncrement::NotConverged(_) | NoIncrement::Undecided) => {
+                let border = self.solver.border.clone();
+                self.solver.restore_statuses(&open, &border);
+            }
+            found => return Ok(found),
+        }
+        let mut rounds = Rounds::default();
+        let mut seen: HashSet<Vec<bool>> = HashSet::new();
+        for _ in 0..10 * (self.solver.now.gap.len() + 10) {
+            let found =
+                self.increment(&goal, 1.0, (EndsAt::EndOfPieceFrozen, search), ahead.take());
+            let increment = match found {
+                Ok(increment) => increment,
+                Err(error) => return Ok(Err(error)),
+            };
+            let wrong = wrong_at_end(self.solver, &increment.state);
+            if wrong.is_empty() {
+                self.solver.border.clear();
+                return Ok(Ok(Increment {
+                    t: most,
+                    changes: Vec::new(),
+                    ..increment
+                }));
+            }
+            let take = rounds.take(wrong.len());
+            if take == 1 && !seen.insert(self.solver.tableau.open().to_vec()) {
+                break;
+            }
+            for &k in wrong.iter().take(take) {
+                if self.solver.tableau.flip(k) {
+                    self.solver.cost.counts.contact_changes += 1;
+                }
+            }
+        }
+        Ok(Err(NoIncrement::Undecided))
+    }
+
+    fn not_settled(&self, end: &LoadPoint, most: f64) -> Error {
+        Error::analysis(format!(
+            "contact did not settle in the increment from load factor {:.6} to {:.6}: the statuses \
+             repeat",
+            self.solver.at.alpha,
+            self.solver.at.towards(end, most).alpha
+        ))
+    }
+}

@@ -1,0 +1,192 @@
+//! Stretches of an elastoplastic drive on which nothing yields: unloading and reloading.
+//!
+//! They are followed on the dense contact matrix, event by event. This is the same path as that of
+//! elastoplastic increments in which nothing yields. Initial loads are constant, so the first half
+//! of a trailing solve is linear in the load factor and done once for all events; each event costs
+//! the second half and one look at all points of the zone. That look suffices: between two events
+//! strains are linear in the load factor and von Mises' stress is a convex function of them, so
+//! where both ends lie within the yield surface all between does.
+
+use super::elastic::ElasticPath;
+use super::step::{Arrival, IncrementReport, MONITOR_ACCURACY, Monitor, Step, crosses, describe};
+use crate::analysis::structure::load_point::LoadPoint;
+use crate::analysis::structure::solver::Solver;
+use crate::contact::{Change, PathEnd};
+use crate::error::Result;
+use crate::substructure::Trailing;
+use serde::{Deserialize, Serialize};
+
+/// A stretch on which nothing has yielded so far, between two events.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct ElasticStretch {
+    path: ElasticPath,
+    /// Pairs of the last event.
+    border: Vec<usize>,
+    /// Statuses beyond it.
+    open: Vec<bool>,
+    /// Eliminated loads; they follow from the path.
+    #[serde(skip)]
+    loads: Option<EliminatedPath>,
+}
+
+/// First half of the trailing solves along a path.
+#[derive(Debug, Clone)]
+struct EliminatedPath {
+    start: Trailing,
+    /// Change over the whole piece.
+    change: Trailing,
+}
+
+impl EliminatedPath {
+    fn new(solver: &Solver, start: &LoadPoint, end: &LoadPoint) -> Self {
+        let mut forces = vec![0.0; solver.now.gap.len()];
+        let mut loads = solver.structure.external(start);
+        let mut change = solver.structure.external(end);
+        change.add(-1.0, &loads);
+        loads.add(1.0, &solver.now.initial.load);
+        solver.structure.sub.eliminate(&mut loads, &mut forces);
+        solver.structure.sub.eliminate(&mut change, &mut forces);
+        EliminatedPath {
+            start: loads,
+            change,
+        }
+    }
+
+    fn at(&self, t: f64) -> Trailing {
+        let mut loads = self.start.clone();
+        loads.add(t, &self.change);
+        loads
+    }
+}
+
+impl ElasticStretch {
+    /// The start of a stretch on the way to `end`, if there can be one.
+    pub fn begin(solver: &mut Solver, end: &LoadPoint) -> Option<Self> {
+        if solver.now.force.iter().all(|r| *r == 0.0) {
+            return None;
+        }
+        solver.refresh();
+        let border = solver.border.clone();
+        let open = solver.tableau.open().to_vec();
+        let Ok(path) = ElasticPath::new(solver, end) else {
+            set_statuses(solver, &open, border);
+            return None;
+        };
+        let loads = EliminatedPath::new(solver, path.start(), end);
+        solver.cost.count_half();
+        solver.cost.count_half();
+        Some(ElasticStretch {
+            path,
+            border,
+            open,
+            loads: Some(loads),
+        })
+    }
+
+    /// Goes to the next event. Without an increment the next piece yields, and the last event is
+    /// the current state; without a stretch this is the last event of it.
+    ///
+    /// # Errors
+    /// Those of the monitor and of [`Solver::accepted`].
+    pub fn step(
+        mut self,
+        solver: &mut Solver,
+        end: &LoadPoint,
+        monitor: Option<&Monitor>,
+        monitored: &mut Option<f64>,
+    ) -> Result<(Option<Step>, Option<Self>)> {
+        let (from, solves) = (solver.at.clone(), solver.cost.counts.trailing_solves);
+        let (gap, force) = (solver.now.gap.clone(), solver.now.force.clone());
+        let before = self.path.t();
+        let outcome = self.path.advance(solver, 1.0);
+        let Some(residual) = self.elastic_residual(solver, end) else {
+            solver.assume_elastic();
+            (solver.at, solver.now.gap, solver.now.force) = (from, gap, force);
+            set_statuses(solver, &self.open, self.border);
+            return Ok((None, None));
+        };
+        let mut report = IncrementReport {
+            event: "target".to_string(),
+            iterations: 1,
+            trailing_solves: solver.cost.counts.trailing_solves - solves,
+            residual,
+        };
+        if let (Some(monitor), Some(was)) = (monitor, *monitored) {
+            let is = monitor(solver)?;
+            *monitored = Some(is);
+            if crosses(was, is) {
+                let length = (self.path.t() - before).abs().max(f64::MIN_POSITIVE);
+                let accuracy = MONITOR_ACCURACY * length;
+                self.path
+                    .land(solver, before, [was, is], accuracy, monitor)?;
+                let step = solver.accepted(from.alpha, report, Some(Arrival::Monitor))?;
+                return Ok((Some(step), None));
+            }
+        }
+        let PathEnd::Event(changes) = outcome else {
+            solver.at = end.clone();
+            let step = solver.accepted(from.alpha, report, Some(Arrival::End))?;
+            return Ok((Some(step), None));
+        };
+        report.event = describe(&changes);
+        self.border = changes
+            .iter()
+            .map(|change| match *change {
+                Change::Closes(k) | Change::Opens(k) => k,
+            })
+            .collect();
+        self.open = solver.tableau.open().to_vec();
+        if self.path.turn(solver).is_err() {
+            // No rates beyond this event: elastoplastic increments find out why.
+            set_statuses(solver, &self.open, self.border);
+            let step = solver.accepted(from.alpha, report, None)?;
+            return Ok((Some(step), None));
+        }
+        self.open = solver.tableau.open().to_vec();
+        if self.path.t() == 0.0 {
+            // A new piece began: its loads are others.
+            self.loads = None;
+        }
+        let step = solver.accepted(from.alpha, report, None)?;
+        Ok((Some(step), Some(self)))
+    }
+
+    /// Puts displacements to where the path is; what the stresses there leave out of balance, over
+    /// the force scale, and `None` where a point yields.
+    fn elastic_residual(&mut self, solver: &mut Solver, end: &LoadPoint) -> Option<f64> {
+        let start = self.path.start();
+        let loads = self
+            .loads
+            .get_or_insert_with(|| EliminatedPath::new(solver, start, end));
+        let mut u = loads.at(self.path.t());
+        let delta = solver.structure.delta(&solver.at);
+        let (slip, _) = solver.structure.sub.split_slip(&delta, &solver.now.gap);
+        solver.structure.sub.recover(&mut u, &slip);
+        solver.cost.count_half();
+        solver.zone.set_factors(&solver.at.factors);
+        let mut balance = solver.structure.sub.zeros();
+        let evaluation = solver.zone.evaluate(&u, &mut balance);
+        solver.cost.counts.plastic_iterations += 1;
+        if evaluation.yielding > 0 {
+            return None;
+        }
+        solver.now.u = u;
+        solver.fresh = true;
+        solver.predictor.last_step = start.step_to(end);
+        solver.update_scales();
+        balance.add(-1.0, &solver.now.initial.load);
+        Some(balance.largest() / solver.scales.force.max(f64::MIN_POSITIVE))
+    }
+}
+
+/// Gives pairs these statuses, and the state that belongs to them.
+fn set_statuses(solver: &mut Solver, open: &[bool], border: Vec<usize>) {
+    for (k, &open) in open.iter().enumerate() {
+        if solver.tableau.open()[k] != open {
+            solver.tableau.flip(k);
+        }
+    }
+    solver.border = border;
+    solver.fresh = false;
+    solver.refresh();
+}

@@ -1,0 +1,99 @@
+//! The load at first yield (paper, chapter 3).
+//!
+//! Exact: along the piecewise linear path of contact events the stress at any point is linear
+//! between two events, von Mises' stress convex; the first event with a ratio above 1 brackets the
+//! yield load, found there to round-off. Secant: the paper's (3.14), each iterate a contact problem
+//! solved from scratch, with a bracket.
+
+use crate::analysis::stress::recovery::{Peak, Recovery, Samples};
+use crate::analysis::structure::solver::Solver;
+use crate::error::{Error, Result};
+use crate::root::{self, Accuracy};
+use std::convert::Infallible;
+
+/// Relative accuracy of the yield load.
+const ACCURACY: f64 = 1e-14;
+/// Share by which a ratio may be below 1 and still be that of first yield: far above [`ACCURACY`],
+/// far below any jump.
+const BEFORE: f64 = 1e-9;
+/// Accuracy of the yield load by the secant: each stress is that of a contact problem of its own.
+const SECANT_ACCURACY: Accuracy = Accuracy {
+    value: 1e-13,
+    place: ACCURACY,
+};
+/// Load factor beyond which no yield load is looked for.
+const LARGEST: f64 = 1e100;
+
+/// Finds `s` in `[0, 1]` with a recovered stress ratio of 1 between two sampled stress fields,
+/// linear in between. The ratio is at most 1 at `s = 0`, at least 1 at `s = 1`.
+pub fn yield_share(
+    solver: &Solver,
+    recovery: &mut Recovery,
+    from: &Samples,
+    to: &Samples,
+) -> (f64, Option<Peak>) {
+    let mut mixed: Samples = from.clone();
+    let mut at = |s: f64| {
+        for (m, (a, b)) in mixed.iter_mut().zip(from.iter().zip(to)) {
+            *m = a + s * (b - a);
+        }
+        recovery.peak(solver.structure.model, &mixed)
+    };
+    let mut found = None;
+    let mut beyond = |s: f64| {
+        let peak = at(s);
+        // On a coarse mesh the recovered maximum may jump where another place is searched: what
+        // yields is what lies beyond the jump.
+        if peak.is_some_and(|p| p.ratio >= 1.0 - BEFORE) {
+            found = peak;
+        }
+        peak.map_or(-1.0, |p| p.ratio - 1.0)
+    };
+    let ends = [0.0, 1.0].map(|s| (s, beyond(s)));
+    let Ok(share) = root::try_between(ends, Accuracy::both(ACCURACY), |s| {
+        Ok::<_, Infallible>(beyond(s))
+    });
+    (share, found)
+}
+
+impl Solver<'_> {
+    /// The recovered stress peak of the current (elastic) state.
+    pub fn peak(&mut self, recovery: &mut Recovery) -> Option<Peak> {
+        let samples = recovery.sample_here(self);
+        recovery.peak(self.structure.model, &samples)
+    }
+
+    /// The yield load by the paper's secant (3.14) up to a load beyond yield, and between the last
+    /// two by bracketing. The state at yield becomes the current one.
+    ///
+    /// # Errors
+    /// Where the stress does not grow with the load.
+    pub fn secant_yield_load(&mut self, recovery: &mut Recovery) -> Result<(f64, Peak)> {
+        let mut peak = None;
+        let mut excess = |alpha: f64| -> Result<f64> {
+            let point = self.structure.point(alpha);
+            self.solve_contact_at(&point)?;
+            peak = self.peak(recovery);
+            Ok(peak.map_or(-1.0, |p| p.ratio - 1.0))
+        };
+        let not_found = || {
+            Error::analysis("the yield load was not found: the stress does not grow with the load")
+        };
+        let (mut below, mut above) = ((0.0, -1.0), (1.0, excess(1.0)?));
+        while above.1 < 0.0 {
+            let secant = above.0 - above.1 / (above.1 - below.1) * (above.0 - below.0);
+            let alpha = if secant.is_finite() {
+                secant.max(2.0 * above.0)
+            } else {
+                2.0 * above.0
+            };
+            if alpha > LARGEST {
+                return Err(not_found());
+            }
+            below = above;
+            above = (alpha, excess(alpha)?);
+        }
+        let alpha = root::try_between([below, above], SECANT_ACCURACY, &mut excess)?;
+        peak.map(|peak| (alpha, peak)).ok_or_else(not_found)
+    }
+}

@@ -1,0 +1,111 @@
+//! Figures that a target of the load program waits for, read off a state on the way.
+
+use super::unloading::Unloading;
+use crate::analysis::figures::measure::ContactFigures;
+use crate::analysis::increments::step::Monitor;
+use crate::analysis::structure::solver::Solver;
+use crate::error::{Error, Result};
+use crate::model::Model;
+use crate::scene::{Target, TargetFigure};
+use std::cell::Cell;
+use std::rc::Rc;
+
+/// Share of the wanted dent by which the one that plastic strains leave now may be off before the
+/// load is taken off to see: yielding on the way back changes a dent by far less.
+const NEAR: f64 = 0.25;
+
+/// A figure that a target waits for.
+#[derive(Clone)]
+pub(super) struct Awaited<'m> {
+    model: &'m Model,
+    figure: TargetFigure,
+    /// The value that it is to have.
+    pub(super) value: f64,
+    /// The body whose figure it is, where one is named.
+    body: Option<usize>,
+    /// The contact, where one is named.
+    contact: Option<usize>,
+}
+
+impl<'m> Awaited<'m> {
+    /// What a target waits for; `None` where that is no figure.
+    ///
+    /// # Errors
+    /// A body that the mesh does not have.
+    pub(super) fn of(model: &'m Model, target: &Target) -> Result<Option<Self>> {
+        let Some((figure, value)) = target.figures().next() else {
+            return Ok(None);
+        };
+        let number_of = |name: &String| {
+            let bodies = &model.mesh.bodies;
+            let number = bodies.iter().position(|body| body == name);
+            number.ok_or_else(|| Error::input(format!("the mesh has no body `{name}`")))
+        };
+        Ok(Some(Awaited {
+            model,
+            figure,
+            value,
+            body: target.body.as_ref().map(number_of).transpose()?,
+            contact: target.contact.map(|number| number - 1),
+        }))
+    }
+
+    /// Its name.
+    pub(super) fn key(&self) -> &'static str {
+        self.figure.key()
+    }
+
+    /// Its value in the current state; of a dent what the plastic strains leave now. A full solve
+    /// for the approach, half a trailing one for a dent.
+    ///
+    /// # Errors
+    /// Failure of the backend's solve.
+    pub(super) fn here(&self, solver: &mut Solver) -> Result<f64> {
+        let of_contact = |solver: &Solver| -> ContactFigures {
+            match self.contact {
+                Some(contact) => solver.contact_figures_of(contact),
+                None => solver.contact_figures(),
+            }
+        };
+        Ok(match self.figure {
+            TargetFigure::ResidualDepth => {
+                let dent = solver.reading().dent();
+                self.body.map_or(dent.depth, |body| dent.by_body[body])
+            }
+            TargetFigure::ContactForce => of_contact(solver).force * self.model.symmetry,
+            TargetFigure::ContactArea => of_contact(solver).area,
+            TargetFigure::MaxPressure => of_contact(solver).max_pressure,
+            TargetFigure::Approach => {
+                let mut reading = solver.reading();
+                let u = reading.displacements()?.total;
+                reading.approach(&u)
+            }
+            TargetFigure::MaxEquivalentPlasticStrain => solver.zone.extent().1,
+        })
+    }
+
+    /// Its value in the current state as the target means it: of a dent what is left once the load
+    /// factor has gone back to zero. Notes where yielding on that way leaves the zone.
+    fn as_meant(&self, solver: &mut Solver, unloads_outside: &Cell<bool>) -> Result<f64> {
+        let here = self.here(solver)?;
+        let is_near = (here - self.value).abs() <= NEAR * self.value;
+        if self.figure != TargetFigure::ResidualDepth || !is_near {
+            return Ok(here);
+        }
+        let unloading = Unloading::of(self.model);
+        match unloading.look(solver, |solver| self.here(solver))? {
+            Some(left) => Ok(left),
+            None => {
+                unloads_outside.set(true);
+                Ok(here)
+            }
+        }
+    }
+
+    /// What vanishes where it has its value, of order 1.
+    pub(super) fn monitor(self, unloads_outside: Rc<Cell<bool>>) -> Box<Monitor<'m>> {
+        Box::new(move |solver: &mut Solver| {
+            Ok(self.as_meant(solver, &unloads_outside)? / self.value - 1.0)
+        })
+    }
+}

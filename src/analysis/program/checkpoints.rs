@@ -1,0 +1,128 @@
+//! What a checkpoint of a run holds, and how it is written: what does not change any more in files
+//! of its own.
+
+use super::path::PathSampler;
+use super::position::{Position, Start};
+use crate::analysis::choice::zone_fit::ZoneFit;
+use crate::analysis::structure::record::SolverRecord;
+use crate::analysis::structure::solver::Solver;
+use crate::checkpoint::{PartId, Store};
+use crate::error::Result;
+use crate::results::{HistoryRow, PathPoint, Results};
+use serde::{Deserialize, Serialize};
+
+/// A run between two steps.
+#[derive(Serialize, Deserialize)]
+pub(super) struct RunRecord {
+    pub(super) position: Position,
+    pub(super) solver: SolverRecord,
+    pub(super) parts: Parts,
+    /// Rows and points of the path since the last state.
+    pub(super) history: Vec<HistoryRow>,
+    pub(super) path: Vec<PathPoint>,
+    pub(super) sampler: PathSampler,
+    pub(super) resumed: usize,
+}
+
+/// What does not change any more, in files of its own.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct Parts {
+    /// States that were reached, with the rows and points of the path up to the last of them.
+    pub(super) states: Vec<PartId>,
+    /// How many states and rows that are.
+    n_states: usize,
+    n_rows: usize,
+    /// What the zone follows the load by.
+    pub(super) spread: Option<PartId>,
+    /// Where the way to the target at hand starts.
+    pub(super) start: Option<PartId>,
+}
+
+impl Parts {
+    fn all(&self) -> Vec<PartId> {
+        let states = self.states.iter().copied();
+        states.chain(self.spread).chain(self.start).collect()
+    }
+}
+
+/// Writes the checkpoints of a run.
+pub(super) struct CheckpointWriter {
+    pub(super) store: Store,
+    /// Increments from one checkpoint to the next, and since the last.
+    pub(super) every: usize,
+    pub(super) since: usize,
+    pub(super) parts: Parts,
+    /// Fingerprint of the factor, and after how many factorisations.
+    pub(super) fingerprint: Option<(usize, u128)>,
+    pub(super) failed: bool,
+}
+
+impl CheckpointWriter {
+    pub(super) fn new(store: Store, every: usize) -> Self {
+        CheckpointWriter {
+            store,
+            every,
+            since: 0,
+            parts: Parts::default(),
+            fingerprint: None,
+            failed: false,
+        }
+    }
+
+    /// The way to the next target starts elsewhere.
+    pub(super) fn forget_start(&mut self) {
+        self.parts.start = None;
+    }
+
+    pub(super) fn write(
+        &mut self,
+        solver: &Solver,
+        zone: &ZoneFit,
+        position: &Position,
+        start: Option<&Start>,
+        (results, sampler): (&Results, &PathSampler),
+    ) -> Result<()> {
+        let path_from = |first: usize, end: usize| -> Vec<PathPoint> {
+            let points = results.path.iter().copied();
+            let within = |point: &PathPoint| (first + 1..=end).contains(&point.increment);
+            points.filter(within).collect()
+        };
+        let parts = &mut self.parts;
+        let n_rows = results.history.len();
+        if results.states.len() > parts.n_states {
+            // Rows of the way at hand may be taken back.
+            let end = start.map_or(n_rows, |start| start.rows);
+            let states = &results.states[parts.n_states..];
+            let rows = &results.history[parts.n_rows..end];
+            let path = path_from(parts.n_rows, end);
+            parts.states.push(self.store.add(&(states, rows, path))?);
+            (parts.n_states, parts.n_rows) = (results.states.len(), end);
+        }
+        if let (Some(spread), None) = (&zone.spread, parts.spread) {
+            parts.spread = Some(self.store.add(spread)?);
+        }
+        match (start, parts.start) {
+            (Some(start), None) => parts.start = Some(self.store.add(start)?),
+            (None, Some(_)) => parts.start = None,
+            _ => {}
+        }
+        let factorizations = solver.cost.counts.factorizations;
+        let fingerprint = match self.fingerprint {
+            Some((known, fingerprint)) if known == factorizations => fingerprint,
+            _ => solver.fingerprint(),
+        };
+        self.fingerprint = Some((factorizations, fingerprint));
+        let record = RunRecord {
+            position: position.clone(),
+            solver: solver.record(&zone.choice.guard, fingerprint),
+            parts: parts.clone(),
+            history: results.history[parts.n_rows..].to_vec(),
+            path: path_from(parts.n_rows, n_rows),
+            sampler: sampler.clone(),
+            resumed: results.resumed,
+        };
+        self.store.write(&record, &parts.all())?;
+        self.since = 0;
+        Ok(())
+    }
+}

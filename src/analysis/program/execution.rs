@@ -1,0 +1,386 @@
+//! The load program: preload, first yield, then target after target.
+//!
+//! It is a sequence of steps over a [`super::position::Position`] and the state of the structure; a
+//! step ends at the next accepted increment or at a target. A checkpoint is what stands between two
+//! steps.
+
+use super::assembled::Analysis;
+use super::position::{Purpose, Stage};
+use super::run::Run;
+use super::stopwatch::Row;
+use crate::analysis::choice::zone_choice;
+use crate::analysis::choice::zone_fit::{Expected, ZoneFit};
+use crate::analysis::increments::drive::Drive;
+use crate::analysis::increments::elastic::ElasticDrive;
+use crate::analysis::increments::plastic::PlasticDrive;
+use crate::analysis::increments::step::{Arrival, IncrementReport, Rules, Step, stopped};
+use crate::analysis::structure::load_point::LoadPoint;
+use crate::analysis::structure::solver::Solver;
+use crate::error::{Error, Result};
+use crate::progress::{Flow, Observer};
+use crate::results::{HistoryRow, Results, State};
+use crate::scene::{Target, Unit};
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+/// What a step of the program came to.
+pub(super) enum Event {
+    /// An increment was accepted: the next row of the history.
+    Increment(HistoryRow),
+    /// A target was reached.
+    Target(Box<State>),
+}
+
+impl<'m, 'o> Run<'m, 'o> {
+    /// A run at its start.
+    ///
+    /// # Errors
+    /// Those of [`Solver::new`].
+    pub(in crate::analysis) fn new(
+        analysis: &'m Analysis,
+        purpose: Purpose,
+        expected: Option<Expected>,
+        observer: &'o mut dyn Observer,
+    ) -> Result<Self> {
+        let model = &analysis.model;
+        observer.model(model.freedoms.n, model.pairs.len());
+        observer.phase("factorisation");
+        let start = Instant::now();
+        let (within, choice) = match &expected {
+            Some(expected) => {
+                let choice = zone_choice::predict(model, &expected.ratios);
+                (choice.elements.clone(), choice)
+            }
+            None => {
+                let within = zone_choice::first_guess(model).elements;
+                (within, zone_choice::place_of_first_yield(model))
+            }
+        };
+        let (system, elements) = (&analysis.system, choice.elements.clone());
+        let solver = Solver::new(
+            model,
+            system,
+            analysis.backend,
+            &within,
+            elements,
+            &choice.guard,
+        )?;
+        let results = Results {
+            timings: analysis.timings.clone(),
+            warnings: model.warnings.clone(),
+            ..Results::default()
+        };
+        for warning in &model.warnings {
+            observer.warning(warning);
+        }
+        let mut run = Run::of(solver, ZoneFit::new(choice), results, observer);
+        run.purpose = purpose;
+        let seconds = &mut run.position.seconds;
+        let found_since = expected.as_ref().map_or(start, |expected| expected.since);
+        *seconds = seconds.running_since(found_since);
+        seconds.hand_over((start - found_since).as_secs_f64(), Row::Zone);
+        run.zone.expected = expected.map(|expected| expected.ratios);
+        run.follow_sets()?;
+        run.begin()?;
+        Ok(run)
+    }
+
+    /// Goes through the program, event by event, with a checkpoint where one is due.
+    ///
+    /// # Errors
+    /// Those of [`Run::next`]; [`stopped`] where the observer asks for that.
+    pub(super) fn execute(&mut self) -> Result<()> {
+        match self.position.stage {
+            Stage::Preload { .. } if !self.position.stops.is_empty() => {
+                self.observer.phase("preload");
+            }
+            Stage::Targets => self.observer.phase("load program"),
+            _ => {}
+        }
+        self.position.seconds.switch(Row::History);
+        while let Some(event) = self.next()? {
+            let increments = usize::from(matches!(event, Event::Increment(_)));
+            let goes_on = self.record(event);
+            self.timed(Row::Checkpoints, |run| {
+                run.write_checkpoint(increments, !goes_on)
+            });
+            if !goes_on {
+                return Err(stopped());
+            }
+        }
+        Ok(())
+    }
+
+    /// The next event; `None` at the end of the program.
+    ///
+    /// # Errors
+    /// A load that is not held, an iteration that did not converge, a target that is out of reach.
+    pub(super) fn next(&mut self) -> Result<Option<Event>> {
+        loop {
+            if let Some(&stop) = self.position.stops.first() {
+                let advanced = self.advance(stop);
+                if let Some(row) = advanced.map_err(|error| self.not_reached(error))? {
+                    return Ok(Some(Event::Increment(row)));
+                }
+            } else if self.position.search.is_some() {
+                self.widen_search()?;
+            } else if self.start.is_some() {
+                if let Some(state) = self.finish_target()? {
+                    return Ok(Some(Event::Target(Box::new(state))));
+                }
+            } else {
+                match self.position.stage {
+                    Stage::Preload { again } => self.prepare(again)?,
+                    Stage::Targets if self.position.target < self.labels.len() => {
+                        self.begin_target()?;
+                    }
+                    Stage::Targets => {
+                        if !self.begin_cycle() {
+                            return Ok(None);
+                        }
+                    }
+                    Stage::YieldOnly => return Ok(None),
+                }
+            }
+        }
+    }
+
+    /// Passes an event on; whether the run goes on after it.
+    fn record(&mut self, event: Event) -> bool {
+        let row = match event {
+            Event::Increment(row) => row,
+            Event::Target(state) => {
+                self.results.states.push(*state);
+                return true;
+            }
+        };
+        let flow = self.observer.increment(&row, self.position.fraction);
+        // Rows may have been taken back since.
+        let (path, rows) = (&mut self.results.path, self.results.history.len());
+        while path.last().is_some_and(|point| point.increment > rows) {
+            path.pop();
+        }
+        path.extend(self.path.advance(&self.solver, &row));
+        self.results.history.push(row);
+        flow == Flow::Continue && !self.observer.stop_requested()
+    }
+
+    /// Takes the next step on the straight piece to a load factor; the row of the increment, if
+    /// there was one.
+    fn advance(&mut self, stop: f64) -> Result<Option<HistoryRow>> {
+        let end = self.solver.structure.point(stop);
+        let plastic = self.increments_are_plastic();
+        if plastic
+            && self.position.drive.is_none()
+            && self.timed(Row::Zone, |run| run.follow_load())?
+        {
+            self.end_search();
+            return Ok(None);
+        }
+        let effect = if plastic {
+            Row::Plasticity
+        } else {
+            Row::Contact
+        };
+        let Step { increment, arrival } =
+            self.timed(effect, |run| match run.position.drive.take() {
+                Some(drive) => run.step(drive, &end),
+                None => run.begin_drive(&end),
+            })?;
+        let mut row = increment.map(|report| self.row(&report));
+        if let (Some(row), Some(gauges)) = (&mut row, &self.gauges) {
+            row.measured = gauges.read(&mut self.solver)?;
+        }
+        if row.is_some() {
+            let cycle = self.labels.len().max(1) as f64;
+            let cycles = self.model().scene.program.cycles as f64;
+            let reached = self.position.target as f64 + self.share_behind(arrival);
+            let behind = (self.position.cycles.n_done() as f64 + reached / cycle) / cycles;
+            self.position.fraction = self.position.fraction.max(behind);
+        }
+        if let Some(arrival) = arrival {
+            self.arrive(stop, arrival)?;
+        }
+        Ok(row)
+    }
+
+    /// Whether the material has yielded, and may.
+    fn increments_are_plastic(&self) -> bool {
+        self.position.first_yield.is_behind && !self.zone.choice.elements.is_empty()
+    }
+
+    /// Begins the drive to the end of a straight piece. Wherever it leaves what the search for the
+    /// yield load went through it is watched for first yield.
+    fn begin_drive(&mut self, end: &LoadPoint) -> Result<Step> {
+        let begun = if self.increments_are_plastic() {
+            let (taken, monitor) = (self.position.taken, self.monitor.as_deref());
+            PlasticDrive::begin(&mut self.solver, end, taken, monitor)?.map_continue(Drive::Plastic)
+        } else {
+            let first_yield = &self.position.first_yield;
+            let known = self.position.stage == Stage::Targets
+                && first_yield.excludes(self.solver.at.alpha, end.alpha);
+            let watches_yield = !first_yield.is_behind && !known;
+            let recovery = if watches_yield {
+                self.zone
+                    .recovery(&self.solver, self.position.first_yield.watched)
+            } else {
+                None
+            };
+            ElasticDrive::begin(&mut self.solver, end, recovery, self.monitor.as_deref())?
+                .map_continue(|drive| Drive::Elastic(Box::new(drive)))
+        };
+        match begun {
+            ControlFlow::Break(step) => Ok(step),
+            ControlFlow::Continue(drive) => {
+                self.position.drive = Some(drive);
+                Ok(Step::default())
+            }
+        }
+    }
+
+    /// The next step of a drive.
+    fn step(&mut self, mut drive: Drive, end: &LoadPoint) -> Result<Step> {
+        let scene = &self.solver.structure.model.scene;
+        let observer = &*self.observer;
+        let rules = Rules {
+            settings: &scene.analysis,
+            stepping: scene.stepping(),
+            program: &scene.program,
+            zone_until: match self.zone.spread {
+                Some(_) => self.position.zone_until,
+                None => f64::INFINITY,
+            },
+            stop: &|| observer.stop_requested(),
+        };
+        let recovery = match drive.watches_yield() {
+            true => self
+                .zone
+                .recovery(&self.solver, self.position.first_yield.watched),
+            false => None,
+        };
+        let monitor = self.monitor.as_deref();
+        let step = drive.step(&mut self.solver, end, recovery, monitor, rules)?;
+        self.position.drive = Some(drive);
+        Ok(step)
+    }
+
+    /// What follows from the end of a drive to the load factor `stop`.
+    fn arrive(&mut self, stop: f64, arrival: Arrival) -> Result<()> {
+        let drive = self.position.drive.take();
+        let taken = std::mem::take(&mut self.position.taken);
+        match arrival {
+            Arrival::End => {
+                self.position.stops.remove(0);
+                let first_yield = &mut self.position.first_yield;
+                first_yield.is_behind |= first_yield.alpha == Some(stop);
+            }
+            Arrival::Monitor => self.end_search(),
+            Arrival::Yield(peak) => {
+                self.record_yield(peak);
+                if self.position.stage == Stage::Targets {
+                    let alpha = self.solver.at.alpha;
+                    self.position.first_yield.alpha.get_or_insert(alpha);
+                }
+            }
+            Arrival::ZoneTooSmall | Arrival::ZoneOutgrown => {
+                self.position.taken = drive.map_or(taken, |drive| drive.taken());
+                if arrival == Arrival::ZoneTooSmall {
+                    let larger = zone_choice::grown(self.model(), &self.zone.choice);
+                    if self.change_zone(larger)? {
+                        self.end_search();
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The row of an accepted increment.
+    fn row(&self, report: &IncrementReport) -> HistoryRow {
+        let solver = &self.solver;
+        let figures = solver.contact_figures();
+        let (plastic_points, strain) = solver.zone.extent();
+        HistoryRow {
+            increment: self.results.history.len() + 1,
+            alpha: solver.at.alpha,
+            load: solver.total_load_size(),
+            max_pressure: figures.max_pressure,
+            half_width: figures.half_width,
+            contact_force: figures.force * solver.structure.model.symmetry,
+            closed_pairs: solver.closed_pairs(),
+            plastic_points,
+            max_equivalent_plastic_strain: strain,
+            iterations: report.iterations,
+            trailing_solves: report.trailing_solves,
+            residual: report.residual,
+            event: report.event.clone(),
+            measured: Vec::new(),
+        }
+    }
+
+    /// Puts the structure where the program begins: nothing acts, and what an earlier run left in
+    /// the material is there.
+    fn begin(&mut self) -> Result<()> {
+        self.solver.begin()?;
+        self.position.first_yield.is_behind |= self.model().start.is_some();
+        self.begin_preload();
+        Ok(())
+    }
+
+    /// Applies constant loads and interference, before the load factor leaves zero.
+    fn begin_preload(&mut self) {
+        let end = self.solver.structure.point(0.0);
+        let has_interference = self.model().pairs.iter().any(|p| p.interference != 0.0);
+        let loads = self.model().loads.iter();
+        let mut factors = loads.zip(self.solver.at.factors.iter().zip(&end.factors));
+        let is_loaded = factors.any(|(load, (here, there))| load.acts() && here != there);
+        if !is_loaded && !has_interference {
+            self.solver.at = end;
+        } else {
+            self.position.stops = vec![0.0];
+        }
+    }
+
+    /// After the preload: first yield and the zone for the program. A preload under which the
+    /// material was not seen to yield, and does, is applied again.
+    fn prepare(&mut self, again: bool) -> Result<()> {
+        let program = &self.model().scene.program;
+        let required = self.purpose == Purpose::YieldLoad
+            || program.unit == Unit::Yield
+            || program.targets.iter().any(Target::needs_first_yield);
+        if again && !self.position.first_yield.is_behind {
+            return Err(Error::internal(
+                "the material yields under the preload, and does not when that is applied anew",
+            ));
+        }
+        if !self.zone.choice.elements.is_empty() && (required || self.largest_factor().is_some()) {
+            self.observer.phase("yield load");
+            let under_preload = self.timed(Row::YieldLoad, |run| run.find_yield(required))?;
+            if under_preload {
+                self.results.history.clear();
+                self.position.stage = Stage::Preload { again: true };
+                self.observer.phase("preload");
+                return self.begin();
+            }
+        }
+        if self.purpose != Purpose::Program {
+            self.position.stage = Stage::YieldOnly;
+            return match self.position.first_yield.point {
+                None if self.purpose == Purpose::Zone => Ok(()),
+                Some(_) => Ok(()),
+                None if self.model().start.is_some() => Err(Error::analysis(
+                    "no yield load: the material has yielded in the run that this one starts \
+                     from",
+                )),
+                None => Err(Error::analysis(
+                    "no yield load: no body that may yield (material with a yield stress, plastic \
+                     not false) yields",
+                )),
+            };
+        }
+        self.timed(Row::Zone, |run| run.fit_zone())?;
+        self.observer.phase("load program");
+        self.position.stage = Stage::Targets;
+        Ok(())
+    }
+}

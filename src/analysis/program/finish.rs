@@ -1,0 +1,199 @@
+//! What a run leaves at its end, wherever that is.
+
+use super::run::Run;
+use super::stopwatch::Row;
+use crate::analysis::check::effects::effects;
+use crate::analysis::figures::deformation::softened;
+use crate::analysis::figures::quality;
+use crate::model::Model;
+use crate::number::significant;
+use crate::results::{Quality, Results, Sizes, State, Status, Tolerances};
+
+/// Lower bound of the condition from which it is estimated without being asked for: six digits of a
+/// displacement may be left.
+const DOUBTFUL: f64 = 1e10;
+
+/// States with their quality, that at first yield among them.
+type Judged = Vec<(String, Quality)>;
+
+impl Run<'_, '_> {
+    /// The results as far as they go.
+    pub(super) fn finish(mut self) -> Results {
+        self.position.seconds.switch(Row::States);
+        let model = self.solver.structure.model;
+        let mut results = std::mem::take(&mut self.results);
+        results.sizes = self.sizes();
+        results.counts = self.solver.cost.counts;
+        results.first_yield = self.position.first_yield.point;
+        results.factor = self.solver.structure.sub.cost();
+        results.condition = self.solver.structure.condition;
+        let states = results.states.iter().map(|s| (s.name.clone(), s.quality));
+        let at_yield = self.at_yield.map(|q| ("yield".to_string(), q));
+        let judged: Judged = states.chain(at_yield).collect();
+        let tolerances = quality::tolerances(model);
+        self.tell_of_round_off(&mut results, &judged, &tolerances);
+        self.tell_of_deformation(&mut results);
+        for text in never_closed(model, &results.states) {
+            self.tell(&mut results, text);
+        }
+        self.tell_of_inaccuracy(&mut results, &judged, &tolerances);
+        if model.scene.analysis.condition
+            || !results.inaccurate.is_empty()
+            || results.condition > DOUBTFUL
+        {
+            // A figure besides the results: a solve that fails leaves it out.
+            let structure = &self.solver.structure;
+            let estimate = structure.sub.condition_estimate(model, structure.system);
+            results.condition_estimate = estimate.ok();
+        }
+        let qualities = judged.iter().map(|(_, q)| q);
+        results.quality = qualities.fold(Quality::default(), |w, q| w.merge_worst(q));
+        results.cycles = self.position.cycles.outcome(model);
+        results.ranks = self.solver.structure.system.stiffness.ranks();
+        results.end_state = self.solver.end_state();
+        self.add_effects(&mut results);
+        results
+    }
+
+    fn sizes(&self) -> Sizes {
+        let model = self.solver.structure.model;
+        Sizes {
+            freedoms: model.freedoms.n,
+            nodes: model.mesh.n_nodes(),
+            elements: model.mesh.n_elements(),
+            contact_pairs: model.pairs.len(),
+            zone_freedoms: self.solver.structure.sub.partition.zone.len(),
+            zone_elements: self.zone.choice.elements.len(),
+            degree: model.mesh.degree(),
+        }
+    }
+
+    fn tell(&mut self, results: &mut Results, text: String) {
+        self.observer.warning(&text);
+        results.warnings.push(text);
+    }
+
+    /// Warns where forces balance to round-off only.
+    fn tell_of_round_off(
+        &mut self,
+        results: &mut Results,
+        judged: &Judged,
+        tolerances: &Tolerances,
+    ) {
+        // An elastic state is not iterated: its forces are off by what round-off leaves.
+        let excused = judged.iter().filter_map(|(_, q)| q.excused(tolerances));
+        let floor = excused.fold(self.solver.scales.round_off, f64::max);
+        if floor > 0.0 {
+            let tolerance = self.solver.structure.model.scene.analysis.tolerance;
+            let text = format!(
+                "forces balance to their round-off, {floor:.1e} of the largest force, and not to \
+                 analysis.tolerance = {tolerance:.1e}: displacements are large compared with the \
+                 strains of this mesh"
+            );
+            self.tell(results, text);
+        }
+    }
+
+    /// Warns of strains and rotations that are not small, and of what is left out where the scene
+    /// asks for large ones.
+    fn tell_of_deformation(&mut self, results: &mut Results) {
+        let model = self.solver.structure.model;
+        if let Some(text) = self.position.deformation.warning() {
+            self.tell(results, text);
+        }
+        let Some(place) = &model.scene.requests.large else {
+            return;
+        };
+        let (text, is_small) = self.position.deformation.taken_small(place);
+        self.tell(results, text.clone());
+        if let Some(text) = softened(model, results, place) {
+            self.tell(results, text);
+        }
+        if !is_small {
+            results.inaccurate.push(text);
+        }
+    }
+
+    /// Warns of the figures of states that miss their tolerances.
+    fn tell_of_inaccuracy(
+        &mut self,
+        results: &mut Results,
+        judged: &Judged,
+        tolerances: &Tolerances,
+    ) {
+        for (name, quality) in judged {
+            for (figure, value, most) in quality.misses(tolerances) {
+                let text = format!(
+                    "state `{name}` is inaccurate: {figure} {value:.1e}, allowed {most:.1e} \
+                     (condition at least {:.0e})",
+                    results.condition
+                );
+                self.tell(results, text.clone());
+                results.inaccurate.push(text);
+            }
+        }
+    }
+
+    /// The effects with what they took, and the time table.
+    fn add_effects(mut self, results: &mut Results) {
+        let model = self.solver.structure.model;
+        let first_yield = self.position.first_yield;
+        let yields = first_yield.alpha.is_some() || first_yield.is_behind;
+        results.effects = effects(model, yields, model.start.as_ref());
+        let structure = &self.solver.structure;
+        let bytes = [structure.sub.contact_bytes(), self.solver.zone.bytes()];
+        // To give back their memory takes its time, too.
+        drop((self.solver, self.zone));
+        let seconds = &mut self.position.seconds;
+        seconds.switch(Row::States);
+        for (row, name) in Row::ALL {
+            results
+                .timings
+                .push((name.to_string(), seconds.seconds(row)));
+        }
+        for effect in &mut results.effects {
+            match effect.name.as_str() {
+                "contact" => {
+                    effect.seconds =
+                        seconds.seconds(Row::Contact) + seconds.seconds(Row::YieldLoad);
+                    effect.memory_bytes = bytes[0];
+                }
+                "plasticity" if effect.on => {
+                    effect.seconds = seconds.seconds(Row::Plasticity);
+                    effect.memory_bytes = bytes[1];
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// Warnings of contacts none of whose pairs is closed in any state.
+fn never_closed(model: &Model, states: &[State]) -> Vec<String> {
+    // Of each contact that is open in every state the smallest gap, and the state.
+    let mut nearest: Vec<Option<(f64, &str)>> = vec![None; model.contacts.len()];
+    let mut closed = vec![false; model.contacts.len()];
+    for state in states {
+        for pair in &state.pairs {
+            closed[pair.contact] |= pair.status == Status::Closed;
+            let nearest = &mut nearest[pair.contact];
+            if nearest.is_none_or(|(gap, _)| pair.gap < gap) {
+                *nearest = Some((pair.gap, &state.name));
+            }
+        }
+    }
+    let contacts = model.contacts.iter().zip(nearest).zip(closed).enumerate();
+    let open = contacts.filter(|(_, (_, closed))| !closed);
+    let texts = open.filter_map(|(index, ((contact, nearest), _))| {
+        let (gap, state) = nearest?;
+        Some(format!(
+            "contact {} (`{}` on `{}`) is open in every state: its smallest gap is {}, in state \
+             `{state}`; do the surfaces look at each other, and does the load close it?",
+            index + 1,
+            contact.names[0],
+            contact.names[1],
+            significant(gap, 4),
+        ))
+    });
+    texts.collect()
+}

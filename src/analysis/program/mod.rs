@@ -1,0 +1,44 @@
+//! The load program: preload, first yield, target after target, with its checkpoints.
+//!
+//! | file | what | paper |
+//! |---|---|---|
+//! | `stopwatch` | what the time of a run was spent on | |
+//! | `cycles` | what each cycle leaves, and whether the next would leave the same | |
+//! | `position` | where the program is between two steps | |
+//! | `path` | the path between increments | |
+//! | `checkpoints` | what a checkpoint holds | |
+//! | `run` | a structure on its way through the program | 5.1 |
+//! | `zone_changes` | the zone follows the load | |
+//! | `first_yield` | where first yield lies | 3.13, 3.14 |
+//! | `unloading` | what unloading would leave | |
+//! | `awaited` | figures that a target waits for | |
+//! | `target_search` | the load factor at which a target is met | |
+//! | `targets` | from the current load to the next target | |
+//! | `finish` | what a run leaves at its end | |
+//! | `execution` | the program, event by event | |
+//! | `restart` | going on from a checkpoint | |
+//! | `assembled` | a model with its assembled system | 3.1 |
+//! | `scout` | the elastic stress by a coarser mesh | |
+//! | `entry` | what a caller runs | |
+
+pub(super) mod assembled;
+mod awaited;
+mod checkpoints;
+mod cycles;
+mod entry;
+mod execution;
+mod finish;
+mod first_yield;
+mod path;
+pub(super) mod position;
+mod restart;
+pub(super) mod run;
+mod scout;
+mod stopwatch;
+mod target_search;
+mod targets;
+mod unloading;
+mod zone_changes;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,178 @@
+//! Where the load program is between two steps.
+
+use super::cycles::CycleRecord;
+use super::stopwatch::Stopwatch;
+use crate::analysis::figures::deformation::Deformation;
+use crate::analysis::increments::drive::Drive;
+use crate::analysis::stress::recovery::Watched;
+use crate::analysis::structure::state::State;
+use crate::results::YieldPoint;
+use serde::{Deserialize, Serialize};
+
+/// Where the load program is between two steps: with the state of the structure, and that at the
+/// start of the way to the target, all that the program still does depends on.
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
+pub(super) struct Position {
+    /// Part of the program.
+    pub(super) stage: Stage,
+    /// Targets that were reached, of the cycle at hand.
+    pub(super) target: usize,
+    /// The cycles behind.
+    pub(super) cycles: CycleRecord,
+    /// Zones that were too small for the target at hand.
+    pub(super) attempt: usize,
+    /// The search for the target at hand, where it is no load factor.
+    pub(super) search: Option<Search>,
+    /// Load factors at the ends of the straight pieces ahead, that of the piece at hand first.
+    pub(super) stops: Vec<f64>,
+    /// The drive along that piece.
+    pub(super) drive: Option<Drive>,
+    /// Fixed increments that were taken on it before the zone was changed.
+    pub(super) taken: usize,
+    /// Absolute load factor up to which the zone was chosen, where it follows the load.
+    pub(super) zone_until: f64,
+    /// What is known of first yield.
+    pub(super) first_yield: FirstYield,
+    /// Share of the program that was reported to lie behind: it never falls.
+    pub(super) fraction: f64,
+    /// What the time was spent on.
+    pub(super) seconds: Stopwatch,
+    /// How far from small the states are.
+    pub(super) deformation: Deformation,
+}
+
+/// What is asked of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::analysis) enum Purpose {
+    /// The whole program.
+    Program,
+    /// The load at first yield.
+    YieldLoad,
+    /// The stress by which a finer mesh chooses its zone: it ends at first yield, too.
+    Zone,
+}
+
+/// A part of the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Stage {
+    /// Constant loads and interference are applied.
+    Preload {
+        /// For the second time, now watched for yield from its start.
+        again: bool,
+    },
+    /// Target after target is reached.
+    Targets,
+    /// First yield was found, and nothing else is asked for.
+    YieldOnly,
+}
+
+impl Default for Stage {
+    fn default() -> Self {
+        Stage::Preload { again: false }
+    }
+}
+
+/// A search for the load factor at which a quantity has its target value.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub(super) struct Search {
+    /// Load factor that the way at hand leads to.
+    pub(super) end: f64,
+    /// Ways that were taken.
+    pub(super) rounds: usize,
+    /// Whether the load factor grows.
+    pub(super) upward: bool,
+    /// Size that the quantity is measured against.
+    pub(super) scale: f64,
+    /// Distance to the target at the start.
+    pub(super) at_first: f64,
+}
+
+impl Search {
+    /// Share of the way that lies behind where the monitored quantity has a value.
+    pub(super) fn share_behind(&self, monitored: f64) -> f64 {
+        within_0_and_1(1.0 - monitored.abs() / self.at_first)
+    }
+}
+
+/// What is known of first yield.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub(super) struct FirstYield {
+    /// Whether the material has yielded, so that increments are elastoplastic.
+    pub(super) is_behind: bool,
+    /// Its load factor in the program's unit.
+    pub(super) alpha: Option<f64>,
+    /// Load factors between which the virgin structure is known to stay elastic.
+    pub(super) elastic_range: [f64; 2],
+    /// Where and under what load it was found.
+    pub(super) point: Option<YieldPoint>,
+    /// Where the stress is watched on the way to it.
+    pub(super) watched: Watched,
+}
+
+impl FirstYield {
+    /// Whether the structure is known to stay elastic between two load factors.
+    pub(super) fn excludes(&self, from: f64, to: f64) -> bool {
+        let [low, high] = self.elastic_range;
+        from.min(to) >= low && from.max(to) <= high
+    }
+}
+
+/// Where the way to a target starts: it is gone again where the zone was too small for it.
+#[derive(Serialize, Deserialize)]
+pub(super) struct Start {
+    pub(super) state: State,
+    pub(super) first_yield: FirstYield,
+    /// Increments that were accepted before.
+    pub(super) rows: usize,
+}
+
+/// Share of the way between two load factors that lies behind; changes of contact lie evenly in the
+/// factor's power `power`.
+pub(super) fn share_of_way(alpha: f64, from: f64, to: f64, power: f64) -> f64 {
+    if from == to {
+        return 1.0;
+    }
+    let [alpha, from, to] = [alpha, from, to].map(|f| f.abs().powf(power).copysign(f));
+    within_0_and_1((alpha - from) / (to - from))
+}
+
+fn within_0_and_1(share: f64) -> f64 {
+    if share.is_finite() {
+        share.clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_share_of_the_way_runs_from_0_to_1_and_is_a_number_whatever_comes() {
+        let up = |alpha| share_of_way(alpha, 1.0, 3.0, 1.0);
+        assert_eq!([1.0, 2.0, 3.0].map(up), [0.0, 0.5, 1.0]);
+        assert_eq!(share_of_way(0.5, 2.0, 0.0, 1.0), 0.75);
+        // Half of the pairs of a line contact are still to open at a quarter of the load.
+        assert_eq!(share_of_way(0.25, 1.0, 0.0, 0.5), 0.5);
+        assert_eq!(share_of_way(-0.25, 1.0, -1.0, 0.5), 0.75);
+        let search = |at_first| Search {
+            end: 1.0,
+            rounds: 1,
+            upward: true,
+            scale: 1.0,
+            at_first,
+        };
+        let monitored = [0.5, -0.25, 0.0, 9.0].map(|m| search(0.5).share_behind(m));
+        assert_eq!(monitored, [0.0, 0.5, 1.0, 0.0]);
+        for share in [
+            up(f64::NAN),
+            search(0.5).share_behind(f64::NAN),
+            search(0.0).share_behind(0.0),
+            search(f64::NAN).share_behind(1.0),
+        ] {
+            assert!((0.0..=1.0).contains(&share), "{share}");
+        }
+        assert_eq!(share_of_way(1.0, 1.0, 1.0, 0.5), 1.0);
+    }
+}

@@ -1,0 +1,111 @@
+//! A structure on its way through the load program.
+
+use super::checkpoints::CheckpointWriter;
+use super::path::PathSampler;
+use super::position::{Position, Purpose, Start};
+use super::stopwatch::Row;
+use crate::analysis::choice::zone_fit::ZoneFit;
+use crate::analysis::figures::gauges::Gauges;
+use crate::analysis::increments::step::Monitor;
+use crate::analysis::structure::solver::Solver;
+use crate::error::Result;
+use crate::model::Model;
+use crate::progress::Observer;
+use crate::results::{Quality, Results};
+use std::cell::Cell;
+use std::rc::Rc;
+
+/// Doublings of the load in search of first yield or of a target.
+pub(super) const DOUBLINGS: usize = 60;
+/// Choices of the zone that are tried for a target, or in search of the place of first yield.
+pub(super) const ZONE_ATTEMPTS: usize = 8;
+
+/// A structure on its way through the load program.
+pub(in crate::analysis) struct Run<'m, 'o> {
+    pub(in crate::analysis) solver: Solver<'m>,
+    pub(in crate::analysis) zone: ZoneFit,
+    pub(super) position: Position,
+    /// Where the way to the target at hand starts.
+    pub(super) start: Option<Start>,
+    /// What vanishes at the target at hand, where it is no load factor.
+    pub(super) monitor: Option<Box<Monitor<'m>>>,
+    /// Whether the target at hand was looked for with a zone outside of which unloading yields.
+    pub(super) unloads_outside: Rc<Cell<bool>>,
+    /// What each row of the history has besides.
+    pub(super) gauges: Option<Gauges>,
+    /// Names of the targets.
+    pub(super) labels: Vec<String>,
+    pub(super) observer: &'o mut dyn Observer,
+    pub(super) results: Results,
+    /// The path between the rows of the history.
+    pub(super) path: PathSampler,
+    pub(super) checkpoints: Option<CheckpointWriter>,
+    pub(super) purpose: Purpose,
+    /// Quality of the state at first yield, where that is all that is asked for.
+    pub(super) at_yield: Option<Quality>,
+}
+
+impl<'m, 'o> Run<'m, 'o> {
+    /// A run that has done nothing yet.
+    pub(super) fn of(
+        solver: Solver<'m>,
+        zone: ZoneFit,
+        results: Results,
+        observer: &'o mut dyn Observer,
+    ) -> Self {
+        Run {
+            labels: solver.structure.model.scene.program.labels(),
+            solver,
+            zone,
+            position: Position::default(),
+            start: None,
+            monitor: None,
+            unloads_outside: Rc::default(),
+            gauges: None,
+            observer,
+            results,
+            path: PathSampler::default(),
+            checkpoints: None,
+            purpose: Purpose::Program,
+            at_yield: None,
+        }
+    }
+
+    pub(super) fn model(&self) -> &'m Model {
+        self.solver.structure.model
+    }
+
+    /// Does work that a row of the time table is about.
+    pub(super) fn timed<T>(&mut self, row: Row, work: impl FnOnce(&mut Self) -> T) -> T {
+        let before = self.position.seconds.switch(row);
+        let out = work(self);
+        self.position.seconds.switch(before);
+        out
+    }
+
+    /// The history follows what the scene asks for.
+    pub(super) fn follow_sets(&mut self) -> Result<()> {
+        self.gauges = Gauges::of(self.model())?;
+        self.results.history_columns = Gauges::columns(self.model());
+        Ok(())
+    }
+
+    /// Warns of what there is to say.
+    pub(super) fn warn(&mut self, text: Option<String>) {
+        let Some(text) = text else { return };
+        self.observer.warning(&text);
+        self.results.warnings.push(text);
+    }
+
+    /// The largest absolute load factor among the targets, if there is one.
+    pub(super) fn largest_factor(&self) -> Option<f64> {
+        self.model()
+            .scene
+            .program
+            .targets
+            .iter()
+            .filter_map(|t| t.load_factor)
+            .map(f64::abs)
+            .reduce(f64::max)
+    }
+}

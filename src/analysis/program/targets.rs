@@ -1,0 +1,216 @@
+//! Targets: from the current load factor to the next state that the program asks for.
+
+use super::position::{FirstYield, Start, share_of_way};
+use super::run::{Run, ZONE_ATTEMPTS};
+use super::stopwatch::Row;
+use crate::analysis::check::seconds::gaps_are_alike;
+use crate::analysis::choice::zone_choice;
+use crate::analysis::increments::step::Arrival;
+use crate::analysis::stress::recovery::Watched;
+use crate::error::{Error, Result};
+use crate::model::Magnitude;
+use crate::results;
+use crate::scene::{Kind, Stepping, Target, Unit};
+
+impl<'m> Run<'m, '_> {
+    /// Sets out for the next target.
+    pub(super) fn begin_target(&mut self) -> Result<()> {
+        self.set_start();
+        let (target, label) = self.target();
+        if target.first_yield {
+            let alpha = self.position.first_yield.alpha.ok_or_else(|| {
+                Error::analysis(format!(
+                    "target `{label}`: no yield load was found before the program's largest load \
+                     factor"
+                ))
+            })?;
+            self.position.stops = self.stops(alpha);
+        } else if let Some(alpha) = target.load_factor {
+            self.position.stops = self.stops(alpha);
+        } else if target.finds_load() {
+            self.search_figure()?;
+        } else if let Some(goal) = &target.displacement {
+            let off = self.monitor_of(1.0)?(&mut self.solver)?;
+            let largest = goal.value.abs().max(off.abs());
+            let scale = if largest > 0.0 { largest } else { 1.0 };
+            let monitor = self.monitor_of(scale)?;
+            let here = off / scale;
+            let ahead = self.a_little_ahead(&monitor)?;
+            self.search(monitor, here, (ahead - here) * here <= 0.0, scale);
+        } else {
+            return Err(Error::input(format!("target `{label}` has no condition")));
+        }
+        Ok(())
+    }
+
+    /// After the last target of a cycle: whether another follows.
+    pub(super) fn begin_cycle(&mut self) -> bool {
+        let (structure, zone) = (&self.solver.structure, &self.solver.zone);
+        let program = &structure.model.scene.program;
+        let follows = self.position.cycles.begin_next(
+            (program.cycles, program.steady),
+            structure.model.start.as_ref(),
+            &structure.elements,
+            || zone.history(),
+        );
+        if follows {
+            self.position.target = 0;
+        }
+        follows
+    }
+
+    /// Takes note of where the way to a target starts.
+    pub(super) fn set_start(&mut self) {
+        self.start = Some(Start {
+            state: self.solver.state(),
+            first_yield: self.position.first_yield,
+            rows: self.results.history.len(),
+        });
+        if let Some(checkpoints) = &mut self.checkpoints {
+            checkpoints.forget_start();
+        }
+    }
+
+    /// The target at hand and its name.
+    pub(super) fn target(&self) -> (&'m Target, String) {
+        let index = self.position.target;
+        let target = &self.model().scene.program.targets[index];
+        (target, self.labels[index].clone())
+    }
+
+    /// What a load factor alone gives, neither the yield load nor the answer of the bodies in it:
+    /// the reported load, or the approach.
+    fn given_by_factor(&self) -> [bool; 2] {
+        let model = self.model();
+        let is_known = model.scene.program.unit != Unit::Yield;
+        let leading = model.leading_load();
+        let measures = leading.map(|leading| model.loads[leading].measures);
+        let of_load = |of: Magnitude| !matches!(of, Magnitude::Displacement | Magnitude::Gap);
+        [
+            is_known && measures.is_some_and(of_load),
+            is_known && measures == Some(Magnitude::Displacement),
+        ]
+    }
+
+    /// Takes the state at a target that was reached. The guard layer only sees what grows out of
+    /// the zone: if the state shows stress beyond yield elsewhere, the zone is widened to there,
+    /// and the way to the target is gone again. So it is if the state is elastic by the recovered
+    /// stress and a Gauss point is beyond yield: the Gauss points are watched from then on.
+    pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
+        let (target, label) = self.target();
+        let mut figures = self.timed(Row::States, |run| {
+            let figures = run.solver.reading().figures(&label, target.fields)?;
+            let seconds = &mut run.position.seconds;
+            seconds.hand_over(figures.stress_seconds, Row::Stresses);
+            Ok::<_, Error>(figures)
+        })?;
+        if target.load_factor.is_some() {
+            let state = &mut figures.state;
+            [state.load_is_given, state.approach_is_given] = self.given_by_factor();
+        }
+        let passed = self.passed_in_a_jump()?;
+        self.monitor = None;
+        let unloads_outside = std::mem::take(&mut self.unloads_outside).take();
+        let missed = figures.beyond_yield_outside;
+        let start = self.start.take();
+        let first_yield = &self.position.first_yield;
+        let watched = match !first_yield.is_behind && figures.beyond_yield_inside {
+            true => Watched::GaussPoints,
+            false => first_yield.watched,
+        };
+        if missed.is_empty() && watched == first_yield.watched && !unloads_outside {
+            self.warn(passed);
+            self.position.target += 1;
+            self.position.attempt = 0;
+            let (model, of) = (self.solver.structure.model, &mut self.position.deformation);
+            of.take(&model.mesh, &label, &figures.deformation);
+            let is_last = self
+                .position
+                .cycles
+                .is_last(self.model().scene.program.cycles);
+            return Ok(is_last.then_some(figures.state));
+        }
+        let start = start.ok_or_else(|| Error::internal("the way to a target has no start"))?;
+        self.position.attempt += 1;
+        self.solver.restore(&start.state);
+        self.results.history.truncate(start.rows);
+        // What was searched for first yield did not hold all that yields: the way is watched from
+        // its start.
+        self.position.first_yield = FirstYield {
+            elastic_range: [0.0; 2],
+            watched,
+            ..start.first_yield
+        };
+        if self.position.attempt == ZONE_ATTEMPTS {
+            return Err(Error::analysis(format!(
+                "target `{label}`: the material keeps yielding outside the zone that was chosen"
+            )));
+        }
+        if unloads_outside {
+            let larger = zone_choice::grown(self.model(), &self.zone.choice);
+            self.set_zone(larger)?;
+        } else if !missed.is_empty() {
+            let wider = zone_choice::including(self.model(), &self.zone.choice, &missed);
+            self.set_zone(wider)?;
+        }
+        Ok(None)
+    }
+
+    /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads'
+    /// histories in between.
+    pub(super) fn stops(&self, alpha: f64) -> Vec<f64> {
+        let from = self.solver.at.alpha;
+        let first_yield = &self.position.first_yield;
+        let mut stops: Vec<f64> = self
+            .model()
+            .loads
+            .iter()
+            .flat_map(|l| l.kinks())
+            .chain(first_yield.alpha.filter(|_| !first_yield.is_behind))
+            .filter(|k| (*k - from) * (alpha - *k) > 0.0)
+            .collect();
+        stops.sort_by(|a, b| a.total_cmp(b));
+        if alpha < from {
+            stops.reverse();
+        }
+        stops.dedup();
+        stops.push(alpha);
+        stops
+    }
+
+    /// Share of the way to the target at hand that lies behind.
+    pub(super) fn share_behind(&self, arrival: Option<Arrival>) -> f64 {
+        let Some(start) = &self.start else {
+            return 0.0;
+        };
+        if arrival == Some(Arrival::Monitor) {
+            return 1.0;
+        }
+        let (drive, stops) = (&self.position.drive, &self.position.stops);
+        match (&self.position.search, stops.last()) {
+            (Some(search), _) => {
+                let monitored = drive.as_ref().and_then(|drive| drive.monitored());
+                search.share_behind(monitored.unwrap_or(f64::NAN))
+            }
+            (None, Some(&to)) => {
+                let power = self.changes_by_load();
+                share_of_way(self.solver.at.alpha, start.state.at.alpha, to, power)
+            }
+            (None, None) => 1.0,
+        }
+    }
+
+    /// Power of the load in which increments lie evenly: where changes of contact end them that of
+    /// the width of Hertz' contacts, if the contact grows pair by pair.
+    fn changes_by_load(&self) -> f64 {
+        let model = self.model();
+        let mut contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
+        let grows = model.scene.stepping() != Stepping::Steps
+            && contacts.any(|pairs| !gaps_are_alike(pairs));
+        match (grows, model.kind) {
+            (false, _) => 1.0,
+            (true, Kind::Axisymmetric) => 1.0 / 3.0,
+            (true, _) => 0.5,
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! What a run has cost so far.
+
+use crate::results::Counts;
+use serde::{Deserialize, Serialize};
+
+/// Cost so far.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub struct Cost {
+    /// What was done.
+    pub counts: Counts,
+    /// Whether half a trailing solve has been counted for a whole one.
+    half: bool,
+}
+
+impl Cost {
+    /// Two halves count as a trailing solve.
+    pub fn count_half(&mut self) {
+        self.half = !self.half;
+        self.counts.trailing_solves += usize::from(self.half);
+    }
+}

@@ -1,0 +1,79 @@
+//! A factor of the tangent of the zone, with the contact matrix and statuses that belong to it.
+
+use super::factored::Structure;
+use crate::contact::Tableau;
+use crate::linalg::ZonePart;
+use crate::substructure::{Softened, Trailing};
+
+/// Cost of a factor with that of its matrix, over the operations of the factorisation: the matrices
+/// of the elements and the copy of the stiffness take about as long again.
+const WITH_ITS_MATRIX: f64 = 2.0;
+
+/// A tangent of the zone, factored.
+pub struct FactoredTangent {
+    pub(in crate::analysis) softened: Softened,
+    /// Contact matrix and statuses with this stiffness; none where there is no factor.
+    pub(in crate::analysis) tableau: Option<Tableau>,
+    /// Whether a tangent of the increment had no factor.
+    pub(in crate::analysis) is_refused: bool,
+    /// Whether it is that of the last evaluated state.
+    pub(in crate::analysis) is_fresh: bool,
+    /// Share of the softening that is taken off in it.
+    pub(in crate::analysis) share: f64,
+    /// Steps of conjugate gradients since it was factored, beyond what a new factor takes.
+    pub(in crate::analysis) spent: f64,
+    forces: Vec<f64>,
+    gap: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl FactoredTangent {
+    /// Room for one; `None` where there can be none.
+    pub(in crate::analysis) fn new(structure: &Structure) -> Option<Self> {
+        let softened = structure.sub.softened()?;
+        let n = structure.n_pairs();
+        Some(FactoredTangent {
+            softened,
+            tableau: None,
+            is_refused: false,
+            is_fresh: false,
+            share: 0.0,
+            spent: 0.0,
+            forces: vec![0.0; n],
+            gap: vec![0.0; n],
+            force: vec![0.0; n],
+        })
+    }
+
+    /// `out = M^-1 load`, closed pairs staying closed, in a part of the zone where only that is
+    /// asked for.
+    pub(in crate::analysis) fn solve(
+        &mut self,
+        load: &Trailing,
+        part: &ZonePart,
+        out: &mut Trailing,
+    ) {
+        out.copy_from(load);
+        self.softened.eliminate(out, &mut self.forces);
+        if let Some(tableau) = &mut self.tableau {
+            tableau.solve(&self.forces, &mut self.gap, &mut self.force);
+        }
+        self.gap.iter_mut().for_each(|gap| *gap = -*gap);
+        self.softened.recover_part(part, out, &self.gap);
+    }
+
+    /// Gives pairs these statuses; false where there is no factor, or one that is to open holds a
+    /// body with this stiffness.
+    pub(in crate::analysis) fn set_statuses(&mut self, open: &[bool]) -> bool {
+        let Some(tableau) = &mut self.tableau else {
+            return false;
+        };
+        (0..open.len()).all(|k| tableau.open()[k] == open[k] || tableau.flip(k))
+    }
+
+    /// Whether the steps since the last factor would have paid the next.
+    pub(in crate::analysis) fn is_paid(&self) -> bool {
+        let [factor, solve] = self.softened.flops();
+        self.spent * solve >= WITH_ITS_MATRIX * factor
+    }
+}

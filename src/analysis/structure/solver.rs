@@ -1,0 +1,282 @@
+//! The solver: the structure in its current state, and what increments are found with.
+
+use super::cost::Cost;
+use super::equilibrium::{EliminatedLoad, Equilibrium};
+use super::factored::Structure;
+use super::factored_tangent::FactoredTangent;
+use super::flow::Flow;
+use super::load_point::LoadPoint;
+use super::round_off::LOOSEST;
+use crate::analysis::zone::elements::Zone;
+use crate::assembly::System;
+use crate::contact::Tableau;
+use crate::contact::springs::{Springs, with_springs};
+use crate::error::Result;
+use crate::linalg::Backend;
+use crate::model::{LoadCase, Magnitude, Model};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// The structure in its current state.
+pub struct Solver<'m> {
+    /// The structure.
+    pub structure: Structure<'m>,
+    /// Contact matrix, with springs, and the statuses of the pairs.
+    pub tableau: Tableau,
+    /// What keeps bodies where they are that nothing holds and nothing drives.
+    pub springs: Arc<[Springs]>,
+    /// Elements that may yield, with their history.
+    pub zone: Zone,
+    /// Current load point.
+    pub at: LoadPoint,
+    /// Current equilibrium; its displacements are valid where `fresh`, without the rigid motions
+    /// that gaps allow.
+    pub now: Equilibrium,
+    /// Whether the displacements belong to the current gaps and forces.
+    pub fresh: bool,
+    /// Pairs that arrived at the border of their condition with the last event.
+    pub border: Vec<usize>,
+    /// The tangent, where it was factored in the increment at hand.
+    pub tangent: Option<Box<FactoredTangent>>,
+    /// What the next increment is predicted from.
+    pub predictor: Predictor,
+    /// What is large and what is small.
+    pub scales: Scales,
+    /// Cost so far.
+    pub cost: Cost,
+}
+
+/// What an increment is predicted from besides the state and the points that yielded last: it
+/// decides how fast it is found.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Predictor {
+    /// Change of the load point over the piece of the last increment: distinguishes loading from
+    /// unloading.
+    pub last_step: Vec<f64>,
+    /// Where flow began last, after a stretch on which there was none.
+    pub flow: Flow,
+    /// How initial loads changed over the last increment: over the next one much the same.
+    pub pace: Option<Pace>,
+}
+
+/// A change of initial loads with the load.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Pace {
+    /// The change for a distance of 1 between load points.
+    pub initial: EliminatedLoad,
+    /// The distance over which it was found.
+    pub distance: f64,
+    /// By how much it was stretched since its loads were eliminated.
+    pub stretched: f64,
+}
+
+/// The largest figures of the run so far: what residuals and round-off are measured against.
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
+pub struct Scales {
+    /// Nodal force, applied or of contact.
+    pub force: f64,
+    /// Displacement, of a state or of the nodes of a pair against each other.
+    pub displacement: f64,
+    /// The same without rigid motions of floating bodies: what stresses and their round-off are a
+    /// share of.
+    pub deformation: f64,
+    /// Round-off that equilibrium was accepted at where it is above the tolerance asked for; zero
+    /// where it never was.
+    pub round_off: f64,
+}
+
+impl<'m> Solver<'m> {
+    /// Factors the structure so that zones may be chosen among the elements `within`, and chooses
+    /// one of the given elements (`guard` marks those that only watch).
+    ///
+    /// # Errors
+    /// Those of [`Structure::new`].
+    pub fn new(
+        model: &'m Model,
+        system: &'m System,
+        backend: Backend,
+        within: &[usize],
+        elements: Vec<usize>,
+        guard: &[bool],
+    ) -> Result<Self> {
+        let mut cost = Cost::default();
+        let structure = Structure::new(model, system, backend, within, elements, &mut cost)?;
+        let mut solver = Solver {
+            tableau: structure.sub.tableau(),
+            springs: Arc::default(),
+            zone: Zone::new(model, &structure.elements, guard, &structure.places),
+            at: LoadPoint::unloaded(model.loads.len()),
+            now: Equilibrium::none(&structure.sub.zeros(), structure.n_pairs()),
+            fresh: true,
+            border: Vec::new(),
+            tangent: None,
+            predictor: Predictor {
+                last_step: vec![0.0; model.loads.len() + 1],
+                flow: Flow::none(model.loads.len()),
+                pace: None,
+            },
+            scales: Scales::default(),
+            cost,
+            structure,
+        };
+        solver.unload();
+        Ok(solver)
+    }
+
+    /// Back to where nothing acts, with the zone at hand and no history.
+    pub(super) fn unload(&mut self) {
+        let structure = &self.structure;
+        self.at = LoadPoint::unloaded(structure.model.loads.len());
+        self.now = Equilibrium {
+            gap: structure.gaps.initial.clone(),
+            ..Equilibrium::none(&structure.sub.zeros(), structure.n_pairs())
+        };
+        self.set_springs(&Arc::default());
+        let open: Vec<bool> = self.now.gap.iter().map(|g| *g > 0.0).collect();
+        self.tableau.reset(&open);
+        self.border.clear();
+        self.predictor.last_step.fill(0.0);
+        self.predictor.flow = Flow::none(self.at.factors.len());
+        self.predictor.pace = None;
+        self.fresh = true;
+    }
+
+    /// Puts these springs in the place of those at hand, the statuses being the same; false (and
+    /// nothing changed) where they are of another structure.
+    pub(super) fn set_springs(&mut self, springs: &Arc<[Springs]>) -> bool {
+        let matrix = self.structure.sub.pair_matrix();
+        if !springs.iter().all(|own| own.fit(matrix)) {
+            return false;
+        }
+        let same = self.springs.len() == springs.len();
+        let mut both = self.springs.iter().zip(springs.iter());
+        let as_stiff = same && both.all(|(a, b)| a.as_stiff_as(b));
+        self.springs = Arc::clone(springs);
+        if !as_stiff {
+            self.build_tableau();
+        }
+        true
+    }
+
+    /// Builds the tableau anew with the same statuses.
+    fn build_tableau(&mut self) {
+        let open = self.tableau.open().to_vec();
+        let matrix = with_springs(self.structure.sub.pair_matrix(), &self.springs);
+        self.tableau = Tableau::new(matrix);
+        self.tableau.reset(&open);
+    }
+
+    /// Adds to the forces `q` of closed pairs what springs exert on them.
+    pub(in crate::analysis) fn add_springs(&self, q: &mut [f64]) {
+        for springs in self.springs.iter() {
+            springs.add_at_rest(q);
+        }
+    }
+
+    /// Changes the zone to the given elements. State, statuses and history are kept.
+    ///
+    /// # Errors
+    /// Those of [`Structure::set_zone`].
+    pub fn set_zone(&mut self, elements: Vec<usize>, guard: &[bool]) -> Result<()> {
+        let before = self.structure.elements.clone();
+        if self.structure.set_zone(elements, &mut self.cost)? {
+            self.build_tableau();
+        }
+        let structure = &self.structure;
+        let mut zone = Zone::new(
+            structure.model,
+            &structure.elements,
+            guard,
+            &structure.places,
+        );
+        zone.restore_of(&before, &self.zone.history());
+        zone.set_factors(&self.at.factors);
+        self.zone = zone;
+        let initial = self.zone.initial_load(structure.sub.zeros());
+        let initial = structure.eliminate_initial(initial, &mut self.cost);
+        self.now = self.respond(&self.at.clone(), initial);
+        self.fresh = true;
+        self.predictor.pace = None;
+        self.tangent = None;
+        Ok(())
+    }
+
+    /// What round-off may leave in the sum of the contact forces: the tied structure comes from a
+    /// factor that keeps
+    /// `eps` times the condition of what it is made from. Far from Poisson's ratio 1/2 that is
+    /// less than the tolerance of any iteration.
+    pub fn round_off_of_contact(&self) -> f64 {
+        let initial = self.now.initial.forces.iter().map(|r| r.abs());
+        let terms: f64 = (0..self.now.gap.len())
+            .map(|k| {
+                let terms = self.structure.closed_force_terms(&self.at, k);
+                terms.map(f64::abs).sum::<f64>()
+            })
+            .chain(initial)
+            .sum();
+        (8.0 * f64::EPSILON * self.structure.condition * terms).min(LOOSEST * self.scales.force)
+    }
+
+    /// Whether the load that is left up to `end` is no more than what round-off leaves in the
+    /// contact forces.
+    pub(in crate::analysis) fn is_round_off(&self, end: &LoadPoint) -> bool {
+        let model = self.structure.model;
+        let [from, to] = [&self.at, end].map(|at| model.factors_of_alike(&at.factors));
+        let left: f64 = (model.alike.iter())
+            .zip(&self.structure.loads.condensed)
+            .zip(from.zip(to))
+            .map(|((alike, condensed), (from, to))| {
+                let loads = || alike.iter().map(|&load| &model.loads[load]);
+                let size: f64 = match model.loads[alike[0]].measures {
+                    // A rigid surface that moves changes gaps alone.
+                    _ if loads().any(|load| !load.opens.is_empty()) => {
+                        let all = condensed.load.iter().chain(&condensed.forces);
+                        all.map(|f| f.abs()).sum()
+                    }
+                    Magnitude::Displacement => condensed.load.iter().map(|f| f.abs()).sum(),
+                    Magnitude::Gap => condensed.forces.iter().map(|f| f.abs()).sum(),
+                    _ => loads().map(LoadCase::size).sum(),
+                };
+                (to - from).abs() * size
+            })
+            .sum();
+        !self.now.gap.is_empty()
+            && self.at.interference == end.interference
+            && left <= self.round_off_of_contact()
+    }
+
+    /// The next increment is predicted as if no point yielded.
+    pub fn assume_elastic(&mut self) {
+        self.zone.assume_elastic();
+        self.predictor.pace = None;
+    }
+
+    /// Takes note of the forces and displacements at hand.
+    pub fn update_scales(&mut self) {
+        let (structure, scales) = (&self.structure, &self.scales);
+        let delta = structure.delta(&self.at);
+        let slip = delta.iter().zip(&self.now.gap).map(|(d, g)| (d - g).abs());
+        let displacement = slip.fold(scales.displacement, f64::max);
+        let (deforming, _) = structure.sub.split_slip(&delta, &self.now.gap);
+        let moved = if self.fresh {
+            self.now.u.largest()
+        } else {
+            0.0
+        };
+        let deforming = deforming.iter().map(|s| s.abs());
+        let deformation = deforming.fold(scales.deformation.max(moved), f64::max);
+        let applied = structure.external(&self.at).largest();
+        let force = scales.force.max(applied);
+        self.scales = Scales {
+            displacement,
+            deformation,
+            force: self.now.force.iter().fold(force, |m, r| m.max(*r)),
+            ..self.scales
+        };
+    }
+
+    /// Number of closed pairs.
+    pub fn closed_pairs(&self) -> usize {
+        self.tableau.open().iter().filter(|o| !**o).count()
+    }
+}

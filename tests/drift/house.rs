@@ -1,0 +1,312 @@
+//! Figures of the house: how long files and functions are, how far types are spread, which files
+//! use each other, which doc comments do not stand alone. CONTRIBUTING.md has them.
+
+use super::imports::{Modules, circles, within};
+use super::{files, is_test, module, root};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+/// Longest function, in lines with its signature.
+const LONGEST: usize = 80;
+/// Most files with methods of one type.
+const MOST_FILES: usize = 3;
+/// Shortest doc comment that says something, in characters.
+const SHORTEST: usize = 15;
+/// What a doc comment that does not stand alone opens with.
+const OPENERS: [&str; 5] = ["Those", "That of", "Its", "Their", "The same"];
+
+/// A file with its name below the root of its tree.
+struct Text {
+    name: String,
+    text: String,
+}
+
+fn texts(base: &Path, folder: &str) -> Vec<Text> {
+    let paths = files(&base.join(folder).to_string_lossy(), "rs").into_iter();
+    let text = |path: PathBuf| Text {
+        name: path.strip_prefix(base).unwrap().display().to_string(),
+        text: std::fs::read_to_string(&path).unwrap(),
+    };
+    paths.map(text).collect()
+}
+
+/// Without the tests at the end of a file.
+fn of_library(text: &str) -> &str {
+    text.split("#[cfg(test)]\nmod tests {").next().unwrap_or("")
+}
+
+/// Lines that are neither blank nor comments.
+fn lines_of_code(text: &str) -> usize {
+    let lines = text.lines().map(str::trim);
+    lines
+        .filter(|l| !l.is_empty() && !l.starts_with("//"))
+        .count()
+}
+
+/// Functions with their lines, as rustfmt lays them out: from the signature to the brace below it.
+fn functions(text: &str) -> Vec<(String, usize)> {
+    let lines: Vec<&str> = text.lines().collect();
+    let mut out = Vec::new();
+    for (first, line) in lines.iter().enumerate() {
+        let code = line.trim_start();
+        let indent = &line[..line.len() - code.len()];
+        let ahead = code.split("fn ").next().unwrap_or("");
+        let words = ["pub", "const", "async", "unsafe", "extern", "\"C\""];
+        let is_head = |word: &str| words.contains(&word) || word.starts_with("pub(");
+        let is_signature = code.contains("fn ")
+            && ahead
+                .replace("(in ", "(in_")
+                .split_whitespace()
+                .all(is_head);
+        if !is_signature || code.ends_with('}') || code.ends_with(';') {
+            continue;
+        }
+        let end = format!("{indent}}}");
+        // A declaration without a body ends with its parameters.
+        let declared = format!("{indent})");
+        let is_declared = |l: &&str| l.starts_with(&declared) && l.ends_with(';');
+        let mut below = lines[first..].iter();
+        if let Some(n) = below.position(|l| **l == end || is_declared(l))
+            && !is_declared(&lines[first + n])
+        {
+            let name = code.split("fn ").nth(1).unwrap_or("");
+            let name: String = name
+                .chars()
+                .take_while(|c| *c != '(' && *c != '<')
+                .collect();
+            out.push((name, n + 1));
+        }
+    }
+    out
+}
+
+/// The type that an inherent implementation is of.
+pub(super) fn implemented(line: &str) -> Option<&str> {
+    let mut rest = line.strip_prefix("impl")?;
+    if rest.starts_with('<') {
+        let mut depth = 0;
+        let end = rest.char_indices().find(|(_, c)| {
+            depth += i32::from(*c == '<') - i32::from(*c == '>');
+            depth == 0
+        });
+        rest = &rest[end?.0 + 1..];
+    }
+    let rest = rest.trim_start();
+    let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_'))?;
+    (end > 0 && !rest.contains(" for ")).then(|| &rest[..end])
+}
+
+/// Whole doc comments.
+fn doc_comments(text: &str) -> Vec<String> {
+    let mut out: Vec<String> = Vec::new();
+    let mut is_open = false;
+    for line in text.lines().map(str::trim) {
+        match line.strip_prefix("///") {
+            Some(part) if is_open => *out.last_mut().unwrap() += part,
+            Some(part) => out.push(part.to_string()),
+            None => {}
+        }
+        is_open = line.starts_with("///");
+    }
+    out.iter().map(|doc| doc.trim().to_string()).collect()
+}
+
+/// What is counted of a tree, with the places.
+fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
+    let (library, tests) = (texts(base, "src"), texts(base, "tests"));
+    let all = || library.iter().chain(&tests);
+    let total = |texts: &[Text], is_code: fn(&Text) -> bool| -> usize {
+        let texts = texts.iter().filter(|t| is_code(t));
+        texts.map(|t| lines_of_code(of_library(&t.text))).sum()
+    };
+    let long_files = all().filter(|t| t.text.lines().count() > 500);
+    let long_files: Vec<String> = long_files.map(|t| t.name.clone()).collect();
+    let long = |texts: &[Text]| -> Vec<String> {
+        let of = |t: &Text| {
+            let long = functions(&t.text).into_iter().filter(|(_, n)| *n > LONGEST);
+            long.map(|(name, n)| format!("{}: {name}, {n}", t.name))
+                .collect::<Vec<_>>()
+        };
+        texts.iter().flat_map(of).collect()
+    };
+    let mut types: BTreeMap<(String, &str), BTreeSet<&str>> = BTreeMap::new();
+    for t in &library {
+        let folder = t.name.split('/').nth(1).unwrap_or("").to_string();
+        for name in of_library(&t.text).lines().filter_map(implemented) {
+            types
+                .entry((folder.clone(), name))
+                .or_default()
+                .insert(&t.name);
+        }
+    }
+    let spread = types.iter().filter(|(_, files)| files.len() > MOST_FILES);
+    let spread = spread.map(|((folder, name), files)| format!("{folder} {name}: {}", files.len()));
+    let spread: Vec<String> = spread.collect();
+    let modules = Modules::read(base);
+    let edges = modules.edges();
+    let folders: BTreeSet<&str> = edges.keys().filter_map(|f| f.split('/').nth(1)).collect();
+    let circles = folders
+        .iter()
+        .flat_map(|folder| circles(&within(&edges, folder)).into_iter().flatten());
+    let circles: Vec<String> = circles.map(String::from).collect();
+    let docs = || library.iter().flat_map(|t| doc_comments(&t.text));
+    let short = docs().filter(|doc| doc.chars().count() < SHORTEST);
+    let short: Vec<String> = short.collect();
+    let leans = |doc: &String| {
+        let open = |opener: &&str| {
+            let rest = doc.strip_prefix(*opener);
+            rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
+        };
+        OPENERS.iter().any(open)
+    };
+    let leaning: Vec<String> = docs().filter(leans).collect();
+    let (long_here, long_tests) = (long(&library), long(&tests));
+    vec![
+        (
+            "lines of code in src",
+            total(&library, |t| !is_test(&t.name)),
+            Vec::new(),
+        ),
+        (
+            "lines of code in tests",
+            total(&tests, |_| true),
+            Vec::new(),
+        ),
+        ("files of more than 500 lines", long_files.len(), long_files),
+        (
+            "functions of more than 80 lines in src",
+            long_here.len(),
+            long_here,
+        ),
+        (
+            "functions of more than 80 lines in tests",
+            long_tests.len(),
+            long_tests,
+        ),
+        (
+            "types with methods in more than three files",
+            spread.len(),
+            spread,
+        ),
+        (
+            "files of src in import circles of their folder",
+            circles.len(),
+            circles,
+        ),
+        (
+            "doc comments of less than 15 characters",
+            short.len(),
+            short,
+        ),
+        (
+            "doc comments that open with a pronoun",
+            leaning.len(),
+            leaning,
+        ),
+    ]
+}
+
+/// The figures of CONTRIBUTING.md: `cargo test --test all drift::house -- --nocapture` prints them,
+/// of another tree with `HOUSE_OF=PATH`, and `HOUSE_PLACES=1` adds the places.
+#[test]
+fn figures_of_the_house_are_in_contributing() {
+    let base = std::env::var_os("HOUSE_OF").map_or_else(root, PathBuf::from);
+    let found = counts(&base);
+    for (what, count, places) in &found {
+        println!("{what}: {count}");
+        if std::env::var_os("HOUSE_PLACES").is_some() {
+            places.iter().for_each(|place| println!("    {place}"));
+        }
+    }
+    let page = std::fs::read_to_string(root().join("CONTRIBUTING.md")).unwrap();
+    for (what, count, places) in &found {
+        let row = page
+            .lines()
+            .find(|line| line.starts_with(&format!("| {what} |")));
+        let row = row.unwrap_or_else(|| panic!("CONTRIBUTING.md has no row `{what}`"));
+        let told = row
+            .trim_end_matches([' ', '|'])
+            .rsplit('|')
+            .next()
+            .unwrap()
+            .trim();
+        let told: usize = told
+            .replace(',', "")
+            .parse()
+            .unwrap_or_else(|e| panic!("{row}: {e}"));
+        if what.contains("circles") || what.contains("files of") {
+            assert!(
+                *count <= told,
+                "{what}: {count}, in CONTRIBUTING.md {told}: {places:#?}"
+            );
+        }
+    }
+}
+
+/// Folders of `src` whose files use each other in circles.
+const WITH_CIRCLES: [&str; 16] = [
+    "accuracy",
+    "assembly",
+    "checkpoint",
+    "cli",
+    "constrained",
+    "deck",
+    "linalg",
+    "material",
+    "mesh",
+    "model",
+    "output",
+    "results",
+    "scene",
+    "selftest",
+    "shape",
+    "substructure",
+];
+
+#[test]
+fn folders_without_circles_keep_none() {
+    let modules = Modules::read(&root());
+    let edges = modules.edges();
+    let folders: BTreeSet<&str> = edges.keys().map(|file| module(file)).collect();
+    let has_circle = |folder: &&str| !circles(&within(&edges, folder)).is_empty();
+    let found: Vec<&str> = folders.into_iter().filter(has_circle).collect();
+    assert_eq!(
+        found, WITH_CIRCLES,
+        "a folder that has none any more leaves the list"
+    );
+}
+
+#[test]
+fn functions_types_and_comments_are_counted() {
+    let text = "\
+impl<'a, T: Into<B>> Long<'a> {
+    /// Its
+    /// length.
+    pub(in crate::a) fn first(
+        x: usize,
+    ) -> bool {
+        x > 1
+    }
+
+    fn short() {}
+}
+impl From<A> for B {
+}
+pub trait T {
+    fn declared(
+        x: usize,
+    ) -> bool;
+
+    /// Two.
+    fn second() {
+        let f = 1;
+    }
+}
+";
+    let found = functions(text);
+    assert_eq!(found, [("first".to_string(), 5), ("second".to_string(), 3)]);
+    let types: Vec<&str> = text.lines().filter_map(implemented).collect();
+    assert_eq!(types, ["Long"]);
+    assert_eq!(doc_comments(text), ["Its length.", "Two."]);
+    assert_eq!(lines_of_code("a\n\n// b\n    c // d\n"), 2);
+}
