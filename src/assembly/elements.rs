@@ -210,7 +210,7 @@ impl Matrices {
         Matrices { offsets, values }
     }
 
-    /// That of an element.
+    /// The stiffness matrix of an element.
     pub(super) fn of(&self, element: usize) -> &[f64] {
         &self.values[self.offsets[element]..self.offsets[element + 1]]
     }

@@ -11,9 +11,9 @@ pub enum Triangle {
     /// Both triangles; the upper one is read.
     #[default]
     Both,
-    /// Row <= column.
+    /// The upper triangle: row <= column.
     Upper,
-    /// Row >= column.
+    /// The lower triangle: row >= column.
     Lower,
 }
 

@@ -54,7 +54,7 @@ impl PairMatrix {
         self.place.is_empty()
     }
 
-    /// The blocks.
+    /// The blocks, one for each group of pairs.
     pub fn blocks(&self) -> &[PairBlock] {
         &self.blocks
     }

@@ -19,9 +19,9 @@ use std::sync::Arc;
 /// A change of contact.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Change {
-    /// A pair closes.
+    /// The pair of this number closes.
     Closes(usize),
-    /// A pair opens.
+    /// The pair of this number opens.
     Opens(usize),
 }
 
@@ -51,7 +51,8 @@ const NEVER: usize = usize::MAX;
 /// Share of a tie by which a pair may be beyond its condition at the end of a piece: round-off of
 /// an event that is due there.
 const AT_END: f64 = 1e-2;
-/// The same for the last pairs that hold a body, as a share of their forces at the start.
+/// Share of its force at the start by which a pair among the last ones that hold a body may be
+/// beyond its condition at the end of a piece.
 const LAST: f64 = 1e-7;
 
 /// Gaps and forces on a piece of the load path.

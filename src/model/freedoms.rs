@@ -24,11 +24,11 @@ use std::collections::BTreeMap;
 pub enum Slot {
     /// A free freedom with its number. Nodes held plane share one.
     Free(u32),
-    /// Held at zero.
+    /// A displacement held at zero.
     Fixed,
-    /// Held at a prescribed displacement, see [`Freedoms::prescribed`].
+    /// A displacement held at a prescribed value, see [`Freedoms::prescribed`].
     Prescribed(u32),
-    /// A sum of others, which it follows in a tie or an equation.
+    /// A sum of other displacements, which it follows in a tie or an equation.
     Sum(u32),
 }
 

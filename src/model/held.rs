@@ -103,8 +103,9 @@ pub struct Pin {
 
 /// Work of a load on a motion below this, relative to the sum of its parts, is none.
 const NO_WORK: f64 = 1e-9;
-/// The same on a motion that moves no pair by more than [`FREE`] of its own displacement: the
-/// centre of a round surface is known no better, and a load through it does so much work.
+/// Work below which a load does none on a motion that moves no pair by more than [`FREE`] of its
+/// own displacement, relative to the sum of its parts: the centre of a round surface is known no
+/// better, and a load through it does so much work.
 const NO_WORK_FOUND: f64 = 10.0 * FREE;
 
 /// The floating bodies, and the contact rows on the freedoms that pins leave.

@@ -11,14 +11,14 @@ use std::collections::BTreeMap;
 /// By how much a load at factor 1 takes the surfaces of a contact apart.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Opening {
-    /// The same all over.
+    /// One opening for the whole contact.
     Uniform(f64),
-    /// At the nodes of the slaves, or at their control points.
+    /// Openings at the nodes of the slaves, or at their control points.
     At(BTreeMap<usize, f64>),
 }
 
 impl Opening {
-    /// At a slave.
+    /// Opening at a slave node.
     pub fn at(&self, node: usize) -> f64 {
         match self {
             Opening::Uniform(gap) => *gap,
@@ -26,7 +26,7 @@ impl Opening {
         }
     }
 
-    /// Its largest size.
+    /// Largest size of the opening.
     pub fn largest(&self) -> f64 {
         match self {
             Opening::Uniform(gap) => gap.abs(),

@@ -44,7 +44,7 @@ pub struct Pair {
     pub normal: Vector,
     /// Initial gap delta, interference not yet taken off.
     pub gap: f64,
-    /// Interference.
+    /// Interference: the overlap that contact has to push apart.
     pub interference: f64,
     /// What a gap of 1 all over the contact is of the pair: 1, or at a control point of a quadratic
     /// face what the normals round it leave of it.
@@ -52,7 +52,7 @@ pub struct Pair {
     /// Area that belongs to the pair: integral of the slave's shape function over what of its
     /// surface faces the other.
     pub area: f64,
-    /// Distance along the slave's surface from its begin; 0 in a solid model.
+    /// Distance along the slave's surface from its start; 0 in a solid model.
     pub arc: f64,
 }
 
@@ -100,7 +100,7 @@ pub struct ContactSurface {
     pub slave: usize,
     /// Whether the other one is rigid and has no mesh: its displacement is that of a body.
     pub is_rigid: bool,
-    /// Its pairs: `pairs[range]`.
+    /// Pairs of the contact: `pairs[range]`.
     pub range: std::ops::Range<usize>,
     /// Centre and radius of the surface, where it is known to be a circle.
     pub circle: Option<([f64; 2], f64)>,

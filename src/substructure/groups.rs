@@ -26,11 +26,11 @@ pub(super) struct Groups {
 
 /// Tied pairs that feel one another.
 struct Group {
-    /// Ascending.
+    /// The pairs of the group, ascending.
     pairs: Vec<usize>,
-    /// Their contact freedoms, ascending.
+    /// The contact freedoms of the pairs, ascending.
     contact: Vec<usize>,
-    /// The rigid motions of the model that move them.
+    /// The rigid motions of the model that move the pairs.
     motions: Vec<usize>,
     tied: Tied,
 }
