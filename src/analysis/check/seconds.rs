@@ -37,7 +37,8 @@ const CHANGES: [f64; 2] = [0.7, 0.17];
 /// Trailing solves of an elastoplastic increment: where the material hardens; where it has next to
 /// no stiffness left, in a contact that grows; and where all of it may yield.
 const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
-/// The same of an increment in which contact may change.
+/// Trailing solves of an elastoplastic increment in which contact may change, for the three
+/// materials of [`SOLVES`].
 const SOLVES_OF_LONG: [f64; 3] = [25.0, 60.0, 60.0];
 /// Plastic modulus over Youngs modulus below which material counts as soft in that sense.
 const SOFT: f64 = 0.1;

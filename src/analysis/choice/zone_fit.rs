@@ -71,8 +71,8 @@ impl ZoneFit {
 pub(in crate::analysis) struct Spread {
     /// Elements that may be predicted to yield.
     elements: Ascending,
-    /// Their elastic von Mises stress over yield stress at the largest load, and no less than what
-    /// it is at first yield lets expect there.
+    /// Elastic von Mises stress of these elements over yield stress at the largest load, no less
+    /// than the value that the stress at first yield predicts there.
     ratios: Vec<f64>,
     /// The largest load factor.
     pub(in crate::analysis) highest: f64,

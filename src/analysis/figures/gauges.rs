@@ -20,7 +20,7 @@ pub(in crate::analysis) struct Gauges {
 }
 
 impl Gauges {
-    /// Those that the scene asks for; `None` where it asks for none.
+    /// Gauges that the scene asks for; `None` where it asks for none.
     ///
     /// # Errors
     /// A set that the mesh does not have.

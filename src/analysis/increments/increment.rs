@@ -69,7 +69,7 @@ struct Iteration<'i, 'm> {
     t: f64,
     /// The iterate: equilibrium there with the initial loads so far.
     state: Equilibrium,
-    /// Its force out of balance, `J(u) - J`.
+    /// Force out of balance of the iterate, `J(u) - J`.
     balance: Trailing,
     /// What the material answered to the iterate, where a line search has asked it.
     known: Option<Evaluation>,

@@ -76,7 +76,7 @@ pub struct Attempt {
     pub state: Equilibrium,
     /// Material evaluations.
     pub iterations: usize,
-    /// Its out-of-balance force over the force scale.
+    /// Out-of-balance force of the last iterate over the force scale.
     pub residual: f64,
     /// What round-off leaves out of balance at the start of the increment, over the force scale.
     pub round_off: f64,

@@ -9,7 +9,7 @@ use crate::scene::{Program, Settings, Stepping};
 /// An accepted increment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct IncrementReport {
-    /// What ended it.
+    /// What ended the increment.
     pub event: String,
     /// Material evaluations.
     pub iterations: usize,

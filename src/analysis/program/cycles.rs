@@ -166,7 +166,8 @@ impl CycleRecord {
     }
 }
 
-/// The same of the elements of another zone: nothing of those that were in none.
+/// Plastic states of the elements of another zone, taken over from the zone before: zero in
+/// elements that were not in it.
 fn aligned(
     known: &[PlasticState<6>],
     from: &[usize],

@@ -99,7 +99,7 @@ impl Search {
 pub(super) struct FirstYield {
     /// Whether the material has yielded, so that increments are elastoplastic.
     pub(super) is_behind: bool,
-    /// Its load factor in the program's unit.
+    /// Load factor at first yield in the program's unit.
     pub(super) alpha: Option<f64>,
     /// Load factors between which the virgin structure is known to stay elastic.
     pub(super) elastic_range: [f64; 2],

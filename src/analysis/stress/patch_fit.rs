@@ -126,7 +126,7 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
         Some(fit.solve(&right))
     }
 
-    /// `G^-1 right`
+    /// Coefficients `G^-1 right` of the fit.
     #[inline(always)]
     pub fn solve(&self, right: &Terms) -> Terms {
         let (n, l) = (Self::N_TERMS, &self.factor);

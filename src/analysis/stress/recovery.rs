@@ -74,9 +74,9 @@ pub type Samples = Vec<f64>;
 pub struct Peak {
     /// Von Mises stress over initial yield stress.
     pub ratio: f64,
-    /// Coordinates.
+    /// Coordinates of the point.
     pub location: Vector,
-    /// Body.
+    /// Number of its body.
     pub body: usize,
 }
 

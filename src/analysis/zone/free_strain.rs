@@ -80,7 +80,7 @@ impl<const P: usize> FreeStrains<P> {
         }
     }
 
-    /// Bytes held.
+    /// Bytes of heap held.
     pub(in crate::analysis) fn bytes(&self) -> usize {
         let of_loads = self.of_loads.iter();
         of_loads
