@@ -51,9 +51,9 @@ const WITHOUT_LIMIT: usize = 2;
 pub struct Reached {
     /// The scene with the mesh and steps that were chosen.
     pub scene: Scene,
-    /// Its analysis, for the model and the mesh.
+    /// The analysis, with the model and the mesh.
     pub analysis: Analysis,
-    /// Its results with their errors.
+    /// The results with their errors.
     pub results: Results,
 }
 

@@ -30,7 +30,7 @@ pub(super) const LEAST_ORDER: f64 = 0.5;
 const ABOVE_FORMAL: f64 = 0.1;
 /// Factor of safety where the meshes show an order that is believed (Roache).
 const SAFETY: f64 = 1.25;
-/// The same where they do not (Roache).
+/// Factor of safety where the meshes show no order that is believed (Roache).
 const SAFETY_WITHOUT_ORDER: f64 = 3.0;
 /// Orders among which the best is sought, and steps between them: beyond, meshes show nothing of
 /// the order.

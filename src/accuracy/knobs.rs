@@ -47,7 +47,7 @@ pub enum Knob {
 }
 
 impl Knob {
-    /// All of them.
+    /// All knobs of a study.
     pub const ALL: [Knob; 7] = [
         Knob::Resolution,
         Knob::Element,
@@ -97,7 +97,7 @@ pub struct Setting {
     pub ratio: f64,
     /// The scene so set.
     pub scene: Scene,
-    /// The backend.
+    /// The backend that solves.
     pub backend: Backend,
 }
 
