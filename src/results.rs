@@ -113,13 +113,13 @@ pub struct Results {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Sizes {
-    /// Nodes.
+    /// Number of nodes.
     pub nodes: usize,
-    /// Elements.
+    /// Number of elements.
     pub elements: usize,
     /// Freedoms after supports.
     pub freedoms: usize,
-    /// Contact pairs.
+    /// Number of contact pairs.
     pub contact_pairs: usize,
     /// Freedoms of the plastic zone.
     pub zone_freedoms: usize,
@@ -177,7 +177,7 @@ pub struct Effect {
     pub on: bool,
     /// Whether the scene asks for it: one that is off all the same turned out to be nothing.
     pub asked: bool,
-    /// Why.
+    /// Why it is simulated or not.
     pub why: String,
     /// Seconds spent on it.
     pub seconds: f64,
@@ -185,7 +185,7 @@ pub struct Effect {
     pub memory_bytes: u64,
 }
 
-/// First yield.
+/// First yield: load, contact and place.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct YieldPoint {
     /// Factor on the scene's proportional loads at which the material first yields.
@@ -203,7 +203,7 @@ pub struct YieldPoint {
     pub half_width_reading: EdgeReading,
     /// Where: coordinates of the point.
     pub location: Vector,
-    /// Body index.
+    /// Index of the body that yields.
     pub body: usize,
 }
 
@@ -287,8 +287,9 @@ pub struct State {
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
     /// where fields are.
     pub energy_error: Option<f64>,
-    /// The same of the elements that touch a closed pair of contact or have yielded, where there
-    /// are any: how wrong pressures and strains there may be.
+    /// Estimated energy norm of the stress error over that of the stress, in the elements that
+    /// touch a closed pair of contact or have yielded, where there are any: how wrong pressures and
+    /// strains there may be.
     #[serde(default)]
     pub local_energy_error: Option<f64>,
     /// Relative approach of the bodies: the work of the loads that vary with the load factor on the
@@ -433,7 +434,7 @@ pub struct Demand {
     /// it.
     #[serde(deserialize_with = "number")]
     pub stated: f64,
-    /// That quantity.
+    /// Name of that quantity.
     #[serde(default)]
     pub worst: Option<String>,
     /// What was chosen, and why.
@@ -448,13 +449,13 @@ pub struct Demand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EstimateMethod {
-    /// The same scene on other meshes of the same family, coarser ones where the run is fine
+    /// Runs of the scene on other meshes of the same family, coarser ones where the run is fine
     /// enough: the error follows from how the values change (L. Eca, M. Hoekstra 2014,
     /// doi:10.1016/j.jcp.2014.01.006).
     CoarserMeshes,
     /// The energy norm of the recovered stress error: a rough figure, for large meshes from files.
     EnergyNorm,
-    /// Not at all.
+    /// No estimate was made.
     #[default]
     None,
 }
@@ -462,10 +463,10 @@ pub enum EstimateMethod {
 /// Another mesh of the same family.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Companion {
-    /// Its element size over that of the run.
+    /// Element size of this mesh over that of the run.
     #[serde(deserialize_with = "number")]
     pub ratio: f64,
-    /// Its freedoms.
+    /// Number of freedoms on this mesh.
     pub freedoms: usize,
     /// Seconds that its run took.
     #[serde(deserialize_with = "number")]
@@ -475,7 +476,7 @@ pub struct Companion {
 /// A reported quantity with its estimated errors, all absolute, in its own unit, and not negative.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct QuantityError {
-    /// Its path in `summary.json`; states by name: `states.NAME.KEY`.
+    /// Path of the quantity in `summary.json`; states by name: `states.NAME.KEY`.
     pub quantity: String,
     /// The reported value.
     #[serde(deserialize_with = "number")]

@@ -10,9 +10,9 @@ use crate::space::Space;
 /// digits.
 const SAME: f64 = 1e-6;
 
-/// A column.
+/// A column of a table, with a cell for each state.
 pub(crate) struct Column {
-    /// Its heading, in lines.
+    /// Heading of the column, in lines.
     pub heading: &'static str,
     /// The name of its unit; empty: none.
     pub unit: String,

@@ -23,7 +23,7 @@ pub enum CycleOutcome {
 }
 
 impl CycleOutcome {
-    /// In words.
+    /// The outcome in words.
     pub fn words(self) -> &'static str {
         match self {
             CycleOutcome::Elastic => "elastic",
@@ -35,11 +35,11 @@ impl CycleOutcome {
     }
 }
 
-/// A cycle.
+/// A cycle of the load and what it changed.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CycleRow {
-    /// Its number, from 1.
+    /// Number of the cycle, from 1.
     pub cycle: usize,
     /// The largest equivalent plastic strain that a point gained in it.
     #[serde(deserialize_with = "number")]
@@ -57,7 +57,7 @@ pub struct Cycles {
     pub outcome: CycleOutcome,
     /// The body whose plastic strain grew most in the last.
     pub body: Option<String>,
-    /// Each of them.
+    /// A row for each cycle.
     pub rows: Vec<CycleRow>,
 }
 

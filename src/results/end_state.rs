@@ -25,9 +25,9 @@ pub struct EndState {
 /// The model that left a state in the material, as far as the state has a meaning in another one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LeftBy {
-    /// Its kind: the components of strains and what holds between them.
+    /// Kind of the model: the components of strains and what holds between them.
     pub kind: Space,
-    /// Its bodies, in the order of the mesh.
+    /// Bodies of the model, in the order of the mesh.
     pub bodies: Vec<LeftByBody>,
 }
 

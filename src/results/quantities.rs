@@ -10,9 +10,9 @@ use super::{HistoryRow, PathPoint, Results, State, YieldPoint};
 pub enum Unit {
     /// Nothing: a factor, a count, a strain, a relative error.
     One,
-    /// A length.
+    /// A length, in units of the mesh.
     Length,
-    /// A stress.
+    /// A stress, in units of the moduli.
     Stress,
     /// What loads: a force, in the plane per length; where a stress loads, that.
     Load,
@@ -27,18 +27,18 @@ pub enum Unit {
 /// In which runs a quantity says something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
-    /// In all.
+    /// Runs of every kind.
     Always,
-    /// With contact.
+    /// Runs with contact.
     Contact,
-    /// Where the material yields.
+    /// Runs in which the material yields.
     Yielding,
-    /// With contact, where the material yields.
+    /// Runs with contact in which the material yields.
     YieldingContact,
 }
 
 impl Scope {
-    /// All of them.
+    /// All scopes, in their order.
     pub const ALL: [Scope; 4] = [
         Scope::Always,
         Scope::Contact,
@@ -60,9 +60,9 @@ impl Scope {
 /// Where a record keeps a quantity. Counts are numbers too; one that is not known is not a number.
 #[derive(Debug)]
 pub struct Field<Record> {
-    /// Reads it.
+    /// Reads the quantity.
     pub get: fn(&Record) -> f64,
-    /// Writes it, as a summary is read back.
+    /// Writes the quantity, as a summary is read back.
     pub(crate) set: fn(&mut Record, f64),
 }
 
@@ -85,10 +85,10 @@ pub struct Estimated {
     pub in_all: bool,
 }
 
-/// A quantity.
+/// A quantity that runs report: key, unit, places.
 #[derive(Debug)]
 pub struct Quantity {
-    /// Its key in `summary.json`, name of its column in the tables and in Python.
+    /// Key of the quantity in `summary.json`, name of its column in the tables and in Python.
     pub key: &'static str,
     /// What it is measured in.
     pub unit: Unit,
@@ -104,23 +104,23 @@ pub struct Quantity {
     pub twin: Option<&'static str>,
     /// How its error is estimated, if it is.
     pub estimated: Option<Estimated>,
-    /// At first yield.
+    /// Where it stands at first yield.
     pub at_yield: Option<Field<YieldPoint>>,
-    /// In a state.
+    /// Where it stands in a state.
     pub in_state: Field<State>,
-    /// In a row of the history.
+    /// Where it stands in a row of the history.
     pub in_history: Option<Field<HistoryRow>>,
-    /// On the path between two rows.
+    /// Where it stands on the path between two rows.
     pub on_path: Option<Field<PathPoint>>,
 }
 
 impl Quantity {
-    /// That of a key.
+    /// The quantity of a key.
     pub fn of(key: &str) -> Option<&'static Quantity> {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
 
-    /// Its value at a state or at first yield of a run.
+    /// Value of the quantity at a state or at first yield of a run.
     fn at(&self, place: &Place) -> Option<f64> {
         match place {
             Place::Yield(point) => Some((self.at_yield?.get)(point)),

@@ -45,9 +45,9 @@ impl Camera {
 
 /// The way up and the axes across it, towards the eye.
 pub(super) struct Stand {
-    /// Up.
+    /// Direction up, a unit vector.
     pub up: Vector,
-    /// Across.
+    /// Directions across the way up.
     pub across: [Vector; 2],
 }
 

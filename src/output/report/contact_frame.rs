@@ -28,7 +28,7 @@ const ROUND: f64 = 0.05;
 const ENDLESS: f64 = 2.0;
 
 impl ContactFrame {
-    /// That of some states; `None` where no patch carries force.
+    /// Frame of the contact over some states; `None` where no patch carries force.
     pub(super) fn new(model: &Model, states: &[State]) -> Option<Self> {
         let patches = || states.iter().flat_map(|state| &state.patches);
         let strongest = patches().max_by(|a, b| a.force.total_cmp(&b.force))?;

@@ -15,11 +15,11 @@ use plotters::prelude::SeriesLabelPosition;
 pub(super) struct Titled {
     /// Short name, for the file.
     pub name: String,
-    /// Heading.
+    /// Heading above the chart.
     pub title: String,
-    /// What is seen.
+    /// Caption: what the chart shows.
     pub caption: String,
-    /// The chart.
+    /// The chart itself.
     pub chart: Chart,
 }
 

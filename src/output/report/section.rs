@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 
 /// A plane through solids.
 pub(super) struct Cut {
-    /// A point of it.
+    /// A point of the plane.
     pub origin: Vector,
-    /// Its axes; their product points out of the drawing.
+    /// Axes of the plane; their product points out of the drawing.
     pub axes: [Vector; 2],
 }
 
