@@ -249,7 +249,7 @@ struct Largest {
     hertz: Hertz,
     /// First yield of the weaker body that may yield.
     first: Option<FirstYield>,
-    /// Force.
+    /// Largest contact force.
     force: f64,
     /// Half width that a target asks for.
     asked: f64,

@@ -33,10 +33,10 @@ pub trait Family: Sized {
     /// Why there is none near, in words.
     fn member(&self, ratio: f64) -> Result<(Self, f64), String>;
 
-    /// Its resolution, as a scene has it.
+    /// Resolution of the mesh, as a scene has it.
     fn words(&self) -> String;
 
-    /// The shape of its elements; `None` where a file decides.
+    /// Shape of the elements; `None` where a file decides.
     fn shape(&self) -> Option<Shape>;
 
     /// Takes another shape, where no file decides.
