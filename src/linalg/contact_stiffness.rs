@@ -44,7 +44,7 @@ impl ContactStiffness {
         self.place.len()
     }
 
-    /// The blocks.
+    /// The diagonal blocks, one after the other.
     pub fn blocks(&self) -> impl Iterator<Item = &ContactBlock> {
         self.blocks.iter()
     }

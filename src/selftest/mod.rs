@@ -30,7 +30,7 @@ use crate::scene::Scene;
 /// What a family of hard cases came to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// The family.
+    /// Name of the family.
     pub family: &'static str,
     /// What was measured.
     pub figure: &'static str,

@@ -13,7 +13,7 @@ use suitesparse_sys as sys;
 /// The system that [`Factor::solve`] solves.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum System {
-    /// `K x = b`.
+    /// The whole system `K x = b`.
     Whole,
     /// `L x = b`, b and x in the order of the factor.
     Lower,

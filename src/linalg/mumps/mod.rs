@@ -209,7 +209,8 @@ impl Trailing {
         })
     }
 
-    /// Their matrix, with the Schur complement of the interior: ones where it is not known yet.
+    /// Matrix of the trailing freedoms, with the Schur complement of the interior: ones where that
+    /// is not known yet.
     fn matrix(&self, schur: Option<Schur>) -> SymmetricCsc {
         upper_triangle(self.freedoms.len(), |add| {
             self.own.iter().copied().for_each(&mut *add);
@@ -278,9 +279,9 @@ impl Trailing {
 
 /// A dense symmetric matrix on some of the trailing freedoms.
 struct Schur {
-    /// Their numbers.
+    /// Numbers of these freedoms.
     freedoms: Vec<usize>,
-    /// By rows, the lower triangle holds; empty where all are unknown.
+    /// Entries by rows, of which the lower triangle holds; empty where all are unknown.
     values: Vec<f64>,
 }
 

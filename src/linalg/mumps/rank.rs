@@ -53,7 +53,7 @@ pub(super) struct Host {
     pub(super) place: Vec<c_int>,
     /// The variables that stay, from 1, as they come in the order.
     pub(super) kept: Vec<c_int>,
-    /// Their matrix.
+    /// Matrix of the variables that stay.
     pub(super) schur: Vec<f64>,
     /// A load, then the solution.
     pub(super) load: Vec<f64>,

@@ -21,9 +21,9 @@ unsafe extern "C" {
 /// This process among the ranks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct World {
-    /// Its number, from 0.
+    /// Number of this rank, from 0.
     pub rank: usize,
-    /// How many there are.
+    /// Number of ranks.
     pub size: usize,
 }
 

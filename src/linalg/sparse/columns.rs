@@ -33,7 +33,7 @@ pub(crate) struct Supernodes<'a> {
     pub(crate) value_starts: &'a [i64],
     /// Rows of all: those of a supernode ascend and begin with its own columns.
     pub(crate) rows: &'a [i64],
-    /// Values of all.
+    /// Values of all supernodes.
     pub(crate) values: &'a [f64],
 }
 
