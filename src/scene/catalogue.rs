@@ -56,7 +56,7 @@ impl Listed {
         found.map(|(_, listed)| listed)
     }
 
-    /// Its numbers by the key that a scene has for them, with unit and source.
+    /// Numbers of the material by the key that a scene has for them, with unit and source.
     pub fn figures(&self) -> Vec<(&'static str, &'static str, &Published)> {
         [
             ("youngs_modulus", "MPa", Some(&self.youngs_modulus)),

@@ -18,10 +18,10 @@ use std::borrow::Cow;
 pub struct MaterialRow {
     /// The temperature, on the scale of the bodies' `temperature`.
     pub temperature: f64,
-    /// E > 0.
+    /// Young's modulus, E > 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub youngs_modulus: Option<f64>,
-    /// -1 < nu < 0.5.
+    /// Poisson's ratio, -1 < nu < 0.5.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<f64>,
     /// Strain per change of temperature.
