@@ -139,7 +139,7 @@ pub(super) struct Sets {
     pub(super) surfaces: Named<Vec<(SurfacePart, Place)>>,
 }
 
-/// A material.
+/// A material with its curves by temperature.
 #[derive(Debug, Clone, Default)]
 pub(super) struct MaterialData {
     pub(super) place: Place,
@@ -177,9 +177,9 @@ pub(super) struct Interaction {
 /// Which nodes of a slave surface are moved onto the master surface.
 #[derive(Debug, Clone)]
 pub(super) enum Adjust {
-    /// Those within a distance.
+    /// Slave nodes within a distance of the master surface.
     Within(f64),
-    /// Those of a set.
+    /// Slave nodes of a set.
     Nodes(Target),
 }
 
@@ -249,11 +249,11 @@ pub(super) struct Rigid {
 /// Which nodes belong to a rigid body.
 #[derive(Debug, Clone)]
 pub(super) enum RigidNodes {
-    /// Of a set.
+    /// Nodes of a set of nodes.
     Set(String),
-    /// Of a set of elements.
+    /// Nodes of a set of elements.
     Elements(String),
-    /// Of a surface.
+    /// Nodes of a surface.
     Surface(String),
 }
 
@@ -377,7 +377,7 @@ pub(super) struct TimePoints {
     pub(super) is_total: bool,
 }
 
-/// A step.
+/// A step with its conditions.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Step {
     pub(super) place: Place,

@@ -43,7 +43,7 @@ impl Entry {
     }
 }
 
-/// Values by key.
+/// Values of a step, by their key.
 pub(super) type Map = BTreeMap<Key, Entry>;
 
 /// A step in time.

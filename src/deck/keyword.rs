@@ -11,11 +11,11 @@ const LONGEST: usize = 1 << 16;
 /// What is done with a keyword.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Use {
-    /// It is read.
+    /// The keyword is read.
     Read,
-    /// It is skipped: it changes nothing here, and why.
+    /// The keyword is skipped: it changes nothing here, and why.
     Ignored(&'static str),
-    /// It asks for something that brinell does not have, and what.
+    /// The keyword asks for something that brinell does not have, and what.
     Refused(&'static str),
 }
 

@@ -119,7 +119,7 @@ pub(super) struct OnFlat<'m> {
 }
 
 impl OnFlat<'_> {
-    /// The scene.
+    /// Text of the scene.
     pub fn text(&self, asked: &Asked) -> String {
         let name = self.name;
         let kind = match self.ball {

@@ -47,7 +47,7 @@ pub(in crate::cli) fn serve() -> Result<()> {
     })
 }
 
-/// Does one run.
+/// Runs a point, and returns how the run ended.
 fn answer(line: &str) -> Ended {
     let of = |error: &Error| {
         let (exit_code, text) = ending(error);
@@ -138,7 +138,7 @@ impl Worker {
         })
     }
 
-    /// Its process.
+    /// Number of the process.
     pub fn id(&self) -> u32 {
         self.child.id()
     }
