@@ -185,8 +185,8 @@ impl Substructure {
 
     /// The relative displacement `delta - gap` of the pairs without what rigid motions of floating
     /// bodies contribute to it, and the amplitude of each of these motions. Gaps that a body falls
-    /// through are taken off before the difference is formed: what deforms the bodies keeps its
-    /// digits beside them.
+    /// through are taken off before the difference is formed: small deformations of the bodies keep
+    /// their digits.
     pub(crate) fn split_slip(&self, delta: &[f64], gap: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let Some(tied) = &self.tied else {
             return (Vec::new(), Vec::new());

@@ -43,7 +43,8 @@ const MESHES: usize = 4;
 /// meshes agree by chance. Four in steps of [`STEP`] span 3.4 but for the rounding of counts; three
 /// of a file, each cut in halves, 4.
 const SPAN: f64 = 2.5;
-/// How often that is done: what more increments do not mend is not theirs.
+/// How often the increments are made finer: an error that more increments do not reduce has another
+/// source.
 const MORE_STEPS: usize = 3;
 /// Meshes in a row on which a quantity comes hardly nearer until it counts as without a limit.
 const WITHOUT_LIMIT: usize = 2;

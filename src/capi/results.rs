@@ -141,7 +141,7 @@ pub struct brinell_mesh {
     pub coordinates: *const f64,
     /// Nodes of all elements, one element after the other.
     pub connectivity: *const u32,
-    /// n_elements + 1 begins of the elements' nodes in the connectivity.
+    /// n_elements + 1 starts of the elements' nodes in the connectivity.
     pub offsets: *const usize,
     /// n_elements bodies.
     pub element_body: *const u32,

@@ -43,10 +43,10 @@ const ROUND_OFF: f64 = 1e-11;
 /// Events over which gaps, forces and their rates are carried along at least, each for the cost of
 /// a column; then they are solved for anew, so that round-off does not add up.
 const CARRIED: usize = 16;
-/// They may be as many as a share of the pairs, one to this number: a solution is a sum of that
-/// many terms itself.
+/// Events may be carried along over a share of the pairs, one to this number: a solution is a sum
+/// of that many terms itself.
 const PAIRS_PER_CARRIED: usize = 32;
-/// In place of their number where there are no rates yet.
+/// Number of events carried before any rates are known.
 const NEVER: usize = usize::MAX;
 /// Share of a tie by which a pair may be beyond its condition at the end of a piece: round-off of
 /// an event that is due there.

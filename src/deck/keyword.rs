@@ -5,7 +5,7 @@ use super::source::{Files, Line, Place, Source};
 use crate::error::{Error, Result};
 use crate::scene::closest;
 
-/// Keyword lines of more bytes than this are none.
+/// Most bytes of a line that is read as a keyword.
 const LONGEST: usize = 1 << 16;
 
 /// What is done with a keyword.

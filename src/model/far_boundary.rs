@@ -26,8 +26,8 @@ use std::collections::BTreeMap;
 /// the nodes: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
-/// A motion that was pinned: bodies take part in it as they deform, so that it is fitted beside
-/// those that are left.
+/// A rigid motion that was pinned. Bodies take part in it as they deform, so it is fitted together
+/// with the motions that are left.
 pub(super) struct StoppedMotion {
     pub part: usize,
     /// Displacement of the freedoms that move; a pinned one has the number of its pin behind those

@@ -88,7 +88,7 @@ impl Freedoms {
         turn_normals_into_supports(pairs, &supports);
         let mut normal_of = vec![None; n_nodes];
         for pair in pairs.iter() {
-            // A master that a support holds is an obstacle: its displacement is none.
+            // A master that a support holds is an obstacle: it does not move.
             let faced = pair.faced();
             let may_hold = scene
                 .contact

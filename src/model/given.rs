@@ -20,7 +20,8 @@ pub struct NodePair {
     pub gap: Option<f64>,
 }
 
-/// Beside a scene: pairs of a contact and nodal forces of a load, by the index of their entry.
+/// What is given in addition to a scene: pairs of a contact and nodal forces of a load, by the
+/// index of their entry.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(crate) struct Given {
     pub(super) pairs: BTreeMap<usize, Vec<NodePair>>,

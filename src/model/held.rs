@@ -101,7 +101,7 @@ pub struct Pin {
     pub node: usize,
 }
 
-/// Work of a load on a motion below this, relative to the sum of its parts, is none.
+/// Work below which a load does none on a motion, relative to the sum of its parts.
 const NO_WORK: f64 = 1e-9;
 /// Work below which a load does none on a motion that moves no pair by more than [`FREE`] of its
 /// own displacement, relative to the sum of its parts: the centre of a round surface is known no

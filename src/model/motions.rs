@@ -30,8 +30,8 @@ pub(super) struct Motions<'a> {
     nodes: Vec<Vec<usize>>,
 }
 
-/// A rigid motion of some groups: what it costs to handle is a matter of these, not of how many
-/// bodies there are beside them.
+/// A rigid motion of some groups. Its cost depends on these groups alone, not on how many other
+/// bodies there are.
 #[derive(Clone)]
 pub(super) struct Mode {
     /// Group and rigid motion, as `per_group * group + motion`, ascending; whole groups.

@@ -143,8 +143,9 @@ impl ContactSurface {
 }
 
 /// A pair on the axis of revolution whose slave belongs to a quadratic element. Its consistent
-/// force is zero whatever the pressure, so the condition that they keep apart has no weight: it is
-/// none of the model's pairs, and the pressure there is the even continuation of that beside it.
+/// force is zero whatever the pressure, so the condition that slave and master keep apart has no
+/// weight there. It is left out of the model's pairs, and the pressure there continues that of its
+/// neighbours evenly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisPoint {
     /// The slave, what it faces, and how far that is.
@@ -188,7 +189,7 @@ impl Entries<'_> {
         let nodes = surface::nodes(self.mesh, second)?;
         let outward = surface::normals(self.mesh, second, &nodes);
         let along: f64 = outward.iter().map(|n| dot(*n, normal)).sum();
-        // All around a ring the sum is nothing.
+        // All around a ring the sum vanishes.
         if along >= -0.5 * outward.len() as f64 {
             return Ok(());
         }

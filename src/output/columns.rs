@@ -28,8 +28,8 @@ pub(crate) fn cell(quantity: &Quantity, value: f64) -> String {
     }
 }
 
-/// The columns of states; a narrow table leaves out what is a detail, and the width and the
-/// approach where arcs or pressures at the pole stand beside them.
+/// The columns of states. A narrow table leaves out details, and leaves out the width and the
+/// approach where it shows arcs or pressures at the pole.
 pub(crate) fn of_states(
     states: &[State],
     labels: &Labels,

@@ -1,5 +1,5 @@
-//! VTK XML unstructured grids (`.vtu`) with appended raw binary data, what says of which pieces one
-//! is made (`.pvtu`), and collections (`.pvd`).
+//! VTK XML unstructured grids (`.vtu`) with appended raw binary data, the files that join pieces to
+//! one grid (`.pvtu`), and collections (`.pvd`).
 //!
 //! The head is XML; each array is a block of the appended section, at a byte offset counted from
 //! after its leading `_`:

@@ -100,7 +100,7 @@ pub struct Quantity {
     pub heading: &'static str,
     /// Whether narrow tables leave it out.
     pub is_detail: bool,
-    /// The key of one beside which its column would say the same twice where both are equal.
+    /// Key of the quantity that makes this column redundant where both are equal.
     pub twin: Option<&'static str>,
     /// How its error is estimated, if it is.
     pub estimated: Option<Estimated>,

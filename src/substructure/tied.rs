@@ -356,9 +356,9 @@ fn orthonormal(traces: &[Trace]) -> Vec<Trace> {
     out
 }
 
-/// Motions of the leaders (`leaders x motions`, independent ones) and the leaders that remain
-/// unknowns beside them: Gaussian elimination with complete pivoting picks for each motion the
-/// leader that distinguishes it best from the others.
+/// Motions of the leaders (`leaders x motions`, independent ones), and the leaders that remain
+/// unknowns: Gaussian elimination with complete pivoting picks for each motion the leader that
+/// distinguishes it best from the others.
 fn basis(rigid: &[Trace], rows: &Rows, part: &[usize]) -> (DMatrix<f64>, Vec<usize>) {
     let n = rows.lead.len();
     let mut all = DMatrix::zeros(n, rigid.len());

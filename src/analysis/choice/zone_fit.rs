@@ -22,7 +22,7 @@ pub(in crate::analysis) struct ZoneFit {
     pub(in crate::analysis) spread: Option<Spread>,
 }
 
-/// What another mesh lets expect of the stress.
+/// What a run on another mesh predicts of the stress.
 pub(in crate::analysis) struct Expected {
     /// Elastic von Mises stress over yield stress of each element at first yield and at the
     /// program's extreme loads, the larger one.

@@ -117,7 +117,7 @@ impl FirstYield {
     }
 }
 
-/// Where the way to a target starts: it is gone again where the zone was too small for it.
+/// Where the way to a target starts: it is taken anew if the zone was too small for it.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Start {
     pub(super) state: State,

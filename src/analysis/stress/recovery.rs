@@ -43,9 +43,9 @@ const CANDIDATE: f64 = 0.93;
 const FAR_BELOW: f64 = 0.85;
 /// Stresses closer than this share are equal.
 const TIE: f64 = 1e-9;
-/// Share of the stress, times the square of a spacing, that may lie beside the highest point of
-/// that spacing. A search at that spacing leaves the same of its square, and ends where that is no
-/// more than `gamma`: first yield is an event as changes of contact are.
+/// Share of the stress, times the square of a spacing, by which the stress next to the highest
+/// point of that spacing may exceed it. A search at that spacing leaves the same of its square, and
+/// ends where that is no more than `gamma`: first yield is an event as changes of contact are.
 const CURVATURE: f64 = 0.1;
 /// What a search at a spacing leaves, as a share of the stress.
 fn left_after(spacing: f64) -> f64 {

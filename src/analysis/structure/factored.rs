@@ -161,7 +161,7 @@ impl<'m> Structure<'m> {
         let (sub, gaps) = (&self.sub, &mut self.gaps);
         let interference: Vec<f64> = self.model.pairs.iter().map(|p| p.interference).collect();
         gaps.forces = [&gaps.initial, &interference].map(|v| sub.slip_forces(v));
-        // A load that is nothing stays nothing, without a solve.
+        // A load without forces stays zero, without a solve.
         let acts = |load: &Vec<f64>| load.iter().any(|force| *force != 0.0);
         let loads = self.system.loads.iter();
         let reduced = loads.map(|load| match acts(load) {

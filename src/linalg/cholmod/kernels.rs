@@ -102,8 +102,8 @@ pub(super) fn warn_of_slow_kernels() {
     });
 }
 
-/// What a library tells its user where OpenBLAS computes with less than the processor has; it
-/// cannot change that in a process that has begun.
+/// Warning for the user of a library where OpenBLAS computes with less than the processor has: a
+/// process that has started cannot change that.
 pub fn slow_kernels() -> Option<String> {
     let better = better_kernels()?;
     Some(format!(

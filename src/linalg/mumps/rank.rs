@@ -192,7 +192,7 @@ fn answer<T: Serialize>(value: &T) -> Vec<u8> {
     postcard::to_stdvec(value).unwrap_or_default()
 }
 
-/// Bytes that its limits leave to this rank, and its machine to all, beside the work buffer of the
+/// Bytes that its limits leave to this rank, and its machine to all, without the work buffer of the
 /// BLAS: MUMPS' calls would ask for that without end.
 fn left() -> [Option<f64>; 2] {
     let _entered = cholmod::enter_blas().ok();

@@ -73,7 +73,8 @@ pub(super) struct Analysed {
     pub(super) own_state: i32,
     /// Ordering that was taken, INFOG(7).
     pub(super) order: i32,
-    /// Bytes that the factor will take on this rank, and what stands beside it.
+    /// Bytes that the factorisation will take on this rank: its factor and what is held at the same
+    /// time.
     pub(super) needed: f64,
     /// Bytes that the limits of this rank leave, before it had its entries.
     pub(super) left_by_limits: Option<f64>,
