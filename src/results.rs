@@ -63,9 +63,9 @@ pub struct Results {
     pub first_yield: Option<YieldPoint>,
     /// One state per target reached, in the order of the program.
     pub states: Vec<State>,
-    /// Of a program of cycles, what they came to; the states are those of the last.
+    /// Outcome of the cycles, in a program that has them; the states are those of the last.
     pub cycles: Option<Cycles>,
-    /// Of a run on several ranks, what they did.
+    /// What each rank did, in a run on several ranks.
     pub ranks: Option<Ranks>,
     /// One row per accepted increment.
     pub history: Vec<HistoryRow>,
@@ -89,13 +89,11 @@ pub struct Results {
     /// asks for it (`analysis.condition`), a state is inaccurate, or the lower bound is beyond
     /// 1e10. It takes about six full solves.
     pub condition_estimate: Option<f64>,
-    /// States whose quality misses its tolerance, with the figure: these results are not to be
-    /// trusted.
+    /// States whose quality misses its tolerance, with the figure: results not to be trusted.
     pub inaccurate: Vec<String>,
     /// What the factorisation cost.
     pub factor: Prediction,
-    /// Reference values compared with computed ones, where they were compared (by
-    /// `reference::compare`).
+    /// Reference values and computed ones, where they were compared (by `reference::compare`).
     pub reference: Vec<ReferenceRow>,
     /// How wrong each figure may be, where it was estimated (by `accuracy::estimate`).
     pub accuracy: Option<Accuracy>,
@@ -148,7 +146,7 @@ pub struct Prediction {
     /// Bytes needed at the peak.
     #[serde(serialize_with = "whole", deserialize_with = "number")]
     pub memory_bytes: f64,
-    /// Of each rank of MPI, else empty; `memory_bytes` is the largest of them.
+    /// Bytes on each rank of MPI, else empty; `memory_bytes` is the largest of them.
     pub memory_by_rank: Vec<f64>,
 }
 
@@ -287,9 +285,8 @@ pub struct State {
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
     /// where fields are.
     pub energy_error: Option<f64>,
-    /// Estimated energy norm of the stress error over that of the stress, in the elements that
-    /// touch a closed pair of contact or have yielded, where there are any: how wrong pressures and
-    /// strains there may be.
+    /// [`State::energy_error`] of the elements that touch a closed pair or have yielded, where there
+    /// are any: how wrong pressures and strains there may be.
     #[serde(default)]
     pub local_energy_error: Option<f64>,
     /// Relative approach of the bodies: the work of the loads that vary with the load factor on the

@@ -116,8 +116,9 @@ fn wanted(scene: &Scene, elements: usize, can_be_read: impl Fn(f64) -> bool) -> 
     found.companions("subdivided, the mesh would take many times the run")
 }
 
-/// The nearest two coarser ones that take no more than [`QUICK`] of the run together with the path's
-/// on the coarser; those on which the contact can be read before those on which it cannot.
+/// The nearest two coarser meshes that take no more than [`QUICK`] of the run together with the
+/// estimate of the path's error on the coarser. Meshes on which the contact can be read come before
+/// meshes on which it cannot.
 fn cheap(scene: &Scene, can_be_read: impl Fn(f64) -> bool) -> Companions {
     let mut found = Found::new(scene);
     for ratio in COARSER {
@@ -194,8 +195,9 @@ impl<'s> Found<'s> {
     }
 }
 
-/// What a run on another mesh takes, in terms of the run: as its elements of a coarser one, which is
-/// an upper bound, as its factorisation of a finer one ([`work_of_finer`]).
+/// What a run on another mesh takes, as a share of the run: on a coarser mesh the share of the
+/// elements, which is an upper bound, on a finer mesh that of the factorisation
+/// ([`work_of_finer`]).
 fn share_of_run(scene: &Scene, ratio: f64) -> f64 {
     match ratio < 1.0 {
         true => work_of_finer(scene.kind, 1.0 / ratio),

@@ -104,8 +104,8 @@ struct Pursuit {
     /// Element sizes of the meshes so far over those of the scene, and the seconds they took.
     sequence: Vec<(f64, f64)>,
     choices: Vec<String>,
-    /// Of quantities beyond their demand: how often in a row they came hardly nearer, the last
-    /// error, and its mesh.
+    /// Quantities beyond their demand: how often in a row they came hardly nearer, the last error,
+    /// and its mesh.
     slow: BTreeMap<String, (usize, f64, f64)>,
     more_steps: usize,
     work: f64,

@@ -40,7 +40,7 @@ const TIGHT: f64 = 1e-9;
 /// Errors of the path.
 #[derive(Debug)]
 pub(super) enum PathErrors {
-    /// They were not estimated.
+    /// The errors were not estimated.
     Unknown,
     /// The path is exact.
     None,

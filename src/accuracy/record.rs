@@ -14,7 +14,7 @@ pub struct StudyRun {
     pub series: String,
     /// What was turned.
     pub knob: Knob,
-    /// What it was turned to, in words.
+    /// New value of the setting, in words.
     pub value: String,
     /// Element size over that of the scene.
     pub ratio: f64,

@@ -25,7 +25,7 @@ pub(super) struct Remaining {
 }
 
 impl Remaining {
-    /// Of a phase that is predicted to take this long.
+    /// Time remaining of a phase that is predicted to take this long.
     pub fn new(predicted: f64) -> Self {
         Remaining {
             predicted,

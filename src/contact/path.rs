@@ -30,7 +30,7 @@ pub enum Change {
 pub enum PathEnd {
     /// The end of the piece was reached without a change.
     Target,
-    /// These pairs are at the border of their condition; they are settled when the path goes on.
+    /// The pairs are at the border of their condition; they are settled when the path goes on.
     Event(Vec<Change>),
 }
 

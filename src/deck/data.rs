@@ -57,7 +57,7 @@ pub(super) enum Member {
     Of(Target),
     /// From, to, by steps of.
     Range(u64, u64, u64),
-    /// Of the nodes or elements of the deck those from one to before another.
+    /// Rows of the deck's nodes or elements, from one to before another.
     Rows(usize, usize),
     /// The nodes of an element set.
     NodesOf(String),
@@ -219,7 +219,7 @@ pub(super) struct Clearance {
 pub(super) struct Amplitude {
     /// Time and value.
     pub(super) rows: Vec<[f64; 2]>,
-    /// Of the time since the beginning of the first step, not of the step at hand.
+    /// Whether times count from the beginning of the first step, not of the step at hand.
     pub(super) is_total: bool,
 }
 
@@ -391,7 +391,7 @@ pub(super) struct Step {
     pub(super) outputs: Vec<OutputRequest>,
     /// When they are asked for, where it says so.
     pub(super) schedule: Option<Schedule>,
-    /// Where it is said that the conditions of each kind replace those of the steps before.
+    /// Place where the step says that conditions replace those of the steps before, for each kind.
     pub(super) renewed: [Option<Place>; Kind::COUNT],
 }
 

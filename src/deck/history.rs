@@ -271,7 +271,7 @@ impl Deck {
         Ok(whole)
     }
 
-    /// Of the first element, and so of all.
+    /// Dimension of the first element, and so of all.
     pub(super) fn dimension(&self) -> usize {
         let first = self.elements.types.first();
         first.map_or(3, |first| first.space.dimension())

@@ -27,7 +27,7 @@ pub struct ContactBlock {
 }
 
 impl ContactStiffness {
-    /// Of blocks that hold each of the freedoms `0..n_contact` once.
+    /// A matrix of blocks that hold each of the freedoms `0..n_contact` once.
     pub(crate) fn new(blocks: Vec<ContactBlock>) -> Self {
         let n = blocks.iter().map(|block| block.freedoms.len()).sum();
         let mut place = vec![(0, 0); n];

@@ -173,7 +173,7 @@ impl Curve {
         }
     }
 
-    /// What it is, in words.
+    /// Name of the curve, in words.
     pub fn name(&self) -> &'static str {
         match self {
             Curve::Line { .. } => "line",

@@ -75,7 +75,7 @@ impl Work {
         }
     }
 
-    /// That on a motion which has shares of others.
+    /// Work on a motion which has shares of others.
     pub fn combined(shares: impl Iterator<Item = (f64, Work)>) -> Self {
         shares.fold(Work::default(), |all, (share, own)| {
             all.and(share, own.sum, own.size)

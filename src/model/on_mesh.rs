@@ -13,7 +13,7 @@ use std::path::Path;
 /// A field with the mesh that it is read on.
 pub(super) struct OnMesh<'a> {
     mesh: &'a Mesh,
-    /// What it is the value of, for messages.
+    /// Name of the field, for messages.
     name: &'static str,
     values: Values<'a>,
 }

@@ -34,7 +34,7 @@ impl Opening {
         }
     }
 
-    /// Of nodes in the middle of edges, puts it in terms of their control points.
+    /// Restates the openings of nodes in the middle of edges in terms of their control points.
     pub(super) fn restate(&mut self, basis: &ContactBasis) {
         if let Opening::At(gaps) = self {
             let nodal = gaps.clone();

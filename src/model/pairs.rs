@@ -116,11 +116,11 @@ pub struct ContactSurface {
     /// In a solid model the pairs at the corners of each piece of a face of the slave surface, in
     /// order.
     pub faces: Vec<Vec<usize>>,
-    /// Of pieces that the other surface does not cover wholly, by their number: polygons that it
-    /// does cover.
+    /// Polygons that the other surface covers, for each piece that it does not cover wholly, by the
+    /// number of the piece.
     pub covered: BTreeMap<usize, Vec<Vec<Vector>>>,
-    /// Of pieces some of whose nodes face too little to be pairs: the pairs nearest in the face,
-    /// and polygons that the other surface covers.
+    /// Pieces some of whose nodes face too little to be pairs: the pairs nearest in the face, and
+    /// polygons that the other surface covers.
     pub slivers: Vec<(Vec<usize>, Vec<Vec<Vector>>)>,
     /// Arc lengths along the slave surface of a plane model between which the other surface covers
     /// it, where that is not known from the pairs.

@@ -23,7 +23,7 @@ pub(super) struct UnitNames {
     length: String,
     force: String,
     stress: String,
-    /// Of the total load.
+    /// Unit of the total load.
     load: String,
 }
 

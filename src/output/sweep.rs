@@ -34,7 +34,7 @@ pub(crate) struct Sweep {
     pub keys: Vec<String>,
     /// In the order of their values.
     pub points: Vec<Point>,
-    /// Where it is recorded: a share of the points has a file of its own.
+    /// File in which the sweep is recorded: a share of the points has a file of its own.
     #[serde(skip)]
     file: String,
 }

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub enum CycleOutcome {
     /// Nothing yields.
     Elastic,
-    /// It yields at first, and not any more.
+    /// The material yields at first, and not any more.
     ElasticShakedown,
     /// Plastic strains go to and fro, and come back in each cycle.
     PlasticShakedown,
@@ -53,7 +53,7 @@ pub struct CycleRow {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Cycles {
-    /// What they came to.
+    /// Outcome of the cycles.
     pub outcome: CycleOutcome,
     /// The body whose plastic strain grew most in the last.
     pub body: Option<String>,
@@ -62,7 +62,7 @@ pub struct Cycles {
 }
 
 impl Cycles {
-    /// What they came to, in a sentence.
+    /// Outcome of the cycles, in a sentence.
     #[cfg(feature = "report")]
     pub fn told(&self) -> String {
         let last = self.last();

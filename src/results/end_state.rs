@@ -18,7 +18,7 @@ pub struct EndState {
     pub back_strains: Vec<[f64; 6]>,
     /// Work per volume that was lost with them at each point; empty where there are none.
     pub lost_work: Vec<f64>,
-    /// What it belongs to.
+    /// Model that left this state.
     pub left_by: Option<LeftBy>,
 }
 

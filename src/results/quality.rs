@@ -40,11 +40,12 @@ pub struct Quality {
 /// What a state's quality may be before its result counts as inaccurate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
-    /// Of [`Quality::backward_error`].
+    /// Tolerance of [`Quality::backward_error`].
     pub backward_error: f64,
-    /// Of [`Quality::equilibrium`].
+    /// Tolerance of [`Quality::equilibrium`].
     pub equilibrium: f64,
-    /// Of [`Quality::complementarity`], [`Quality::penetration`] and [`Quality::adhesion`].
+    /// Tolerance of [`Quality::complementarity`], [`Quality::penetration`] and
+    /// [`Quality::adhesion`].
     pub contact: f64,
     /// What [`Quality::round_off`] may widen those of forces to, and no further.
     pub loosest: f64,

@@ -90,11 +90,11 @@ pub struct Estimated {
 pub struct Quantity {
     /// Key of the quantity in `summary.json`, name of its column in the tables and in Python.
     pub key: &'static str,
-    /// What it is measured in.
+    /// Unit of the quantity.
     pub unit: Unit,
     /// Whether it is a count.
     pub is_count: bool,
-    /// Where it says something.
+    /// Runs in which the quantity is meant.
     pub scope: Scope,
     /// Heading of its column in the tables for readers, in lines; empty: it is in none.
     pub heading: &'static str,
@@ -104,13 +104,13 @@ pub struct Quantity {
     pub twin: Option<&'static str>,
     /// How its error is estimated, if it is.
     pub estimated: Option<Estimated>,
-    /// Where it stands at first yield.
+    /// The quantity at first yield.
     pub at_yield: Option<Field<YieldPoint>>,
-    /// Where it stands in a state.
+    /// The quantity in a state.
     pub in_state: Field<State>,
-    /// Where it stands in a row of the history.
+    /// The quantity in a row of the history.
     pub in_history: Option<Field<HistoryRow>>,
-    /// Where it stands on the path between two rows.
+    /// The quantity on the path between two rows.
     pub on_path: Option<Field<PathPoint>>,
 }
 

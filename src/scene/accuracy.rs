@@ -18,7 +18,7 @@ fn demanded() -> impl Iterator<Item = (&'static str, &'static str)> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "String")]
 pub struct AccuracyDemand {
-    /// Of quantities that are not named; `None` where some are.
+    /// Demand on quantities that are not named; `None` where some are.
     all: Option<f64>,
     /// By key or path.
     named: BTreeMap<String, f64>,

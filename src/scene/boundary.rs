@@ -211,7 +211,7 @@ pub struct Load {
     /// nodes of the slaves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap: Option<Field>,
-    /// How it depends on the load factor.
+    /// Dependence of the load on the load factor.
     #[serde(default)]
     pub history: History,
 }

@@ -15,7 +15,7 @@ pub struct Published(pub f64, pub String);
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Listed {
-    /// What it is, and for which pieces its yield stress holds.
+    /// Description of the material, and for which pieces its yield stress holds.
     pub what: String,
     /// Young's modulus.
     pub youngs_modulus: Published,

@@ -133,7 +133,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// What it brings along, by key.
+    /// Stresses and strains that the body brings along, by key.
     pub(crate) fn brought_along(&self) -> impl Iterator<Item = (&'static str, &Vec<Vec<f64>>)> {
         let given = [
             ("initial_stress", &self.initial_stress),

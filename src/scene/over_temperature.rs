@@ -54,7 +54,7 @@ impl MaterialRow {
 }
 
 impl Material {
-    /// What it is at a temperature: without rows.
+    /// The material at a temperature: without rows.
     pub fn at(&self, temperature: f64) -> Material {
         let of = |value: fn(&MaterialRow) -> Option<f64>| {
             let rows = self.over_temperature.iter();

@@ -29,7 +29,7 @@ pub struct Reference {
     pub body: Option<String>,
     /// The single value.
     pub value: Option<f64>,
-    /// Where it comes from.
+    /// Source of the reference value.
     pub source: Option<String>,
 }
 

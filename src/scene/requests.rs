@@ -62,7 +62,7 @@ pub struct Print {
     pub totals: Totals,
     /// Whether vectors are along x, y, z also where a node has axes of its own.
     pub is_global: bool,
-    /// Of the force through a surface its faces: the number of the element, and its local facet
+    /// Faces of the force through a surface: the number of the element, and its local facet
     /// ([`crate::mesh::Facet::local`]). Empty otherwise.
     pub faces: Arc<Vec<(u64, u8)>>,
 }

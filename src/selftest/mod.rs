@@ -38,7 +38,7 @@ pub struct Row {
     pub cases: usize,
     /// The worst figure; infinite where a case did not run.
     pub worst: f64,
-    /// What it may be at most.
+    /// Largest figure that is allowed.
     pub bound: f64,
     /// Where the bound comes from.
     pub source: &'static str,

@@ -15,7 +15,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(in crate::analysis) struct Gauges {
     /// Nodes of each set.
     sets: Vec<Vec<usize>>,
-    /// Of each contact, how far its bodies have come together.
+    /// Approach of the bodies of each contact.
     approaches: Vec<Option<Approach>>,
 }
 

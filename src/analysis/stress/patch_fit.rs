@@ -30,7 +30,7 @@ pub const fn n_terms(variables: usize, degree: usize) -> usize {
 /// Coordinates about an element, of order 1 in it.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<const D: usize> {
-    /// Where they vanish.
+    /// Point at which the coordinates vanish.
     pub center: [f64; D],
     /// Extents of the element.
     pub scale: [f64; D],

@@ -82,13 +82,13 @@ pub struct Peak {
 
 /// Samples and recovers stresses in the elements that may yield.
 pub enum Recovery {
-    /// Of a plane or axisymmetric model.
+    /// Recovery in a plane or axisymmetric model.
     Plane(Box<RecoveryOf<2, 4, 4, 8>>),
-    /// Of a solid one.
+    /// Recovery in a solid.
     Solid(Box<RecoveryOf<3, 6, 8, 20>>),
-    /// Of a plane or axisymmetric model with a fully integrated body.
+    /// Recovery in a plane or axisymmetric model with a fully integrated body.
     FullPlane(Box<RecoveryOf<2, 4, 9, 8>>),
-    /// Of a solid one.
+    /// Recovery in a solid with a fully integrated body.
     FullSolid(Box<RecoveryOf<3, 6, 27, 20>>),
 }
 

@@ -38,7 +38,7 @@ impl From<&EndState> for History {
 }
 
 impl History {
-    /// What it leaves in the given elements, whose points these are.
+    /// State that the history leaves in the given elements, whose points these are.
     pub fn end_state(&self, elements: &[usize]) -> EndState {
         let mut out = EndState::default();
         let stride = self.points.len() / elements.len().max(1);

@@ -28,7 +28,7 @@ const TRIPLET: f64 = 16.0;
 
 /// Variables, order and size of a factor that is not computed yet.
 pub(super) struct Analysis {
-    /// Of the order, for reports.
+    /// Name of the order, for reports.
     pub(super) order_name: &'static str,
     variables: Variables,
     factor: Factor,
@@ -100,7 +100,7 @@ impl Variables {
         }
     }
 
-    /// Of each freedom, from 1; 0 for none.
+    /// Number of each freedom among the variables, from 1; 0 for none.
     fn numbers(&self, n: usize) -> Vec<i32> {
         let mut numbers = vec![0; n];
         for (k, &freedom) in self.freedoms.iter().enumerate() {
@@ -240,7 +240,7 @@ impl Analysis {
         self.host.kept.iter().map(trailing).collect()
     }
 
-    /// That each rank, and all of a machine together, have the memory that they need.
+    /// Checks that each rank, and all ranks of a machine together, have the memory that they need.
     pub(super) fn require_memory(&self, needed: &[f64]) -> Result<()> {
         require_memory(needed, &self.by_rank)
     }

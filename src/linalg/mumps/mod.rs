@@ -152,7 +152,7 @@ pub fn predict_shared(matrix: &Shared, partition: &Partition) -> Result<Predicti
 struct Trailing {
     /// Zone and contact freedoms, ascending; the last freedom where there is none.
     freedoms: Vec<usize>,
-    /// Of these, by their places among themselves.
+    /// Partition of these freedoms, by their places among themselves.
     partition: Partition,
     /// Entries between them.
     own: Vec<Entry>,
@@ -448,7 +448,7 @@ impl Condensed for MumpsCondensed {
         self.cost.clone()
     }
 
-    /// Of the trailing freedoms: MUMPS does not tell its pivots.
+    /// Weakest pivot of the trailing freedoms: MUMPS does not report its pivots.
     fn weakest_pivot(&self) -> Pivot {
         self.weakest
     }

@@ -42,9 +42,9 @@ pub type Evaluate = fn(&[u8]) -> Result<Vec<u8>>;
 /// What a rank adds to what it is asked.
 #[derive(Default)]
 pub(super) struct Host {
-    /// How it makes columns of a matrix.
+    /// Function that makes the rank's columns of a matrix.
     pub(super) assemble: Option<Assemble>,
-    /// How it answers the program.
+    /// Function that answers the program.
     pub(super) evaluate: Option<Evaluate>,
     // What the first rank alone hands to MUMPS.
     /// Number of variables.
@@ -72,7 +72,7 @@ struct Kept {
     matrices: BTreeMap<usize, Columns>,
     /// The trailing freedoms of each matrix.
     trailing: BTreeMap<usize, Vec<bool>>,
-    /// Of factors that are not computed yet.
+    /// Entries of factors that are not computed yet.
     entries: BTreeMap<usize, Entries>,
 }
 

@@ -31,7 +31,7 @@ pub(super) struct Curve {
     pub label: String,
     /// Number of its colour; `None`: faint.
     pub color: Option<usize>,
-    /// How it is drawn.
+    /// Line and dots that draw the curve.
     pub pen: Pen,
     /// Points of the curve, in order.
     pub points: Vec<[f64; 2]>,

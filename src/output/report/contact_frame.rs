@@ -22,7 +22,7 @@ pub(super) struct ContactFrame {
     pub reach: [f64; 2],
 }
 
-/// Of half axes that differ by less than this share the direction says nothing.
+/// Share by which half axes differ at least for their direction to mean something.
 const ROUND: f64 = 0.05;
 /// How many times longer than wide a patch without end counts as.
 const ENDLESS: f64 = 2.0;

@@ -60,7 +60,7 @@ impl Quantity {
 pub(super) struct View {
     /// Short name, for files; may be empty.
     pub name: &'static str,
-    /// What it is, for captions; may be empty.
+    /// Description of the plane, for captions; may be empty.
     pub words: String,
     /// Triangles of the plane, mirror images included.
     pub patchwork: Patchwork,
