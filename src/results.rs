@@ -171,7 +171,7 @@ pub const LOADS_FOUND: &str = "loads found";
 pub struct Effect {
     /// `contact`, `plasticity`, `interference`, `floating bodies`, ...
     pub name: String,
-    /// Whether it is simulated.
+    /// Whether the effect is simulated.
     pub on: bool,
     /// Whether the scene asks for it: one that is off all the same turned out to be nothing.
     pub asked: bool,

@@ -27,7 +27,7 @@ impl Components {
         self.count
     }
 
-    /// Each component, as many as are given.
+    /// The components, as many as are given.
     pub fn iter(&self) -> impl Iterator<Item = f64> {
         self.vector.into_iter().take(self.count)
     }

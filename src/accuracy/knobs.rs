@@ -91,7 +91,7 @@ pub struct Setting {
     pub series: String,
     /// What is turned.
     pub knob: Knob,
-    /// To what, in words: what `--set` takes where there is such a key.
+    /// New value of the setting, in words: what `--set` takes where there is such a key.
     pub value: String,
     /// Element size over that of the scene.
     pub ratio: f64,

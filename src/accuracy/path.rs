@@ -32,7 +32,7 @@ const FEWEST: usize = 8;
 const ORDER: f64 = 1.5;
 /// Path error of increments that are twice as long, over that of the increments.
 const TWICE_AS_LONG: f64 = 4.0;
-/// By how much tolerances are changed.
+/// Factor by which tolerances are changed.
 const FACTOR: f64 = 100.0;
 /// Tolerances below this are made looser, not tighter: [`FACTOR`] below them lies round-off.
 const TIGHT: f64 = 1e-9;
@@ -44,7 +44,7 @@ pub(super) enum PathErrors {
     Unknown,
     /// The path is exact.
     None,
-    /// By quantity, absolute.
+    /// Absolute errors by quantity.
     Estimated(BTreeMap<String, f64>),
 }
 

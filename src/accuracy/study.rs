@@ -43,13 +43,13 @@ impl Default for Plan {
 pub struct Study {
     /// The runs, in the order in which they were made.
     pub runs: Vec<StudyRun>,
-    /// Each quantity: reference, errors, orders, prices.
+    /// The quantities: reference, errors, orders, prices of each.
     pub quantities: Vec<QuantityStudy>,
     /// What was left out, and why.
     pub left_out: Vec<String>,
     /// Seconds that the study took.
     pub seconds: f64,
-    /// Whether it was stopped before its end.
+    /// Whether the study was stopped before its end.
     pub stopped: bool,
 }
 

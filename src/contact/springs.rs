@@ -58,7 +58,7 @@ impl Springs {
         &self.pairs
     }
 
-    /// Whether they may be springs on pairs of one of its groups.
+    /// Whether these springs may act on pairs of a group of the matrix.
     pub(crate) fn fit(&self, matrix: &PairMatrix) -> bool {
         let of_pairs = |direction: &Vec<f64>| direction.len() == self.pairs.len();
         let group = |k: usize| (k < matrix.len()).then(|| matrix.place(k).0);

@@ -24,7 +24,7 @@ const SHARED: usize = 512;
 /// A matrix and the pivots that wait.
 #[derive(Debug, Clone)]
 pub(super) struct Swept {
-    /// Without the pivots that wait.
+    /// The matrix without the pivots that wait.
     matrix: DMatrix<f64>,
     waiting: Vec<Pivot>,
     /// Columns of pivots that were applied, for the next ones.

@@ -347,7 +347,7 @@ pub(super) enum Group {
 #[derive(Debug, Clone)]
 pub(super) struct OutputRequest {
     pub(super) group: Group,
-    /// For tables, instead of the result file.
+    /// Whether the request is for a table, not for the result file.
     pub(super) is_print: bool,
     pub(super) items: Vec<ResultItem>,
     /// The set of nodes or elements, of a section its surface; all where none is named.
@@ -365,7 +365,7 @@ pub(super) struct OutputRequest {
 pub(super) enum Schedule {
     /// Every so many increments.
     Every(usize),
-    /// At the time points of this name.
+    /// Results at the time points of this name.
     At(String),
 }
 

@@ -227,7 +227,7 @@ const KEYWORDS: &[(&str, Use)] = &[
 /// A keyword line.
 #[derive(Debug, Clone)]
 pub(super) struct Keyword {
-    /// As it is written in the table above, or in the deck where it is in none.
+    /// Name as it is written in the table above, or in the deck where it is in none.
     pub(super) name: String,
     /// Names in capitals, without blanks; values as they are written.
     parameters: Vec<(String, Option<String>)>,

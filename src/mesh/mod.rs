@@ -154,7 +154,7 @@ impl Mesh {
         in_words(self.point(node), self.dimension)
     }
 
-    /// Whether it is of three dimensions.
+    /// Whether the mesh is of three dimensions.
     pub fn is_solid(&self) -> bool {
         self.dimension == 3
     }

@@ -38,7 +38,7 @@ pub(super) struct StoppedMotion {
 /// What the motions of bodies are measured on.
 pub(super) struct FarBoundary<'a> {
     pub part_of_node: &'a [usize],
-    /// Each node's share in the volume.
+    /// Share of each node in the volume.
     pub volumes: Vec<f64>,
     pub freedoms: &'a Freedoms,
     pub stopped: Vec<StoppedMotion>,
@@ -120,7 +120,7 @@ impl FarBoundary<'_> {
     }
 }
 
-/// Each node's share in the volume of its elements: equal ones, which no node's is below zero.
+/// Share of each node in the volume of its elements: equal shares, none of which is below zero.
 pub(crate) fn volumes_of_nodes(space: Space, mesh: &Mesh) -> Vec<f64> {
     let mut out = vec![0.0; mesh.n_nodes()];
     for (element, &shape) in mesh.shapes.iter().enumerate() {

@@ -60,7 +60,7 @@ pub(super) struct Partner {
 /// digit.
 const UNIT: f64 = 4.0 * f64::EPSILON;
 
-/// For each node of the second surface its partner. `normals` are the outward normals of the second
+/// Partner of each node of the second surface. `normals` are the outward normals of the second
 /// surface.
 ///
 /// # Errors

@@ -31,7 +31,7 @@ pub struct FreeStrain {
 }
 
 impl FreeStrain {
-    /// Whether it is zero everywhere.
+    /// Whether the free strain is zero everywhere.
     pub(super) fn is_none(&self) -> bool {
         self.nodal.iter().all(|strain| *strain == 0.0)
     }

@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 /// Bodies that supports alone do not hold.
 #[derive(Debug, Clone, Default)]
 pub struct FloatingBodies {
-    /// For each contact freedom: whether it belongs to a floating body.
+    /// Whether each contact freedom belongs to a floating body.
     pub of_contact: Vec<bool>,
     /// Names of the floating bodies.
     pub bodies: Vec<String>,
@@ -24,8 +24,8 @@ pub struct FloatingBodies {
     pub pins: Vec<Pin>,
     /// Rigid motions that supports and pins leave free: a basis.
     pub motions: Vec<RigidMotion>,
-    /// For each contact freedom: the part of the model (bodies that share nodes or free motions)
-    /// that it belongs to.
+    /// Part of the model (bodies that share nodes or free motions) that each contact freedom
+    /// belongs to.
     pub part_of_contact: Vec<usize>,
 }
 
@@ -67,7 +67,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// With `share` of another one of this sum and size.
+    /// This work with `share` of another of this sum and size.
     fn and(self, share: f64, sum: f64, size: f64) -> Self {
         Work {
             sum: self.sum + share * sum,

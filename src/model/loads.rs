@@ -84,7 +84,7 @@ impl LoadCase {
             .sum()
     }
 
-    /// Whether it changes anything at factor 1.
+    /// Whether the load changes anything at factor 1.
     pub(crate) fn acts(&self) -> bool {
         match self.measures {
             Magnitude::Displacement => self.magnitude != 0.0,

@@ -266,7 +266,7 @@ impl Model {
         Ok(model)
     }
 
-    /// For each contact freedom: whether it is the motion of a rigid surface.
+    /// Whether each contact freedom is the motion of a rigid surface.
     pub(crate) fn rigid_contact(&self) -> Vec<bool> {
         let owner = |&freedom: &usize| self.freedoms.owners[freedom].0 as usize;
         let nodes = self.rows.freedoms.iter().map(owner);

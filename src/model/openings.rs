@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::scene::{Field, Load, Scene};
 use std::collections::BTreeMap;
 
-/// By how much a load at factor 1 takes the surfaces of a contact apart.
+/// Distance by which a load at factor 1 takes the surfaces of a contact apart.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Opening {
     /// One opening for the whole contact.

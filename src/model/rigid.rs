@@ -46,7 +46,7 @@ pub(super) struct RigidBody {
 enum Motion {
     /// The surface does not move.
     Held,
-    /// By a prescribed displacement along these axes.
+    /// A prescribed displacement along these axes.
     Given([bool; 3]),
     /// Freely along a direction.
     Free(Vector),

@@ -169,7 +169,7 @@ pub(crate) fn in_line(heading: &str) -> String {
     heading.replace("-\n", "").replace('\n', " ")
 }
 
-/// With a capital first letter.
+/// The text with a capital first letter.
 #[cfg(feature = "report")]
 pub(crate) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();

@@ -46,8 +46,8 @@ impl EndState {
         self.elements.is_empty()
     }
 
-    /// Whether it is one of elements of a mesh whose elements have `stride` places for points, and
-    /// its parts fit each other.
+    /// Whether the state is one of elements of a mesh whose elements have `stride` places for
+    /// points, and its parts fit each other.
     pub(crate) fn is_of(&self, n_elements: usize, stride: usize) -> bool {
         let n = self.elements.len() * stride;
         let ascends = self.elements.windows(2).all(|pair| pair[0] < pair[1]);

@@ -79,7 +79,7 @@ impl<Record> Copy for Field<Record> {}
 pub struct Estimated {
     /// A short name, for demands on it.
     pub short: &'static str,
-    /// Whether it is that of single Gauss points, which a mesh reaches with first order.
+    /// Whether the quantity is one of single Gauss points, which a mesh reaches with first order.
     pub is_of_points: bool,
     /// Whether a demand on all quantities is one on it.
     pub in_all: bool,
@@ -92,7 +92,7 @@ pub struct Quantity {
     pub key: &'static str,
     /// Unit of the quantity.
     pub unit: Unit,
-    /// Whether it is a count.
+    /// Whether the quantity is a count.
     pub is_count: bool,
     /// Runs in which the quantity is meant.
     pub scope: Scope,
@@ -175,7 +175,7 @@ macro_rules! entry {
     };
 }
 
-/// With an estimated error.
+/// The entry of a quantity whose error is estimated.
 const fn error(short: &'static str, is_of_points: bool, in_all: bool) -> Option<Estimated> {
     Some(Estimated {
         short,

@@ -96,7 +96,7 @@ pub enum SlaveSide {
 }
 
 impl SlaveSide {
-    /// Whether it is left open.
+    /// Whether the side is left open.
     pub(crate) fn is_auto(&self) -> bool {
         *self == SlaveSide::Auto
     }
@@ -217,7 +217,7 @@ pub struct Load {
 }
 
 impl Load {
-    /// Whether it acts on the volume of a body, which `on` then names.
+    /// Whether the load acts on the volume of a body, which `on` then names.
     pub fn acts_on_volume(&self) -> bool {
         self.acceleration.is_some() || self.rotation.is_some() || self.temperature.is_some()
     }

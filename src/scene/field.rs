@@ -62,7 +62,7 @@ impl fmt::Display for Field {
 pub struct VectorField(Vec<Field>);
 
 impl VectorField {
-    /// Each component, as many as are given.
+    /// The components, as many as are given.
     pub fn iter(&self) -> std::slice::Iter<'_, Field> {
         self.0.iter()
     }

@@ -65,7 +65,7 @@ pub enum Formulation {
 }
 
 impl Formulation {
-    /// Whether it is the usual one.
+    /// Whether the formulation is the usual one.
     pub(crate) fn is_mean(&self) -> bool {
         *self == Formulation::Mean
     }

@@ -42,7 +42,7 @@ pub struct MaterialRow {
 }
 
 impl MaterialRow {
-    /// Whether it says anything.
+    /// Whether the row gives no property.
     pub(crate) fn is_empty(&self) -> bool {
         let temperature = self.temperature;
         *self

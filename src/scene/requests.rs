@@ -137,7 +137,7 @@ impl ResultItem {
         ResultItem::Contact,
     ];
 
-    /// Whether it follows from values at integration points.
+    /// Whether the result follows from values at integration points.
     pub fn needs_points(self) -> bool {
         use ResultItem::{PlasticStrain, Section, Stress, StressJump, TotalStrain};
         matches!(

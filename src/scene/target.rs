@@ -92,7 +92,7 @@ impl TargetFigure {
         }
     }
 
-    /// Whether it is one of a contact, of which one may be meant.
+    /// Whether the figure is one of a contact, of which one may be meant.
     pub fn is_of_contact(self) -> bool {
         matches!(
             self,

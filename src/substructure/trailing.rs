@@ -6,9 +6,9 @@ use crate::linalg;
 /// [`crate::model::ContactRows::freedoms`].
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Trailing {
-    /// On the zone freedoms.
+    /// Values on the zone freedoms.
     pub zone: Vec<f64>,
-    /// On the contact freedoms.
+    /// Values on the contact freedoms.
     pub contact: Vec<f64>,
 }
 

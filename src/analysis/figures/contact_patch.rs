@@ -33,7 +33,7 @@ struct EdgeTail {
     way: isize,
     /// Arc length of the middle of the contact.
     middle: f64,
-    /// To the first open pair.
+    /// Distance from the last closed pair to the first open one.
     spacing: f64,
     /// Distances from the middle between which the edge lies.
     bracket: [f64; 2],
@@ -109,7 +109,7 @@ impl Patch<'_> {
         next.then_some(axis)
     }
 
-    /// Whether it takes up all of a surface.
+    /// Whether the patch takes up all of a surface.
     pub(super) fn is_whole(&self) -> bool {
         self.begin == 0 && self.end == self.line.len()
     }

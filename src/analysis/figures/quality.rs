@@ -42,7 +42,7 @@ pub(in crate::analysis) fn tolerances(model: &Model) -> Tolerances {
 pub(in crate::analysis) struct Displacements {
     /// The whole displacements, rigid motions included.
     pub total: Vec<f64>,
-    /// Without the rigid motions of floating bodies; `None` where there are none.
+    /// Displacements without the rigid motions of floating bodies; `None` where there are none.
     deformation: Option<Vec<f64>>,
     /// Largest `|f - K u|` of the deformation.
     residual: f64,

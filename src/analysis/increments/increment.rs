@@ -81,7 +81,7 @@ struct Iteration<'i, 'm> {
     best: (f64, usize),
     /// Share by which Newton's tangent is damped towards the elastic stiffness.
     damping: f64,
-    /// By how much the change of state was stretched since its loads were eliminated.
+    /// Factor by which the change of state was stretched since its loads were eliminated.
     stretched: f64,
     /// Whether round-off may still decide that forces balance.
     may_settle: bool,

@@ -57,7 +57,8 @@ pub(in crate::analysis) enum Purpose {
 pub(super) enum Stage {
     /// Constant loads and interference are applied.
     Preload {
-        /// For the second time, now watched for yield from its start.
+        /// Whether the preload is applied for the second time, now watched for yield from its
+        /// start.
         again: bool,
     },
     /// Target after target is reached.

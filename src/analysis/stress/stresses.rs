@@ -38,8 +38,8 @@ pub(in crate::analysis) struct Stresses {
 }
 
 impl Stresses {
-    /// For the stresses of all elements and the factors of the loads; of what has yielded nothing
-    /// yet.
+    /// Sums for the stresses of all elements at these factors of the loads; nothing that yielded is
+    /// counted yet.
     pub(in crate::analysis) fn new(
         model: &Model,
         of_elements: ElementStresses,

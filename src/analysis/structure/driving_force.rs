@@ -41,8 +41,8 @@ pub(super) struct DrivingForce {
 }
 
 impl DrivingForce {
-    /// For the leading load of a structure whose loads are condensed; `None` where that one
-    /// prescribes no displacement. Costs about half a full solve.
+    /// Driving force of the leading load of a structure whose loads are condensed; `None` where
+    /// that load prescribes no displacement. Costs about half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.

@@ -35,7 +35,7 @@ impl EliminatedLoad {
         }
     }
 
-    /// Whether it is one of a structure with the same freedoms and pairs.
+    /// Whether both loads are of structures with the same freedoms and pairs.
     pub fn is_like(&self, other: &EliminatedLoad) -> bool {
         let mut parts = self.parts().into_iter().zip(other.parts());
         parts.all(|(own, other)| own.len() == other.len())

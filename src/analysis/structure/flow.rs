@@ -48,7 +48,7 @@ impl Flow {
         }
     }
 
-    /// Whether it is of a program with this many loads.
+    /// Whether the flow is of a program with this many loads.
     pub fn fits(&self, n_loads: usize) -> bool {
         self.onset.factors.len() == n_loads && self.range.is_finite() && self.farthest.is_finite()
     }

@@ -66,7 +66,7 @@ pub struct Pace {
     pub initial: EliminatedLoad,
     /// The distance over which it was found.
     pub distance: f64,
-    /// By how much it was stretched since its loads were eliminated.
+    /// Factor by which the change was stretched since its loads were eliminated.
     pub stretched: f64,
 }
 

@@ -35,8 +35,8 @@ pub(in crate::analysis) struct State {
 }
 
 impl State {
-    /// Whether it is one of a structure with so many pairs, contact freedoms and loads, and its
-    /// parts fit each other.
+    /// Whether the state is one of a structure with so many pairs, contact freedoms and loads, and
+    /// its parts fit each other.
     pub(in crate::analysis) fn fits(
         &self,
         [n_pairs, n_contact]: [usize; 2],

@@ -62,7 +62,7 @@ impl History {
         out
     }
 
-    /// Whether it is of so many points.
+    /// Whether the history is of so many points.
     pub fn is_of(&self, n_points: usize) -> bool {
         self.points.len() == n_points && self.back.is_of(n_points)
     }

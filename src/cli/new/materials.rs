@@ -104,7 +104,7 @@ pub(in crate::cli) enum Which {
 pub(super) struct Made {
     /// Name of the material in the scene.
     name: String,
-    /// Whether it is of the list, so that the scene names it only.
+    /// Whether the material is in the list, so that the scene names it only.
     is_listed: bool,
     /// Moduli and yield stress in MPa.
     pub material: Material,

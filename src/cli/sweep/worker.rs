@@ -190,7 +190,7 @@ impl Worker {
 }
 
 impl Drop for Worker {
-    /// With nothing more to ask it ends.
+    /// Ends the worker: there is nothing more to ask.
     fn drop(&mut self) {
         drop(self.asked.take());
         let _ = self.child.wait();

@@ -273,7 +273,7 @@ fn proportional(parts: &[Part], ratio: f64) -> Option<(Vec<Part>, f64)> {
     Some((made(found), divisor as f64 / found as f64))
 }
 
-/// Each count rounded for itself, equal ones alike: within the distortion.
+/// Counts rounded each for itself, equal ones alike: within the distortion.
 fn rounded(parts: &[Part], ratio: f64) -> Option<(Vec<Part>, f64)> {
     let new = |n: usize| scaled(n, step(parts, n), ratio);
     let out = with_counts(parts, new);

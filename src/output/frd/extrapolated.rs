@@ -12,7 +12,7 @@ pub(in crate::output) struct Extrapolated {
     pub(in crate::output) strain: Vec<f64>,
     /// Equivalent plastic strain, `n_nodes`.
     pub(in crate::output) plastic_strain: Vec<f64>,
-    /// By the numbers of integration and shape.
+    /// Extrapolations by the numbers of integration and shape.
     of_shapes: Vec<Extrapolation>,
 }
 

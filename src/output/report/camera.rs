@@ -17,7 +17,7 @@ const OVERLAP: f64 = 0.1;
 pub(super) struct Camera {
     /// Where the eye is.
     pub eye: Vector,
-    /// To the right, up, and towards the eye.
+    /// Axes of the picture: to the right, up, and towards the eye.
     pub axes: [Vector; 3],
 }
 

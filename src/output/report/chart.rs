@@ -220,7 +220,7 @@ fn range(curves: &[Curve], axis: usize, from_zero: bool) -> [f64; 2] {
     ]
 }
 
-/// At most [`MOST_POINTS`] finite points, ends and extremes kept.
+/// Thins a curve to at most [`MOST_POINTS`] finite points, ends and extremes kept.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let points: Vec<[f64; 2]> = points
         .iter()

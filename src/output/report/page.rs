@@ -38,7 +38,7 @@ pub(super) struct Figures {
     pub meshed: Vec<Figure>,
     /// Charts about the load and the contact.
     pub charts: Vec<Figure>,
-    /// For each state shown its name and pictures.
+    /// Name and pictures of each state shown.
     pub states: Vec<(String, Vec<Figure>)>,
     /// How many states with fields are not shown.
     pub states_left_out: usize,
