@@ -16,7 +16,7 @@ pub(crate) struct Balls {
     items: Vec<(Vector, f64)>,
     /// Items, leaf by leaf.
     order: Vec<usize>,
-    /// In preorder.
+    /// Balls of the tree, in preorder.
     nodes: Vec<Node>,
 }
 

@@ -7,7 +7,7 @@ pub(crate) struct Classes {
 }
 
 impl Classes {
-    /// Each member by itself.
+    /// Classes of which each member is alone.
     pub(crate) fn new(n: usize) -> Self {
         Classes {
             parent: (0..n as u32).collect(),

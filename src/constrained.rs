@@ -79,10 +79,10 @@ const CANCELLED: f64 = 1e-12;
 /// ```
 pub struct ConstrainedStructure {
     condensed: Box<dyn Condensed>,
-    /// C.
+    /// The stiffness condensed on the contact freedoms, `C`.
     condensed_stiffness: Arc<DMatrix<f64>>,
     stiffness: Arc<SymmetricCsc>,
-    /// Its infinity norm.
+    /// Infinity norm of the stiffness.
     norm: f64,
     /// No zone; contact freedoms ascending.
     partition: Partition,
@@ -91,7 +91,7 @@ pub struct ConstrainedStructure {
     gaps: DVector<f64>,
     /// The structure with all rows closed.
     tied: Tied,
-    /// T.
+    /// The matrix `T` of the contact problem.
     contact_matrix: Arc<DMatrix<f64>>,
     tableau: Tableau,
     state: State,

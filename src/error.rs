@@ -110,7 +110,7 @@ impl Error {
         self
     }
 
-    /// The kind.
+    /// Kind of the error.
     pub fn kind(&self) -> ErrorKind {
         self.kind
     }

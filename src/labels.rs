@@ -6,7 +6,7 @@ use std::collections::HashMap;
 pub(crate) enum LabelIndex {
     /// Index by number; `u32::MAX` where there is none.
     Table(Vec<u32>),
-    /// For widely spread numbers.
+    /// A map, for widely spread numbers.
     Map(HashMap<u64, u32>),
 }
 

@@ -4,7 +4,7 @@
 /// Whether the run goes on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Flow {
-    /// Go on.
+    /// The run goes on.
     Continue,
     /// Stop after this increment; what was computed so far is returned, marked as incomplete.
     Stop,

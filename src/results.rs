@@ -63,9 +63,9 @@ pub struct Results {
     pub first_yield: Option<YieldPoint>,
     /// One state per target reached, in the order of the program.
     pub states: Vec<State>,
-    /// Of a program of cycles, what they came to; the states are those of the last.
+    /// Outcome of the cycles, in a program that has them; the states are those of the last.
     pub cycles: Option<Cycles>,
-    /// Of a run on several ranks, what they did.
+    /// What each rank did, in a run on several ranks.
     pub ranks: Option<Ranks>,
     /// One row per accepted increment.
     pub history: Vec<HistoryRow>,
@@ -89,13 +89,11 @@ pub struct Results {
     /// asks for it (`analysis.condition`), a state is inaccurate, or the lower bound is beyond
     /// 1e10. It takes about six full solves.
     pub condition_estimate: Option<f64>,
-    /// States whose quality misses its tolerance, with the figure: these results are not to be
-    /// trusted.
+    /// States whose quality misses its tolerance, with the figure: results not to be trusted.
     pub inaccurate: Vec<String>,
     /// What the factorisation cost.
     pub factor: Prediction,
-    /// Reference values compared with computed ones, where they were compared (by
-    /// `reference::compare`).
+    /// Reference values and computed ones, where they were compared (by `reference::compare`).
     pub reference: Vec<ReferenceRow>,
     /// How wrong each figure may be, where it was estimated (by `accuracy::estimate`).
     pub accuracy: Option<Accuracy>,
@@ -113,13 +111,13 @@ pub struct Results {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Sizes {
-    /// Nodes.
+    /// Number of nodes.
     pub nodes: usize,
-    /// Elements.
+    /// Number of elements.
     pub elements: usize,
     /// Freedoms after supports.
     pub freedoms: usize,
-    /// Contact pairs.
+    /// Number of contact pairs.
     pub contact_pairs: usize,
     /// Freedoms of the plastic zone.
     pub zone_freedoms: usize,
@@ -148,7 +146,7 @@ pub struct Prediction {
     /// Bytes needed at the peak.
     #[serde(serialize_with = "whole", deserialize_with = "number")]
     pub memory_bytes: f64,
-    /// Of each rank of MPI, else empty; `memory_bytes` is the largest of them.
+    /// Bytes on each rank of MPI, else empty; `memory_bytes` is the largest of them.
     pub memory_by_rank: Vec<f64>,
 }
 
@@ -173,11 +171,11 @@ pub const LOADS_FOUND: &str = "loads found";
 pub struct Effect {
     /// `contact`, `plasticity`, `interference`, `floating bodies`, ...
     pub name: String,
-    /// Whether it is simulated.
+    /// Whether the effect is simulated.
     pub on: bool,
     /// Whether the scene asks for it: one that is off all the same turned out to be nothing.
     pub asked: bool,
-    /// Why.
+    /// Why it is simulated or not.
     pub why: String,
     /// Seconds spent on it.
     pub seconds: f64,
@@ -185,7 +183,7 @@ pub struct Effect {
     pub memory_bytes: u64,
 }
 
-/// First yield.
+/// First yield: load, contact and place.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct YieldPoint {
     /// Factor on the scene's proportional loads at which the material first yields.
@@ -203,7 +201,7 @@ pub struct YieldPoint {
     pub half_width_reading: EdgeReading,
     /// Where: coordinates of the point.
     pub location: Vector,
-    /// Body index.
+    /// Index of the body that yields.
     pub body: usize,
 }
 
@@ -287,7 +285,7 @@ pub struct State {
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
     /// where fields are.
     pub energy_error: Option<f64>,
-    /// The same of the elements that touch a closed pair of contact or have yielded, where there
+    /// [`State::energy_error`] of the elements that touch a closed pair or have yielded, where there
     /// are any: how wrong pressures and strains there may be.
     #[serde(default)]
     pub local_energy_error: Option<f64>,
@@ -433,7 +431,7 @@ pub struct Demand {
     /// it.
     #[serde(deserialize_with = "number")]
     pub stated: f64,
-    /// That quantity.
+    /// Name of that quantity.
     #[serde(default)]
     pub worst: Option<String>,
     /// What was chosen, and why.
@@ -448,13 +446,13 @@ pub struct Demand {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EstimateMethod {
-    /// The same scene on other meshes of the same family, coarser ones where the run is fine
+    /// Runs of the scene on other meshes of the same family, coarser ones where the run is fine
     /// enough: the error follows from how the values change (L. Eca, M. Hoekstra 2014,
     /// doi:10.1016/j.jcp.2014.01.006).
     CoarserMeshes,
     /// The energy norm of the recovered stress error: a rough figure, for large meshes from files.
     EnergyNorm,
-    /// Not at all.
+    /// No estimate was made.
     #[default]
     None,
 }
@@ -462,10 +460,10 @@ pub enum EstimateMethod {
 /// Another mesh of the same family.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Companion {
-    /// Its element size over that of the run.
+    /// Element size of this mesh over that of the run.
     #[serde(deserialize_with = "number")]
     pub ratio: f64,
-    /// Its freedoms.
+    /// Number of freedoms on this mesh.
     pub freedoms: usize,
     /// Seconds that its run took.
     #[serde(deserialize_with = "number")]
@@ -475,7 +473,7 @@ pub struct Companion {
 /// A reported quantity with its estimated errors, all absolute, in its own unit, and not negative.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct QuantityError {
-    /// Its path in `summary.json`; states by name: `states.NAME.KEY`.
+    /// Path of the quantity in `summary.json`; states by name: `states.NAME.KEY`.
     pub quantity: String,
     /// The reported value.
     #[serde(deserialize_with = "number")]

@@ -32,7 +32,7 @@ impl Accuracy {
         place: 0.0,
     };
 
-    /// The same for the value and the place.
+    /// One accuracy for the value and the place.
     pub(crate) const fn both(accuracy: f64) -> Self {
         Accuracy {
             value: accuracy,

@@ -27,7 +27,7 @@ impl Components {
         self.count
     }
 
-    /// Each component, as many as are given.
+    /// The components, as many as are given.
     pub fn iter(&self) -> impl Iterator<Item = f64> {
         self.vector.into_iter().take(self.count)
     }
@@ -87,14 +87,14 @@ pub enum Space {
 /// A motion of a body that does not deform it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RigidMotion {
-    /// Along an axis.
+    /// Translation along the axis of this number.
     Along(usize),
-    /// Turning about an axis.
+    /// Rotation about the axis of this number.
     About(usize),
 }
 
 impl Space {
-    /// All of them.
+    /// All kinds of space.
     pub const ALL: [Space; 4] = [
         Space::PlaneStrain,
         Space::PlaneStress,
@@ -102,7 +102,7 @@ impl Space {
         Space::Solid,
     ];
 
-    /// Those of two dimensions.
+    /// Kinds of two dimensions.
     pub const PLANE: [Space; 3] = [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric];
 
     /// The name in scenes and results: `plane_strain`, `plane_stress`, `axisymmetric`, `solid`.
@@ -193,12 +193,12 @@ pub fn in_space([x, y]: [f64; 2]) -> Vector {
     [x, y, 0.0]
 }
 
-/// `a . b`
+/// Scalar product `a . b`.
 pub fn dot(a: Vector, b: Vector) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// `|a|`
+/// Length `|a|` of a vector.
 pub fn length(a: Vector) -> f64 {
     let square = dot(a, a);
     // Squares that lose digits, or are too large or no numbers.
@@ -218,12 +218,12 @@ pub fn direction(a: Vector) -> Vector {
     }
 }
 
-/// `a - b`
+/// Difference `a - b`.
 pub fn difference(a: Vector, b: Vector) -> Vector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// `a + t b`
+/// Sum `a + t b`: the point at `t` along `b` from `a`.
 pub fn along(a: Vector, t: f64, b: Vector) -> Vector {
     [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
 }
@@ -234,7 +234,7 @@ pub(crate) fn in_words(vector: Vector, dimension: usize) -> String {
     format!("({})", words.join(", "))
 }
 
-/// `a x b`
+/// Vector product `a x b`.
 pub fn cross(a: Vector, b: Vector) -> Vector {
     [
         a[1] * b[2] - a[2] * b[1],

@@ -151,7 +151,8 @@ impl Substructure {
         }
     }
 
-    /// The same for forces that balance themselves on each body, as those of plastic strains do.
+    /// Makes forces balance themselves on each floating body, as those of plastic strains do: they
+    /// do no work on a rigid body mode.
     pub(crate) fn balance_in_bodies(&self, forces: &mut [f64]) {
         if let Some(groups) = &self.tied {
             groups.balance(forces, |_| Work::default());
@@ -184,8 +185,8 @@ impl Substructure {
 
     /// The relative displacement `delta - gap` of the pairs without what rigid motions of floating
     /// bodies contribute to it, and the amplitude of each of these motions. Gaps that a body falls
-    /// through are taken off before the difference is formed: what deforms the bodies keeps its
-    /// digits beside them.
+    /// through are taken off before the difference is formed: small deformations of the bodies keep
+    /// their digits.
     pub(crate) fn split_slip(&self, delta: &[f64], gap: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let Some(tied) = &self.tied else {
             return (Vec::new(), Vec::new());
@@ -362,7 +363,7 @@ fn tie(
 /// method has zeros there.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct ContactCost {
-    /// Pairs.
+    /// Number of contact pairs.
     pub pairs: usize,
     /// Groups of pairs that share no body.
     pub groups: usize,

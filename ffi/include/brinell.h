@@ -18,7 +18,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-// Done.
+// The call did what it was asked for.
 #define BRINELL_OK 0
 
 // An argument, the scene or the mesh is wrong, or asks for an effect that brinell does not have.
@@ -73,13 +73,13 @@
 // Three coordinates.
 #define BRINELL_SOLID 3
 
-// Three corners.
+// A triangle of three corners.
 #define BRINELL_SHAPE_TRI3 0
 
 // Three corners, then the mid-side nodes, the first between corners 0 and 1.
 #define BRINELL_SHAPE_TRI6 1
 
-// Four corners.
+// A quadrilateral of four corners.
 #define BRINELL_SHAPE_QUAD4 2
 
 // Four corners, then the mid-side nodes.
@@ -109,7 +109,7 @@
 // Undeformed y (z).
 #define BRINELL_PAIR_Y 1
 
-// Gap, >= 0.
+// Gap of the pair, >= 0.
 #define BRINELL_PAIR_GAP 2
 
 // Force, compressive positive.
@@ -143,7 +143,7 @@
 // Load factor at the end of each increment.
 #define BRINELL_HISTORY_ALPHA 0
 
-// Total load.
+// Total load at the end of each increment.
 #define BRINELL_HISTORY_LOAD 1
 
 // Largest contact pressure.
@@ -198,7 +198,7 @@ typedef struct brinell_increment {
   uint64_t number;
   // Load factor at its end, in the program's unit.
   double alpha;
-  // Total load.
+  // Total load at the end of the increment.
   double load;
   // Largest contact pressure.
   double max_pressure;
@@ -227,19 +227,19 @@ typedef struct brinell_yield {
   size_t size;
   // Factor on the scene's proportional loads.
   double alpha;
-  // Total load.
+  // Total load at first yield.
   double load;
   // Largest contact pressure.
   double max_pressure;
   // Contact half width.
   double half_width;
-  // Where: x (r).
+  // Where it yields first: x (r).
   double x;
-  // Where: y (z).
+  // Where it yields first: y (z).
   double y;
-  // In which body.
+  // Number of the body that yields, from 0.
   uint64_t body;
-  // Where: z, of a solid.
+  // Where it yields first: z, of a solid.
   double z;
 } brinell_yield;
 
@@ -249,7 +249,7 @@ typedef struct brinell_state {
   size_t size;
   // Load factor in the program's unit.
   double alpha;
-  // Total load.
+  // Total load in this state.
   double load;
   // Sum of the contact forces.
   double contact_force;
@@ -283,7 +283,7 @@ typedef struct brinell_mesh {
   const double *coordinates;
   // Nodes of all elements, one element after the other.
   const uint32_t *connectivity;
-  // n_elements + 1 begins of the elements' nodes in the connectivity.
+  // n_elements + 1 starts of the elements' nodes in the connectivity.
   const size_t *offsets;
   // n_elements bodies.
   const uint32_t *element_body;
@@ -307,7 +307,7 @@ typedef struct brinell_patch {
   double max_pressure;
   // Force over area.
   double mean_pressure;
-  // Force.
+  // Force that the patch carries.
   double force;
 } brinell_patch;
 
@@ -317,7 +317,7 @@ typedef struct brinell_matrix {
   size_t size;
   // Number of rows and columns.
   size_t n;
-  // n + 1 begins of the columns in rows and values.
+  // n + 1 starts of the columns in rows and values.
   const int64_t *column_starts;
   // Row of each entry, from 0.
   const int64_t *rows;
@@ -333,7 +333,7 @@ typedef struct brinell_rows {
   size_t size;
   // Number of rows.
   size_t n_rows;
-  // n_rows + 1 begins of the rows in freedoms and coefficients.
+  // n_rows + 1 starts of the rows in freedoms and coefficients.
   const int64_t *row_starts;
   // Freedom of each coefficient, from 0.
   const int64_t *freedoms;

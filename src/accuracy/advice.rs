@@ -96,7 +96,7 @@ fn limits(runs: &[StudyRun], path: &str, reference: f64, own: f64) -> Vec<String
     std::iter::once(first).chain(second).collect()
 }
 
-/// By tolerance, or by the number of increments.
+/// Orders two runs by tolerance, or by the number of increments.
 fn looser(a: &StudyRun, b: &StudyRun) -> Ordering {
     let [of_a, of_b] = [a, b].map(|run| run.value.parse::<f64>().unwrap_or(0.0));
     of_a.total_cmp(&of_b).then(b.increments.cmp(&a.increments))

@@ -11,7 +11,8 @@ use crate::scene::Scene;
 /// enough to lie in the same range of convergence, and have 0.7 times the elements of a plane run
 /// together.
 const COARSER: [f64; 4] = [1.5, 2.0, 3.0, 4.0];
-/// Those of finer ones, for a run that is too coarse to have coarser ones.
+/// Element sizes of finer meshes, over that of the run, for a run that is too coarse to have
+/// coarser ones.
 const FINER: [f64; 4] = [1.0 / 1.5, 0.5, 1.0 / 3.0, 0.25];
 /// Least ratio of two element sizes: nearer meshes differ by how counts are rounded.
 const LEAST_RATIO: f64 = 1.15;
@@ -30,7 +31,7 @@ const ROUND_OFF: f64 = 1e-9;
 const QUICK: f64 = 1.0;
 /// What a run with half as many increments takes of the same mesh.
 const HALF_THE_INCREMENTS: f64 = 0.5;
-/// The same of a run with twice as many, and of one with other tolerances.
+/// What a run with twice as many increments, or with other tolerances, takes of the same mesh.
 const MORE_INCREMENTS: f64 = 3.0;
 /// Elements up to which a plane run is compared with meshes of sixteen times as many, where coarser
 /// ones do not suffice; beyond, four times.
@@ -38,15 +39,16 @@ const SMALL: usize = 1000;
 /// Most elements of a mesh that a run of solids is compared with: in space the time grows with the
 /// sixth power of the fineness.
 const SOLID: usize = 16 * SMALL;
-/// The same for runs on meshes from files, which have finer companions alone and in steps of two:
-/// in the plane the second subdivision, in space the first one, takes 64 times the run.
+/// Most elements of finer meshes for runs on meshes from files, which have no coarser companions
+/// and are refined in steps of two: in the plane the second subdivision, in space the first one,
+/// takes 64 times the run.
 const FROM_FILE: usize = 4 * SMALL;
 const SOLID_FROM_FILE: usize = 2 * SMALL;
 
 /// A scene with another mesh of its family.
 #[derive(Debug, Clone)]
 pub struct Level {
-    /// The scene.
+    /// The scene with that mesh.
     pub scene: Scene,
     /// Element size over that of the scene it was made from.
     pub ratio: f64,
@@ -114,8 +116,9 @@ fn wanted(scene: &Scene, elements: usize, can_be_read: impl Fn(f64) -> bool) -> 
     found.companions("subdivided, the mesh would take many times the run")
 }
 
-/// The nearest two coarser ones that take no more than [`QUICK`] of the run together with the path's
-/// on the coarser; those on which the contact can be read before those on which it cannot.
+/// The nearest two coarser meshes that take no more than [`QUICK`] of the run together with the
+/// estimate of the path's error on the coarser. Meshes on which the contact can be read come before
+/// meshes on which it cannot.
 fn cheap(scene: &Scene, can_be_read: impl Fn(f64) -> bool) -> Companions {
     let mut found = Found::new(scene);
     for ratio in COARSER {
@@ -192,8 +195,9 @@ impl<'s> Found<'s> {
     }
 }
 
-/// What a run on another mesh takes, in terms of the run: as its elements of a coarser one, which is
-/// an upper bound, as its factorisation of a finer one ([`work_of_finer`]).
+/// What a run on another mesh takes, as a share of the run: on a coarser mesh the share of the
+/// elements, which is an upper bound, on a finer mesh that of the factorisation
+/// ([`work_of_finer`]).
 fn share_of_run(scene: &Scene, ratio: f64) -> f64 {
     match ratio < 1.0 {
         true => work_of_finer(scene.kind, 1.0 / ratio),

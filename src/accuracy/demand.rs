@@ -43,7 +43,8 @@ const MESHES: usize = 4;
 /// meshes agree by chance. Four in steps of [`STEP`] span 3.4 but for the rounding of counts; three
 /// of a file, each cut in halves, 4.
 const SPAN: f64 = 2.5;
-/// How often that is done: what more increments do not mend is not theirs.
+/// How often the increments are made finer: an error that more increments do not reduce has another
+/// source.
 const MORE_STEPS: usize = 3;
 /// Meshes in a row on which a quantity comes hardly nearer until it counts as without a limit.
 const WITHOUT_LIMIT: usize = 2;
@@ -51,9 +52,9 @@ const WITHOUT_LIMIT: usize = 2;
 pub struct Reached {
     /// The scene with the mesh and steps that were chosen.
     pub scene: Scene,
-    /// Its analysis, for the model and the mesh.
+    /// The analysis, with the model and the mesh.
     pub analysis: Analysis,
-    /// Its results with their errors.
+    /// The results with their errors.
     pub results: Results,
 }
 
@@ -103,8 +104,8 @@ struct Pursuit {
     /// Element sizes of the meshes so far over those of the scene, and the seconds they took.
     sequence: Vec<(f64, f64)>,
     choices: Vec<String>,
-    /// Of quantities beyond their demand: how often in a row they came hardly nearer, the last
-    /// error, and its mesh.
+    /// Quantities beyond their demand: how often in a row they came hardly nearer, the last error,
+    /// and its mesh.
     slow: BTreeMap<String, (usize, f64, f64)>,
     more_steps: usize,
     work: f64,

@@ -11,7 +11,7 @@ pub enum Effort {
     Quick,
     /// Whatever two meshes take on which every figure of the run can be read.
     Full,
-    /// Nothing.
+    /// No error estimate.
     None,
 }
 

@@ -26,14 +26,15 @@ use crate::root;
 
 /// Lowest order that is believed (Eca and Hoekstra, section 3).
 pub(super) const LEAST_ORDER: f64 = 0.5;
-/// What an order may exceed the formal one by and still have the small factor of safety (the same).
+/// How far an order may exceed the formal one and still have the small factor of safety (Eca and
+/// Hoekstra, section 3).
 const ABOVE_FORMAL: f64 = 0.1;
 /// Factor of safety where the meshes show an order that is believed (Roache).
 const SAFETY: f64 = 1.25;
-/// The same where they do not (Roache).
+/// Factor of safety where the meshes show no order that is believed (Roache).
 const SAFETY_WITHOUT_ORDER: f64 = 3.0;
-/// Orders among which the best is sought, and steps between them: beyond, meshes show nothing of
-/// the order.
+/// Range of orders in which the best is sought, and the number of steps over it: beyond this range
+/// meshes do not show the order.
 const SOUGHT: [f64; 2] = [-2.0, 8.0];
 const STEPS: usize = 200;
 

@@ -47,7 +47,7 @@ pub enum Knob {
 }
 
 impl Knob {
-    /// All of them.
+    /// All knobs of a study.
     pub const ALL: [Knob; 7] = [
         Knob::Resolution,
         Knob::Element,
@@ -91,13 +91,13 @@ pub struct Setting {
     pub series: String,
     /// What is turned.
     pub knob: Knob,
-    /// To what, in words: what `--set` takes where there is such a key.
+    /// New value of the setting, in words: what `--set` takes where there is such a key.
     pub value: String,
     /// Element size over that of the scene.
     pub ratio: f64,
     /// The scene so set.
     pub scene: Scene,
-    /// The backend.
+    /// The backend that solves.
     pub backend: Backend,
 }
 

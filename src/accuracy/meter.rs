@@ -50,7 +50,7 @@ impl Meter {
         }
     }
 
-    /// Ends.
+    /// Ends the measurement.
     pub fn stop(self) -> Usage {
         Usage {
             wall_seconds: self.start.elapsed().as_secs_f64(),

@@ -11,7 +11,7 @@ use crate::scene::Scene;
 pub struct NextDigit {
     /// The quantity with the largest stated relative error of those that a demand on all asks for.
     pub quantity: String,
-    /// That error.
+    /// The stated relative error of that quantity.
     pub relative_error: f64,
     /// How many times smaller the elements would have to be.
     pub finer: f64,

@@ -32,7 +32,7 @@ const FEWEST: usize = 8;
 const ORDER: f64 = 1.5;
 /// Path error of increments that are twice as long, over that of the increments.
 const TWICE_AS_LONG: f64 = 4.0;
-/// By how much tolerances are changed.
+/// Factor by which tolerances are changed.
 const FACTOR: f64 = 100.0;
 /// Tolerances below this are made looser, not tighter: [`FACTOR`] below them lies round-off.
 const TIGHT: f64 = 1e-9;
@@ -40,11 +40,11 @@ const TIGHT: f64 = 1e-9;
 /// Errors of the path.
 #[derive(Debug)]
 pub(super) enum PathErrors {
-    /// They were not estimated.
+    /// The errors were not estimated.
     Unknown,
     /// The path is exact.
     None,
-    /// By quantity, absolute.
+    /// Absolute errors by quantity.
     Estimated(BTreeMap<String, f64>),
 }
 

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 pub struct Quantity {
     /// `yield.KEY` or `states.NAME.KEY`.
     pub path: String,
-    /// Its value.
+    /// Value of the quantity in the unit of the run.
     pub value: f64,
     /// The largest size that a quantity of this KEY has in the run: what its error is measured
     /// against.

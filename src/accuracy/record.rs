@@ -14,17 +14,17 @@ pub struct StudyRun {
     pub series: String,
     /// What was turned.
     pub knob: Knob,
-    /// To what.
+    /// New value of the setting, in words.
     pub value: String,
     /// Element size over that of the scene.
     pub ratio: f64,
     /// Why there are no values, where the run failed.
     pub failed: Option<String>,
-    /// Freedoms.
+    /// Number of free freedoms.
     pub freedoms: usize,
     /// Lowest polynomial degree of the elements.
     pub degree: usize,
-    /// Increments.
+    /// Number of increments.
     pub increments: usize,
     /// Floating point operations of a factorisation, nonzeros of the factor and of its trailing
     /// columns.

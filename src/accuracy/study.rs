@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 /// Runs after which the remaining time is reported: fewer say little of the machine and the scene.
 const TRUSTED: usize = 4;
 
-/// What to study.
+/// What a study turns, on how many meshes and in what time.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// The knobs to turn.
@@ -38,18 +38,18 @@ impl Default for Plan {
     }
 }
 
-/// A whole study.
+/// A whole study: runs, quantities and what was left out.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Study {
     /// The runs, in the order in which they were made.
     pub runs: Vec<StudyRun>,
-    /// Each quantity: reference, errors, orders, prices.
+    /// The quantities: reference, errors, orders, prices of each.
     pub quantities: Vec<QuantityStudy>,
     /// What was left out, and why.
     pub left_out: Vec<String>,
     /// Seconds that the study took.
     pub seconds: f64,
-    /// Whether it was stopped before its end.
+    /// Whether the study was stopped before its end.
     pub stopped: bool,
 }
 

@@ -21,9 +21,9 @@ const ROUND_OFF: f64 = 1e-12;
 /// What the runs are measured against.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StudyReference {
-    /// The value.
+    /// The reference value.
     pub value: f64,
-    /// Its own uncertainty, absolute: 0 for a closed form.
+    /// Uncertainty of the reference itself, absolute: 0 for a closed form.
     pub uncertainty: f64,
     /// The closed form's source, or how it was extrapolated.
     pub source: String,
@@ -44,7 +44,7 @@ pub struct Price {
 /// A quantity over all runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct QuantityStudy {
-    /// Its path; `all` stands for the worst of those that govern.
+    /// Path of the quantity; `all` stands for the worst of those that govern.
     pub quantity: String,
     /// The reference; `None` for `all`.
     pub reference: Option<StudyReference>,
@@ -57,7 +57,7 @@ pub struct QuantityStudy {
     pub pareto: Vec<usize>,
     /// What accuracies cost.
     pub prices: Vec<Price>,
-    /// The same in words, what limits, and which looser settings would do.
+    /// The verdict in words, what limits, and which looser settings would do.
     pub words: Vec<String>,
 }
 

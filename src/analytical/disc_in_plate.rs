@@ -54,7 +54,7 @@ use std::sync::OnceLock;
 pub struct DiscInPlate {
     radius: f64,
     half_angle: f64,
-    /// `q_0/S`.
+    /// Mean pressure over the tension, `q_0/S`.
     mean_pressure: f64,
 }
 
@@ -216,7 +216,7 @@ fn mean_pressure(e: f64) -> f64 {
     (0.25 * log + 0.75 * e.sin().powi(2)) / (1.0 - 0.5 * log)
 }
 
-/// `p(t)/S`.
+/// Pressure over the tension, `p(t)/S`, at the angle `t`.
 fn unit_pressure(t: f64, e: f64, q0: f64) -> f64 {
     let (s, c) = t.sin_cos();
     let c2 = c * c;

@@ -67,14 +67,15 @@ impl FlatPunch {
 /// ZAMP 11 (1960) 33-43.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CircularPunch {
-    /// Radius `a`.
+    /// Radius `a` of the punch.
     pub radius: f64,
 }
 
 impl CircularPunch {
     /// Mean pressure at the limit load over the yield stress in shear, smooth punch, Tresca.
     pub const SMOOTH_LIMIT_OVER_SHEAR_YIELD: f64 = 5.69;
-    /// The same for a perfectly rough punch.
+    /// Mean pressure at the limit load over the yield stress in shear, perfectly rough punch,
+    /// Tresca.
     pub const ROUGH_LIMIT_OVER_SHEAR_YIELD: f64 = 6.05;
 
     /// A punch of radius `radius`.

@@ -30,7 +30,7 @@ pub struct HertzEllipse {
     pub radii: [f64; 2],
     /// Contact modulus `E*`, see [`contact_modulus`](super::contact_modulus).
     pub contact_modulus: f64,
-    /// `b/a`.
+    /// Ratio of the half axes, `b/a`.
     ratio: f64,
 }
 

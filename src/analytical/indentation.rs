@@ -21,7 +21,7 @@ pub struct Indentation {
     pub radius: f64,
     /// Depth: the approach of ball and body.
     pub depth: f64,
-    /// Force.
+    /// Force on the ball.
     pub force: f64,
     /// Contact radius.
     pub contact_radius: f64,

@@ -75,7 +75,7 @@ impl ThickCylinder {
         yield_stress / von_mises(self.stress(self.inner_radius, 1.0, 0.0), 0.0)
     }
 
-    /// `(A, B)`.
+    /// Constants `(A, B)` of the solution.
     fn constants(&self, inner_pressure: f64, outer_pressure: f64) -> (f64, f64) {
         let (a2, b2) = (self.inner_radius.powi(2), self.outer_radius.powi(2));
         let wall =

@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 #[derive(Serialize, Deserialize)]
 pub(super) struct Elements<'a> {
     continuum: Cow<'a, Continuum>,
-    /// Of elements whose displacements are not simply the slots of their nodes.
+    /// Sums of elements whose displacements are not simply the slots of their nodes.
     sums: BTreeMap<usize, Sums>,
     springs: Vec<f64>,
     /// Number of freedoms.
@@ -210,7 +210,7 @@ impl Matrices {
         Matrices { offsets, values }
     }
 
-    /// That of an element.
+    /// The stiffness matrix of an element.
     pub(super) fn of(&self, element: usize) -> &[f64] {
         &self.values[self.offsets[element]..self.offsets[element + 1]]
     }

@@ -16,7 +16,7 @@ use elements::{Elements, Matrices};
 pub struct System {
     /// The elastic stiffness, `n x n`.
     pub stiffness: Symmetric,
-    /// Its infinity norm.
+    /// Infinity norm of the stiffness.
     pub norm: f64,
     /// Load vector at factor 1 of each list of loads that change alike ([`Model::alike`]; `n`
     /// each); those of prescribed displacements are `-K_fp u_p`.

@@ -8,7 +8,7 @@ const BLOCK: usize = 4096;
 /// Rows of a column that room is made for: those of bilinear elements.
 const ROWS_EXPECTED: usize = 10;
 
-/// For each freedom, the elements that hold it.
+/// Elements that hold each freedom.
 #[derive(Debug, Clone)]
 pub(super) struct Incidence {
     starts: Vec<usize>,

@@ -5,7 +5,7 @@ use crate::panics::contained;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
 
-/// Done.
+/// The call did what it was asked for.
 pub const BRINELL_OK: i32 = 0;
 /// An argument, the scene or the mesh is wrong, or asks for an effect that brinell does not have.
 pub const BRINELL_INPUT: i32 = 2;
@@ -178,7 +178,7 @@ pub(super) unsafe fn free<T>(handle: *mut T) {
 /// # Safety
 /// An implementor is `repr(C)`, its first field is that size, and any bytes are a value of it.
 pub(super) unsafe trait SizePrefixed: Copy {
-    /// Its name, for messages.
+    /// Name of the structure, for messages.
     const NAME: &'static str;
 }
 

@@ -1,5 +1,5 @@
-//! Models from arrays: what stands beside the mesh, as scene text, and what comes in arrays itself:
-//! given pairs of nodes and forces on nodes.
+//! Models from arrays: what a model has besides its mesh, as scene text, and what comes in arrays
+//! itself: given pairs of nodes and forces on nodes.
 
 use super::border::{slice, text};
 use super::model::{brinell_model, change};

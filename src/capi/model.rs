@@ -24,11 +24,11 @@ pub const BRINELL_AXISYMMETRIC: i32 = 2;
 /// Three coordinates.
 pub const BRINELL_SOLID: i32 = 3;
 
-/// Three corners.
+/// A triangle of three corners.
 pub const BRINELL_SHAPE_TRI3: i32 = 0;
 /// Three corners, then the mid-side nodes, the first between corners 0 and 1.
 pub const BRINELL_SHAPE_TRI6: i32 = 1;
-/// Four corners.
+/// A quadrilateral of four corners.
 pub const BRINELL_SHAPE_QUAD4: i32 = 2;
 /// Four corners, then the mid-side nodes.
 pub const BRINELL_SHAPE_QUAD8: i32 = 3;

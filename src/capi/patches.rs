@@ -24,7 +24,7 @@ pub struct brinell_patch {
     pub max_pressure: f64,
     /// Force over area.
     pub mean_pressure: f64,
-    /// Force.
+    /// Force that the patch carries.
     pub force: f64,
 }
 

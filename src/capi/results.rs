@@ -25,7 +25,7 @@ pub struct brinell_results {
 pub const BRINELL_PAIR_X: i32 = 0;
 /// Undeformed y (z).
 pub const BRINELL_PAIR_Y: i32 = 1;
-/// Gap, >= 0.
+/// Gap of the pair, >= 0.
 pub const BRINELL_PAIR_GAP: i32 = 2;
 /// Force, compressive positive.
 pub const BRINELL_PAIR_FORCE: i32 = 3;
@@ -50,7 +50,7 @@ pub const BRINELL_FIELD_PLASTIC_STRAIN: i32 = 3;
 
 /// Load factor at the end of each increment.
 pub const BRINELL_HISTORY_ALPHA: i32 = 0;
-/// Total load.
+/// Total load at the end of each increment.
 pub const BRINELL_HISTORY_LOAD: i32 = 1;
 /// Largest contact pressure.
 pub const BRINELL_HISTORY_MAX_PRESSURE: i32 = 2;
@@ -71,19 +71,19 @@ pub struct brinell_yield {
     pub size: usize,
     /// Factor on the scene's proportional loads.
     pub alpha: f64,
-    /// Total load.
+    /// Total load at first yield.
     pub load: f64,
     /// Largest contact pressure.
     pub max_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
-    /// Where: x (r).
+    /// Where it yields first: x (r).
     pub x: f64,
-    /// Where: y (z).
+    /// Where it yields first: y (z).
     pub y: f64,
-    /// In which body.
+    /// Number of the body that yields, from 0.
     pub body: u64,
-    /// Where: z, of a solid.
+    /// Where it yields first: z, of a solid.
     pub z: f64,
 }
 
@@ -100,7 +100,7 @@ pub struct brinell_state {
     pub size: usize,
     /// Load factor in the program's unit.
     pub alpha: f64,
-    /// Total load.
+    /// Total load in this state.
     pub load: f64,
     /// Sum of the contact forces.
     pub contact_force: f64,
@@ -141,7 +141,7 @@ pub struct brinell_mesh {
     pub coordinates: *const f64,
     /// Nodes of all elements, one element after the other.
     pub connectivity: *const u32,
-    /// n_elements + 1 begins of the elements' nodes in the connectivity.
+    /// n_elements + 1 starts of the elements' nodes in the connectivity.
     pub offsets: *const usize,
     /// n_elements bodies.
     pub element_body: *const u32,

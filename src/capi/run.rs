@@ -28,7 +28,7 @@ pub struct brinell_increment {
     pub number: u64,
     /// Load factor at its end, in the program's unit.
     pub alpha: f64,
-    /// Total load.
+    /// Total load at the end of the increment.
     pub load: f64,
     /// Largest contact pressure.
     pub max_pressure: f64,
@@ -136,7 +136,7 @@ pub unsafe extern "C" fn brinell_run(
     }
 }
 
-/// What is run.
+/// What is run: a scene or a model.
 pub(super) enum Task {
     /// A scene, to the accuracy it demands if it does.
     Scene(Box<Scene>),

@@ -32,7 +32,7 @@ pub struct brinell_matrix {
     pub size: usize,
     /// Number of rows and columns.
     pub n: usize,
-    /// n + 1 begins of the columns in rows and values.
+    /// n + 1 starts of the columns in rows and values.
     pub column_starts: *const i64,
     /// Row of each entry, from 0.
     pub rows: *const i64,
@@ -55,7 +55,7 @@ pub struct brinell_rows {
     pub size: usize,
     /// Number of rows.
     pub n_rows: usize,
-    /// n_rows + 1 begins of the rows in freedoms and coefficients.
+    /// n_rows + 1 starts of the rows in freedoms and coefficients.
     pub row_starts: *const i64,
     /// Freedom of each coefficient, from 0.
     pub freedoms: *const i64,
@@ -70,7 +70,7 @@ unsafe impl SizePrefixed for brinell_rows {
     const NAME: &'static str = "brinell_rows";
 }
 
-/// Number of entries that an array of begins speaks of; what else is wrong with it is found later.
+/// Number of entries that an array of starts asks for; what else is wrong with it is found later.
 fn entries(starts: &[i64], what: &str) -> Result<usize> {
     let end = starts.last().and_then(|n| usize::try_from(*n).ok());
     end.ok_or_else(|| Error::input(format!("{what} must end with the number of entries")))

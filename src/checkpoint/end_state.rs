@@ -7,9 +7,9 @@ use crate::mesh::Mesh;
 use crate::results::EndState;
 use std::path::Path;
 
-/// Its name in a result directory.
+/// Name of the end state's file in a result directory.
 pub(crate) const END_STATE_FILE: &str = "end_state.bin";
-/// What it calls itself.
+/// What the file calls itself.
 const WHAT: &str = "end state";
 
 /// The content of the file.

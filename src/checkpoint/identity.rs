@@ -25,7 +25,7 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// That of a run.
+    /// Identity of a run.
     ///
     /// # Errors
     /// Internal, where the scene is not plain data.

@@ -54,7 +54,7 @@ impl Checkpoints {
         }
     }
 
-    /// The directory.
+    /// Directory of the checkpoints.
     pub fn dir(&self) -> &Path {
         &self.dir
     }

@@ -5,9 +5,9 @@ use std::os::unix::process::CommandExt;
 use std::process::Command;
 
 const THREADS: &str = "OPENBLAS_NUM_THREADS";
-/// For how long a thread of OpenBLAS spins after its work before it sleeps, as a power of two in
-/// cycles of the processor. OpenBLAS' own 26 is some 20 ms: beside other processes each of its
-/// short calls keeps a processor from them, and from this one, for so long. `2^20` is a third of a
+/// How long a thread of OpenBLAS spins after its work before it sleeps, as a power of two in cycles
+/// of the processor. OpenBLAS' own 26 is some 20 ms: where other processes run, each of its short
+/// calls keeps a processor from them, and from this one, for so long. `2^20` is a third of a
 /// millisecond, some ten times what it takes to wake a thread.
 const SPINNING: (&str, &str) = ("OPENBLAS_THREAD_TIMEOUT", "20");
 

@@ -286,7 +286,7 @@ pub(super) struct EstimateArguments {
     /// How much the estimate of the errors may take
     #[arg(long, value_enum, value_name = "EFFORT", default_value = "quick")]
     pub estimate: Estimate,
-    /// The same as --estimate none
+    /// Estimate no errors: --estimate none
     #[arg(long, conflicts_with = "estimate")]
     pub no_estimate: bool,
 }

@@ -16,7 +16,7 @@ pub(super) struct ExampleArguments {
     pub name: Option<String>,
 }
 
-/// Name and text.
+/// Name and text of an example.
 type Example = (&'static str, &'static str);
 
 macro_rules! examples {

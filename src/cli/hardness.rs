@@ -50,22 +50,22 @@ struct Sheet {
     depth: f64,
     contact_radius: f64,
     contact_radius_over_ball_radius: f64,
-    /// Where the units are known.
+    /// Brinell hardness, where the units are known.
     hbw: Option<f64>,
     mean_pressure: f64,
     /// Initial yield stress of the flat; null where it does not yield.
     yield_stress: Option<f64>,
     mean_pressure_over_yield_stress: Option<f64>,
-    /// `a^2/(2 R h)`.
+    /// Pile-up or sink-in, `a^2/(2 R h)`.
     pile_up: f64,
-    /// After unloading.
+    /// Depth of the dent after unloading.
     residual_depth: Option<f64>,
     rim_height: Option<f64>,
     /// Where the history follows the approach.
     unloading_stiffness: Option<f64>,
     reduced_modulus: Option<f64>,
     reduced_modulus_by_depth: Option<f64>,
-    /// The true one, of the materials.
+    /// Contact modulus of the materials, the true one.
     contact_modulus: f64,
     /// Whether the contact is wider than small strains are good for.
     beyond_small_strains: bool,

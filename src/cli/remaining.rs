@@ -25,7 +25,7 @@ pub(super) struct Remaining {
 }
 
 impl Remaining {
-    /// Of a phase that is predicted to take this long.
+    /// Time remaining of a phase that is predicted to take this long.
     pub fn new(predicted: f64) -> Self {
         Remaining {
             predicted,
@@ -46,7 +46,7 @@ impl Remaining {
         self.made = now;
     }
 
-    /// What is left.
+    /// Seconds that are left at a time.
     pub fn at(&self, now: f64) -> f64 {
         let (whole, passed) = (self.estimate, (now - self.made).max(0.0));
         let tail = LAST * whole;

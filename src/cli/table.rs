@@ -19,7 +19,7 @@ const LEAST: usize = 10;
 pub(super) enum Column {
     /// Flush left; wrapped where the page is too narrow.
     Text,
-    /// Flush right.
+    /// Flush right, for numbers.
     Number,
 }
 

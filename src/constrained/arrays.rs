@@ -11,13 +11,13 @@ pub enum Triangle {
     /// Both triangles; the upper one is read.
     #[default]
     Both,
-    /// Row <= column.
+    /// The upper triangle: row <= column.
     Upper,
-    /// Row >= column.
+    /// The lower triangle: row >= column.
     Lower,
 }
 
-/// A symmetric `n x n` matrix from its entries compressed by column: `n + 1` begins of the columns
+/// A symmetric `n x n` matrix from its entries compressed by column: `n + 1` starts of the columns
 /// in `rows` and `values`. Repeated entries are added; rows need not be sorted.
 ///
 /// ```
@@ -139,7 +139,7 @@ fn sort_and_add(columns: &mut [i64], rows: &mut Vec<i64>, values: &mut Vec<f64>)
     values.truncate(end);
 }
 
-/// Contact rows on `n` freedoms from their coefficients compressed by row: begins of the rows in
+/// Contact rows on `n` freedoms from their coefficients compressed by row: starts of the rows in
 /// `freedoms` and `coefficients`, one more than there are rows.
 ///
 /// # Errors
@@ -164,7 +164,7 @@ pub fn rows_from_csr<S: Index, I: Index>(
         .collect()
 }
 
-/// Entries of a column (row); the begins have been checked.
+/// Entries of a column (row); the starts have been checked.
 fn range<I: Index>(starts: &[I], column: usize) -> Range<usize> {
     let place = |at: usize| starts[at].try_into().unwrap_or(0);
     place(column)..place(column + 1)

@@ -33,8 +33,8 @@ pub struct Unbounded {
     pub pair: usize,
 }
 
-/// Of pairs that violate their condition by the largest amount, or by no less than this share of
-/// it, the first comes first: which of equals is the largest is for round-off to say.
+/// Share of the largest violation from which on a pair violates its condition as much. The first of
+/// these pairs is taken: which of equals is the largest is for round-off to say.
 const ALIKE: f64 = 1.0 - 1e-9;
 /// Rounds without progress after which block pivoting is given up.
 const PATIENCE: usize = 8;

@@ -8,9 +8,9 @@
 //!     minimise q' S x    with  g + S x >= 0
 //! ```
 //!
-//! A linear program in as many unknowns as there are motions. No load is needed to find it, so
-//! that none can be too small beside the round-off of `T g`. A motion that the load does not drive
-//! (a roller between two plates, sideways) has no place of least work: it stays where it is.
+//! A linear program in as many unknowns as there are motions. No load is needed to find it, so no
+//! load can be too small compared with the round-off of `T g`. A motion that the load does not
+//! drive (a roller between two plates, sideways) has no place of least work: it stays where it is.
 //!
 //! # Source
 //! The gradient projection method: J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed.,

@@ -29,7 +29,7 @@ pub struct PairBlock {
 }
 
 impl PairMatrix {
-    /// Of blocks that hold each of the pairs `0..n` once.
+    /// A matrix of blocks that hold each of the pairs `0..n` once.
     pub fn new(blocks: Vec<PairBlock>) -> Self {
         let n = blocks.iter().map(|block| block.pairs.len()).sum();
         let mut place = vec![(0, 0); n];
@@ -54,7 +54,7 @@ impl PairMatrix {
         self.place.is_empty()
     }
 
-    /// The blocks.
+    /// The blocks, one for each group of pairs.
     pub fn blocks(&self) -> &[PairBlock] {
         &self.blocks
     }

@@ -19,9 +19,9 @@ use std::sync::Arc;
 /// A change of contact.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Change {
-    /// A pair closes.
+    /// The pair of this number closes.
     Closes(usize),
-    /// A pair opens.
+    /// The pair of this number opens.
     Opens(usize),
 }
 
@@ -30,7 +30,7 @@ pub enum Change {
 pub enum PathEnd {
     /// The end of the piece was reached without a change.
     Target,
-    /// These pairs are at the border of their condition; they are settled when the path goes on.
+    /// The pairs are at the border of their condition; they are settled when the path goes on.
     Event(Vec<Change>),
 }
 
@@ -43,15 +43,16 @@ const ROUND_OFF: f64 = 1e-11;
 /// Events over which gaps, forces and their rates are carried along at least, each for the cost of
 /// a column; then they are solved for anew, so that round-off does not add up.
 const CARRIED: usize = 16;
-/// They may be as many as a share of the pairs, one to this number: a solution is a sum of that
-/// many terms itself.
+/// Events may be carried along over a share of the pairs, one to this number: a solution is a sum
+/// of that many terms itself.
 const PAIRS_PER_CARRIED: usize = 32;
-/// In place of their number where there are no rates yet.
+/// Number of events carried before any rates are known.
 const NEVER: usize = usize::MAX;
 /// Share of a tie by which a pair may be beyond its condition at the end of a piece: round-off of
 /// an event that is due there.
 const AT_END: f64 = 1e-2;
-/// The same for the last pairs that hold a body, as a share of their forces at the start.
+/// Share of its force at the start by which a pair among the last ones that hold a body may be
+/// beyond its condition at the end of a piece.
 const LAST: f64 = 1e-7;
 
 /// Gaps and forces on a piece of the load path.

@@ -25,7 +25,7 @@ pub struct Springs {
     pairs: Vec<usize>,
     /// The columns of `F`, one for each motion.
     directions: Vec<Vec<f64>>,
-    /// `F' g_0`.
+    /// Amplitudes `F' g_0` at which the springs are without force.
     at_rest: Vec<f64>,
 }
 
@@ -58,7 +58,7 @@ impl Springs {
         &self.pairs
     }
 
-    /// Whether they may be springs on pairs of one of its groups.
+    /// Whether these springs may act on pairs of a group of the matrix.
     pub(crate) fn fit(&self, matrix: &PairMatrix) -> bool {
         let of_pairs = |direction: &Vec<f64>| direction.len() == self.pairs.len();
         let group = |k: usize| (k < matrix.len()).then(|| matrix.place(k).0);
@@ -75,7 +75,7 @@ impl Springs {
         self.pairs == other.pairs && self.directions == other.directions
     }
 
-    /// The same springs without force at other gaps.
+    /// Springs of the same stiffness that are without force at other gaps.
     pub(crate) fn moved_to(&self, gap: &[f64]) -> Self {
         Springs {
             at_rest: self.amplitudes(gap),
@@ -83,7 +83,7 @@ impl Springs {
         }
     }
 
-    /// `F' g`.
+    /// Amplitudes `F' g` of gaps.
     fn amplitudes(&self, gap: &[f64]) -> Vec<f64> {
         let along = |direction: &Vec<f64>| {
             let of_pairs = self.pairs.iter().zip(direction);

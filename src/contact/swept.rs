@@ -24,20 +24,20 @@ const SHARED: usize = 512;
 /// A matrix and the pivots that wait.
 #[derive(Debug, Clone)]
 pub(super) struct Swept {
-    /// Without the pivots that wait.
+    /// The matrix without the pivots that wait.
     matrix: DMatrix<f64>,
     waiting: Vec<Pivot>,
     /// Columns of pivots that were applied, for the next ones.
     spare: Vec<Vec<f64>>,
 }
 
-/// One pivot.
+/// A principal pivot on entry (k, k).
 #[derive(Debug, Clone)]
 struct Pivot {
     k: usize,
     /// Column `k` before it.
     column: Vec<f64>,
-    /// `column[k]`.
+    /// The pivot itself, `column[k]`.
     value: f64,
     /// 1 where the pair opens, -1 where it closes.
     sign: f64,
@@ -71,14 +71,14 @@ impl Swept {
             .extend(self.waiting.drain(..).map(|pivot| pivot.column));
     }
 
-    /// One entry.
+    /// Entry (i, j) with all pivots applied.
     pub(super) fn get(&self, i: usize, j: usize) -> f64 {
         self.waiting
             .iter()
             .fold(self.matrix[(i, j)], |entry, pivot| pivot.entry(entry, i, j))
     }
 
-    /// Column `j`.
+    /// Writes column `j` with all pivots applied.
     pub(super) fn column(&self, j: usize, out: &mut [f64]) {
         out.copy_from_slice(self.matrix.column(j).as_slice());
         bring_forward(&self.waiting, j, out, |i| self.get(i, j));

@@ -25,7 +25,7 @@ const REBUILD: usize = 2000;
 #[derive(Debug, Clone)]
 pub struct Tableau {
     matrix: PairMatrix,
-    /// Of each block of the matrix.
+    /// Swept form of each block of the matrix.
     swept: Vec<Swept>,
     open: Vec<bool>,
     way: TableauRecord,

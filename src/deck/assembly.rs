@@ -37,7 +37,7 @@ const OF_MODEL: [&str; 5] = [
     "INITIAL CONDITIONS",
 ];
 
-/// Most instances whose numbers a note tells.
+/// Most instances whose numbers a note lists.
 const MOST_NAMED: usize = 4;
 
 /// Whether a keyword is one of parts and assemblies.

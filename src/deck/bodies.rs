@@ -18,7 +18,7 @@ pub(crate) struct Bodies {
     pub(super) sections: Vec<Option<usize>>,
 }
 
-/// No section.
+/// Marks an element without a section.
 const NONE: u32 = u32::MAX;
 
 impl Deck {

@@ -57,7 +57,7 @@ pub(super) enum Member {
     Of(Target),
     /// From, to, by steps of.
     Range(u64, u64, u64),
-    /// Of the nodes or elements of the deck those from one to before another.
+    /// Rows of the deck's nodes or elements, from one to before another.
     Rows(usize, usize),
     /// The nodes of an element set.
     NodesOf(String),
@@ -139,7 +139,7 @@ pub(super) struct Sets {
     pub(super) surfaces: Named<Vec<(SurfacePart, Place)>>,
 }
 
-/// A material.
+/// A material with its curves by temperature.
 #[derive(Debug, Clone, Default)]
 pub(super) struct MaterialData {
     pub(super) place: Place,
@@ -177,9 +177,9 @@ pub(super) struct Interaction {
 /// Which nodes of a slave surface are moved onto the master surface.
 #[derive(Debug, Clone)]
 pub(super) enum Adjust {
-    /// Those within a distance.
+    /// Slave nodes within a distance of the master surface.
     Within(f64),
-    /// Those of a set.
+    /// Slave nodes of a set.
     Nodes(Target),
 }
 
@@ -219,7 +219,7 @@ pub(super) struct Clearance {
 pub(super) struct Amplitude {
     /// Time and value.
     pub(super) rows: Vec<[f64; 2]>,
-    /// Of the time since the beginning of the first step, not of the step at hand.
+    /// Whether times count from the beginning of the first step, not of the step at hand.
     pub(super) is_total: bool,
 }
 
@@ -249,11 +249,11 @@ pub(super) struct Rigid {
 /// Which nodes belong to a rigid body.
 #[derive(Debug, Clone)]
 pub(super) enum RigidNodes {
-    /// Of a set.
+    /// Nodes of a set of nodes.
     Set(String),
-    /// Of a set of elements.
+    /// Nodes of a set of elements.
     Elements(String),
-    /// Of a surface.
+    /// Nodes of a surface.
     Surface(String),
 }
 
@@ -347,7 +347,7 @@ pub(super) enum Group {
 #[derive(Debug, Clone)]
 pub(super) struct OutputRequest {
     pub(super) group: Group,
-    /// For tables, instead of the result file.
+    /// Whether the request is for a table, not for the result file.
     pub(super) is_print: bool,
     pub(super) items: Vec<ResultItem>,
     /// The set of nodes or elements, of a section its surface; all where none is named.
@@ -365,7 +365,7 @@ pub(super) struct OutputRequest {
 pub(super) enum Schedule {
     /// Every so many increments.
     Every(usize),
-    /// At the time points of this name.
+    /// Results at the time points of this name.
     At(String),
 }
 
@@ -377,7 +377,7 @@ pub(super) struct TimePoints {
     pub(super) is_total: bool,
 }
 
-/// A step.
+/// A step with its conditions.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Step {
     pub(super) place: Place,
@@ -391,7 +391,7 @@ pub(super) struct Step {
     pub(super) outputs: Vec<OutputRequest>,
     /// When they are asked for, where it says so.
     pub(super) schedule: Option<Schedule>,
-    /// Where it is said that the conditions of each kind replace those of the steps before.
+    /// Place where the step says that conditions replace those of the steps before, for each kind.
     pub(super) renewed: [Option<Place>; Kind::COUNT],
 }
 

@@ -36,7 +36,7 @@ impl Expansion {
         all.fold(0.0, |most, a| if a.abs() > most.abs() { a } else { most })
     }
 
-    /// Whether it is the same at all temperatures.
+    /// Whether the expansion is the same at all temperatures.
     pub(super) fn is_constant(&self) -> bool {
         self.rows.iter().all(|row| row[1] == self.rows[0][1])
     }

@@ -7,7 +7,7 @@ use crate::error::{Error, Result};
 pub(super) struct Where<'t> {
     pub(super) file: &'t str,
     pub(super) line: u32,
-    /// As it is written, without the star.
+    /// Keyword as it is written, without the star.
     pub(super) keyword: &'t str,
 }
 

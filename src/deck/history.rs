@@ -43,7 +43,7 @@ impl Entry {
     }
 }
 
-/// Values by key.
+/// Values of a step, by their key.
 pub(super) type Map = BTreeMap<Key, Entry>;
 
 /// A step in time.
@@ -271,7 +271,7 @@ impl Deck {
         Ok(whole)
     }
 
-    /// Of the first element, and so of all.
+    /// Dimension of the first element, and so of all.
     pub(super) fn dimension(&self) -> usize {
         let first = self.elements.types.first();
         first.map_or(3, |first| first.space.dimension())

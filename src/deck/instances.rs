@@ -30,7 +30,7 @@ impl Instances {
         self.names.iter().position(|of| of.to_uppercase() == name)
     }
 
-    /// Their names.
+    /// Names of the instances.
     pub(super) fn names(&self) -> &[String] {
         &self.names
     }

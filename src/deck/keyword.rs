@@ -5,17 +5,17 @@ use super::source::{Files, Line, Place, Source};
 use crate::error::{Error, Result};
 use crate::scene::closest;
 
-/// Keyword lines of more bytes than this are none.
+/// Most bytes of a line that is read as a keyword.
 const LONGEST: usize = 1 << 16;
 
 /// What is done with a keyword.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Use {
-    /// It is read.
+    /// The keyword is read.
     Read,
-    /// It is skipped: it changes nothing here, and why.
+    /// The keyword is skipped: it changes nothing here, and why.
     Ignored(&'static str),
-    /// It asks for something that brinell does not have, and what.
+    /// The keyword asks for something that brinell does not have, and what.
     Refused(&'static str),
 }
 
@@ -227,7 +227,7 @@ const KEYWORDS: &[(&str, Use)] = &[
 /// A keyword line.
 #[derive(Debug, Clone)]
 pub(super) struct Keyword {
-    /// As it is written in the table above, or in the deck where it is in none.
+    /// Name as it is written in the table above, or in the deck where it is in none.
     pub(super) name: String,
     /// Names in capitals, without blanks; values as they are written.
     parameters: Vec<(String, Option<String>)>,

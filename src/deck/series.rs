@@ -58,12 +58,12 @@ impl Series {
         self.0.iter().map(|row| row[0])
     }
 
-    /// Its value at a time.
+    /// Value at a time.
     pub(super) fn at(&self, time: f64) -> f64 {
         interpolate(&self.0, time)
     }
 
-    /// Its rows over the largest value.
+    /// Rows over the largest value.
     pub(super) fn shape(&self) -> Vec<[f64; 2]> {
         let largest = self.largest();
         let rows = self.0.iter();

@@ -16,9 +16,9 @@ const MOST_INCREMENTS: usize = 100;
 
 /// What a body begins with and how that changes.
 pub(super) struct OfBody {
-    /// Of its first node, and whether all have it.
+    /// Initial temperature of the body's first node, and whether all nodes have it.
     pub(super) initial: (f64, bool),
-    /// Of the node whose temperature changes most.
+    /// Temperature of the node at which it changes most.
     pub(super) change: Series,
     /// Whether all nodes have that change; if not, theirs are in proportion to it.
     pub(super) is_uniform: bool,

@@ -10,7 +10,7 @@ pub struct FacetPoint {
     pub values: [f64; MAX_FACET_NODES],
     /// Weight times length or area, times circumference where axisymmetric.
     pub weight: f64,
-    /// Coordinates.
+    /// Coordinates of the point.
     pub position: Vector,
     /// Outward unit normal.
     pub normal: Vector,

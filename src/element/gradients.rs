@@ -124,7 +124,7 @@ pub struct Gradients<const D: usize, const S: usize, const P: usize, const N: us
 /// those along the reference coordinates at the points, through the inverse of the mean Jacobian.
 #[derive(Debug, Clone)]
 pub(super) struct ShearFromCenter<const D: usize, const P: usize> {
-    /// `sqrt(r/r_c)`.
+    /// Factors `sqrt(r/r_c)` at the points.
     pub(super) factors: Lanes<P>,
     /// `dxi_a/dy` at the centre.
     inverse: [f64; D],

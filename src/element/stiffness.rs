@@ -33,13 +33,13 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         out
     }
 
-    /// `m_k`.
+    /// Means `m_k` of the traces over the element.
     fn means<const K: usize>(&self, traces: &[[Lanes<P>; D]; K]) -> [[f64; D]; K] {
         let volume: f64 = self.weights.iter().sum();
         std::array::from_fn(|k| std::array::from_fn(|d| dot(&traces[k][d], &self.weights) / volume))
     }
 
-    /// `t_k`.
+    /// Traces `t_k` of the strain of each unit displacement.
     fn traces<const K: usize>(&self, gradients: &[[Lanes<P>; D]; K]) -> [[Lanes<P>; D]; K] {
         let mut out = *gradients;
         if let Some(per_radius) = &self.per_radius {

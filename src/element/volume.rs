@@ -11,7 +11,7 @@ pub struct VolumePoint {
     pub values: [f64; MAX_NODES],
     /// Weight times volume (area in the plane), times circumference where axisymmetric.
     pub weight: f64,
-    /// Coordinates.
+    /// Coordinates of the point.
     pub position: Vector,
 }
 

@@ -1,4 +1,5 @@
-//! A factor of the condensed matrix with other values, beside that of the matrix itself.
+//! A factor of the condensed matrix with other values, kept alongside the factor of the matrix
+//! itself.
 
 use super::{ContactStiffness, ZonePart};
 

@@ -27,7 +27,7 @@ pub struct ContactBlock {
 }
 
 impl ContactStiffness {
-    /// Of blocks that hold each of the freedoms `0..n_contact` once.
+    /// A matrix of blocks that hold each of the freedoms `0..n_contact` once.
     pub(crate) fn new(blocks: Vec<ContactBlock>) -> Self {
         let n = blocks.iter().map(|block| block.freedoms.len()).sum();
         let mut place = vec![(0, 0); n];
@@ -44,7 +44,7 @@ impl ContactStiffness {
         self.place.len()
     }
 
-    /// The blocks.
+    /// The diagonal blocks, one after the other.
     pub fn blocks(&self) -> impl Iterator<Item = &ContactBlock> {
         self.blocks.iter()
     }

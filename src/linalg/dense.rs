@@ -102,14 +102,14 @@ impl DenseCondensed {
         (part(&self.partition.zone), part(&self.partition.contact))
     }
 
-    /// `K_ii^-1 b`.
+    /// Solves on the interior: `K_ii^-1 b`.
     fn solve_ii(&self, mut b: DVector<f64>) -> DVector<f64> {
         self.factor_ii.solve_lower_triangular_mut(&mut b);
         self.factor_ii.tr_solve_lower_triangular_mut(&mut b);
         b
     }
 
-    /// `S_zz^-1 b`.
+    /// Solves on the zone: `S_zz^-1 b`.
     fn solve_zz(&self, mut b: DVector<f64>) -> DVector<f64> {
         self.factor_zz.solve_lower_triangular_mut(&mut b);
         self.factor_zz.tr_solve_lower_triangular_mut(&mut b);

@@ -119,8 +119,8 @@ pub trait Condensed: Send + Sync {
         self.recover_zone(zone, u_contact);
     }
 
-    /// A factor beside this one of the condensed matrix with other values in the chosen zone and on
-    /// the contact freedoms; `None` where the backend has none, or the memory does not suffice.
+    /// A second factor, of the condensed matrix with other values in the chosen zone and on the
+    /// contact freedoms. `None` where the backend has none, or the memory does not suffice.
     fn changed(&self) -> Option<Box<dyn ChangedFactor>> {
         None
     }

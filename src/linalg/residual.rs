@@ -76,7 +76,7 @@ fn largest_of(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
 
 /// What one pass over `K` states about a solution `u` of `K u = f`.
 pub(super) struct Rows {
-    /// `f - K u`.
+    /// Residual `f - K u` of each row.
     pub residual: Vec<f64>,
     /// `|K| |u|` of each row.
     pub terms: Vec<f64>,
@@ -214,7 +214,7 @@ impl Part<'_> {
 /// What a full solve found.
 #[derive(Debug, Clone)]
 pub struct Recovered {
-    /// Displacements.
+    /// Displacements of all freedoms.
     pub u: Vec<f64>,
     /// `|f - K u|` in the infinity norm.
     pub residual: f64,

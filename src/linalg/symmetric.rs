@@ -13,9 +13,9 @@ use std::sync::Arc;
 /// A symmetric matrix: all of it here, or a part on each of several ranks.
 #[derive(Debug, Clone)]
 pub enum Symmetric {
-    /// Its upper triangle.
+    /// The whole matrix here, as its upper triangle.
     Whole(Arc<SymmetricCsc>),
-    /// On the ranks of MUMPS.
+    /// Parts of the matrix on the ranks of MUMPS.
     #[cfg(feature = "mumps")]
     Shared(mumps::Shared),
 }

@@ -36,7 +36,7 @@ pub struct BackStresses {
 }
 
 impl BackStresses {
-    /// Those of the given moduli and rates `[C, gamma]`.
+    /// Back stresses of the given moduli and rates `[C, gamma]`.
     pub fn new(laws: impl IntoIterator<Item = [f64; 2]>) -> Self {
         let mut out = BackStresses::default();
         for [modulus, rate] in laws {

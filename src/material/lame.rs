@@ -21,7 +21,7 @@ pub struct Lame {
 }
 
 impl Lame {
-    /// Nothing.
+    /// The law without any stiffness.
     pub const NONE: Lame = Lame {
         lambda: 0.0,
         mu: 0.0,
@@ -80,14 +80,14 @@ pub struct Softening<const S: usize = 4> {
 }
 
 impl<const S: usize> Softening<S> {
-    /// That of an elastic point.
+    /// Softening of an elastic point: none.
     pub const NONE: Self = Softening {
         isotropic: Lame::NONE,
         along: 0.0,
         normal: [0.0; S],
     };
 
-    /// The same with another number of components: zeros for those it has not.
+    /// Softening with another number of components: zeros for the components it has not.
     pub(crate) fn resized<const T: usize>(&self) -> Softening<T> {
         Softening {
             isotropic: self.isotropic,

@@ -63,7 +63,7 @@ impl<const S: usize> Default for PlasticState<S> {
 }
 
 impl<const S: usize> PlasticState<S> {
-    /// The same with another number of components: zeros for those it has not.
+    /// Plastic state with another number of components: zeros for the components it has not.
     pub(crate) fn resized<const T: usize>(&self) -> PlasticState<T> {
         PlasticState {
             strain: resized(&self.strain),
@@ -80,7 +80,7 @@ pub(crate) fn resized<const S: usize, const T: usize>(tensor: &[f64; S]) -> [f64
 /// What a point has gone through.
 #[derive(Debug, Clone, Copy)]
 pub struct Past<'a, const S: usize> {
-    /// Its plastic history.
+    /// Plastic history of the point.
     pub state: &'a PlasticState<S>,
     /// Strains of the back stresses that fade, the material's first: engineering shear, trace 0.
     pub back: &'a [[f64; S]],

@@ -106,7 +106,7 @@ fn components<const S: usize>([sum, difference, shear]: &[f64; 3]) -> [f64; S] {
     out
 }
 
-/// `3/2 a' P b`.
+/// Scalar product `3/2 a' P b`.
 fn product(a: &[f64; 3], b: &[f64; 3]) -> f64 {
     a[0] * b[0] + 3.0 * (a[1] * b[1] + a[2] * b[2])
 }

@@ -29,9 +29,9 @@ use super::{
 
 /// What an increment flows.
 pub(super) struct Flow<const S: usize> {
-    /// At its end.
+    /// Plastic state at the end of the flow.
     pub state: PlasticState<S>,
-    /// `s(d)`.
+    /// Relative stress `s(d)`.
     s: [f64; S],
     /// `q`, the von Mises stress of `s(d)`.
     q: f64,
@@ -41,7 +41,7 @@ pub(super) struct Flow<const S: usize> {
 }
 
 impl<const S: usize> Flow<S> {
-    /// Of no flow.
+    /// An increment without flow.
     pub fn none(state: PlasticState<S>) -> Self {
         Flow {
             state,

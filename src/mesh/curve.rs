@@ -16,9 +16,9 @@ pub enum Curve {
     },
     /// A circular arc.
     Circle {
-        /// Centre.
+        /// Centre of the circle.
         center: [f64; 2],
-        /// Radius.
+        /// Radius of the circle.
         radius: f64,
         /// True where the body's outward normal points away from the centre (a disc), false for a
         /// hole.
@@ -31,11 +31,11 @@ pub enum Curve {
     },
     /// A part of a sphere.
     Sphere {
-        /// Centre.
+        /// Centre of the sphere.
         center: Vector,
-        /// Radius.
+        /// Radius of the sphere.
         radius: f64,
-        /// See above.
+        /// True where the body's outward normal points away from the centre (a ball).
         outward: bool,
     },
     /// A part of a circular cylinder.
@@ -44,22 +44,22 @@ pub enum Curve {
         point: Vector,
         /// Direction of the axis.
         axis: Vector,
-        /// Radius.
+        /// Radius of the cylinder.
         radius: f64,
-        /// See above.
+        /// True where the body's outward normal points away from the axis (a shaft).
         outward: bool,
     },
     /// A part of a torus: all points at a distance from a ring.
     Torus {
         /// Centre of the ring.
         center: Vector,
-        /// Its axis.
+        /// Direction of the ring's axis.
         axis: Vector,
-        /// Its radius.
+        /// Radius of the ring.
         ring: f64,
         /// Distance from the ring: the radius of the tube.
         radius: f64,
-        /// See above.
+        /// True where the body's outward normal points away from the ring.
         outward: bool,
     },
 }
@@ -173,7 +173,7 @@ impl Curve {
         }
     }
 
-    /// What it is, in words.
+    /// Name of the curve, in words.
     pub fn name(&self) -> &'static str {
         match self {
             Curve::Line { .. } => "line",

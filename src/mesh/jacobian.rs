@@ -20,7 +20,7 @@ pub(super) fn integrated(shape: Shape, integration: Integration) -> Vec<Function
         .collect()
 }
 
-/// The same at corners and mid-side nodes.
+/// The shape functions at corners and mid-side nodes.
 pub(super) fn at_nodes(shape: Shape) -> Vec<Functions> {
     let places = shape.reference().nodes.iter();
     places.map(|&place| shape.functions(place)).collect()

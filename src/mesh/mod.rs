@@ -36,7 +36,7 @@ use std::collections::BTreeMap;
 /// A facet of an element: an edge in the plane, a face in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Facet {
-    /// Element index.
+    /// Number of the element.
     pub element: usize,
     /// Local facet number, see [`Shape::facet`].
     pub local: usize,
@@ -66,7 +66,7 @@ pub struct Mesh {
     pub connectivity: Vec<u32>,
     /// Body index of each element.
     pub element_body: Vec<u32>,
-    /// Body names.
+    /// Names of the bodies.
     pub bodies: Vec<String>,
     /// Named node sets (sorted, without duplicates).
     pub node_sets: BTreeMap<String, Vec<usize>>,
@@ -154,7 +154,7 @@ impl Mesh {
         in_words(self.point(node), self.dimension)
     }
 
-    /// Whether it is of three dimensions.
+    /// Whether the mesh is of three dimensions.
     pub fn is_solid(&self) -> bool {
         self.dimension == 3
     }

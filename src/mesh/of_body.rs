@@ -63,7 +63,7 @@ impl Mesh {
         self.node_sets.contains_key(name) || self.surfaces.contains_key(name)
     }
 
-    /// For each node whether an element of a body has it.
+    /// Whether an element of a body has the node, for each node.
     fn nodes_of_body(&self, body: usize) -> Vec<bool> {
         let mut is_own = vec![false; self.n_nodes()];
         let own = (0..self.n_elements()).filter(|&e| self.element_body[e] as usize == body);

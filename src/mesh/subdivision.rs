@@ -105,11 +105,11 @@ fn sorted(corners: impl Iterator<Item = (u32, u32)>) -> Between {
     out
 }
 
-/// A new node.
+/// A node that subdivision adds.
 struct New {
     /// Where the map of its element puts it.
     mapped: Vector,
-    /// Where it lies.
+    /// Coordinates of the node.
     x: Vector,
     /// Whether a curve or a facing surface says where it lies.
     is_laid: bool,

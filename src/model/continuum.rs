@@ -15,7 +15,7 @@ pub struct Continuum {
     pub kind: Space,
     /// How elements are integrated.
     pub formulation: Formulation,
-    /// The mesh.
+    /// The mesh of all bodies.
     pub mesh: Mesh,
     /// Material of each body.
     pub materials: Vec<Material>,

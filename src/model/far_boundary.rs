@@ -26,8 +26,8 @@ use std::collections::BTreeMap;
 /// the nodes: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
-/// A motion that was pinned: bodies take part in it as they deform, so that it is fitted beside
-/// those that are left.
+/// A rigid motion that was pinned. Bodies take part in it as they deform, so it is fitted together
+/// with the motions that are left.
 pub(super) struct StoppedMotion {
     pub part: usize,
     /// Displacement of the freedoms that move; a pinned one has the number of its pin behind those
@@ -38,7 +38,7 @@ pub(super) struct StoppedMotion {
 /// What the motions of bodies are measured on.
 pub(super) struct FarBoundary<'a> {
     pub part_of_node: &'a [usize],
-    /// Each node's share in the volume.
+    /// Share of each node in the volume.
     pub volumes: Vec<f64>,
     pub freedoms: &'a Freedoms,
     pub stopped: Vec<StoppedMotion>,
@@ -120,7 +120,7 @@ impl FarBoundary<'_> {
     }
 }
 
-/// Each node's share in the volume of its elements: equal ones, which no node's is below zero.
+/// Share of each node in the volume of its elements: equal shares, none of which is below zero.
 pub(crate) fn volumes_of_nodes(space: Space, mesh: &Mesh) -> Vec<f64> {
     let mut out = vec![0.0; mesh.n_nodes()];
     for (element, &shape) in mesh.shapes.iter().enumerate() {

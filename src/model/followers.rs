@@ -26,7 +26,7 @@ use crate::scene::Scene;
 use crate::space::{Vector, along, dot, in_words};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Share of a coefficient of 1 up to which one is none.
+/// Share of a coefficient of 1 up to which a coefficient counts as zero.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 /// Cosine squared up to which a direction is one of those that a node is free in.
 const FREE: f64 = 1.0 - 1e-6;

@@ -24,11 +24,11 @@ use std::collections::BTreeMap;
 pub enum Slot {
     /// A free freedom with its number. Nodes held plane share one.
     Free(u32),
-    /// Held at zero.
+    /// A displacement held at zero.
     Fixed,
-    /// Held at a prescribed displacement, see [`Freedoms::prescribed`].
+    /// A displacement held at a prescribed value, see [`Freedoms::prescribed`].
     Prescribed(u32),
-    /// A sum of others, which it follows in a tie or an equation.
+    /// A sum of other displacements, which it follows in a tie or an equation.
     Sum(u32),
 }
 
@@ -88,7 +88,7 @@ impl Freedoms {
         turn_normals_into_supports(pairs, &supports);
         let mut normal_of = vec![None; n_nodes];
         for pair in pairs.iter() {
-            // A master that a support holds is an obstacle: its displacement is none.
+            // A master that a support holds is an obstacle: it does not move.
             let faced = pair.faced();
             let may_hold = scene
                 .contact

@@ -20,7 +20,8 @@ pub struct NodePair {
     pub gap: Option<f64>,
 }
 
-/// Beside a scene: pairs of a contact and nodal forces of a load, by the index of their entry.
+/// What is given in addition to a scene: pairs of a contact and nodal forces of a load, by the
+/// index of their entry.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(crate) struct Given {
     pub(super) pairs: BTreeMap<usize, Vec<NodePair>>,
@@ -59,7 +60,7 @@ pub(super) struct Partner {
 /// digit.
 const UNIT: f64 = 4.0 * f64::EPSILON;
 
-/// For each node of the second surface its partner. `normals` are the outward normals of the second
+/// Partner of each node of the second surface. `normals` are the outward normals of the second
 /// surface.
 ///
 /// # Errors

@@ -26,12 +26,12 @@ use std::ops::Range;
 pub struct FreeStrain {
     /// Which components.
     pub components: Range<usize>,
-    /// Their value at each node of the mesh.
+    /// Value of these components at each node of the mesh.
     pub nodal: Vec<f64>,
 }
 
 impl FreeStrain {
-    /// Whether it is zero everywhere.
+    /// Whether the free strain is zero everywhere.
     pub(super) fn is_none(&self) -> bool {
         self.nodal.iter().all(|strain| *strain == 0.0)
     }
@@ -118,14 +118,14 @@ impl FreeOfLoad<'_> {
         &self.strain.components
     }
 
-    /// Its value at an element's nodes at factor 1; `None` in another body.
+    /// Free strain at an element's nodes at load factor 1; `None` in another body.
     #[inline]
     pub fn at_nodes<const N: usize>(&self, mesh: &Mesh, element: usize) -> Option<[f64; N]> {
         let is_own = mesh.element_body[element] == self.body;
         is_own.then(|| of_element(mesh, element, &self.strain.nodal))
     }
 
-    /// The same on some of the nodes, numbered as they come.
+    /// The free strain on some of the nodes, numbered as they come.
     pub fn part(&self, nodes: &[u32]) -> FreeOfLoad<'static> {
         let nodal = nodes.iter().map(|&node| self.strain.nodal[node as usize]);
         let strain = FreeStrain {

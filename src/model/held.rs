@@ -16,7 +16,7 @@ use std::collections::BTreeSet;
 /// Bodies that supports alone do not hold.
 #[derive(Debug, Clone, Default)]
 pub struct FloatingBodies {
-    /// For each contact freedom: whether it belongs to a floating body.
+    /// Whether each contact freedom belongs to a floating body.
     pub of_contact: Vec<bool>,
     /// Names of the floating bodies.
     pub bodies: Vec<String>,
@@ -24,8 +24,8 @@ pub struct FloatingBodies {
     pub pins: Vec<Pin>,
     /// Rigid motions that supports and pins leave free: a basis.
     pub motions: Vec<RigidMotion>,
-    /// For each contact freedom: the part of the model (bodies that share nodes or free motions)
-    /// that it belongs to.
+    /// Part of the model (bodies that share nodes or free motions) that each contact freedom
+    /// belongs to.
     pub part_of_contact: Vec<usize>,
 }
 
@@ -67,7 +67,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// With `share` of another one of this sum and size.
+    /// This work with `share` of another of this sum and size.
     fn and(self, share: f64, sum: f64, size: f64) -> Self {
         Work {
             sum: self.sum + share * sum,
@@ -75,7 +75,7 @@ impl Work {
         }
     }
 
-    /// That on a motion which has shares of others.
+    /// Work on a motion which has shares of others.
     pub fn combined(shares: impl Iterator<Item = (f64, Work)>) -> Self {
         shares.fold(Work::default(), |all, (share, own)| {
             all.and(share, own.sum, own.size)
@@ -101,10 +101,11 @@ pub struct Pin {
     pub node: usize,
 }
 
-/// Work of a load on a motion below this, relative to the sum of its parts, is none.
+/// Work below which a load does none on a motion, relative to the sum of its parts.
 const NO_WORK: f64 = 1e-9;
-/// The same on a motion that moves no pair by more than [`FREE`] of its own displacement: the
-/// centre of a round surface is known no better, and a load through it does so much work.
+/// Work below which a load does none on a motion that moves no pair by more than [`FREE`] of its
+/// own displacement, relative to the sum of its parts: the centre of a round surface is known no
+/// better, and a load through it does so much work.
 const NO_WORK_FOUND: f64 = 10.0 * FREE;
 
 /// The floating bodies, and the contact rows on the freedoms that pins leave.

@@ -58,8 +58,8 @@ impl Images {
         Images(out)
     }
 
-    /// Of some planes those that make images of images, the first ones first, and those opposite to
-    /// one of these: between the two a model goes on without end.
+    /// Planes among the given ones that make images of images, the first ones first, and planes
+    /// opposite to one of these: between the two a model goes on without end.
     pub fn planes(of: impl Iterator<Item = Mirror>) -> (Vec<Mirror>, Vec<Mirror>) {
         let (mut out, mut opposite): (Vec<Mirror>, Vec<Mirror>) = (Vec::new(), Vec::new());
         for plane in of {

@@ -40,7 +40,7 @@ pub struct LoadCase {
     pub(super) nodal: Vec<(usize, Vector)>,
     /// Forces on the free freedoms at factor 1 (sparse, ascending).
     pub forces: Vec<(usize, f64)>,
-    /// How it depends on the load factor.
+    /// Dependence of the load on the load factor.
     pub history: History,
     /// Size at factor 1: force, stress or displacement.
     pub magnitude: f64,
@@ -58,7 +58,8 @@ pub struct LoadCase {
     /// Strains at factor 1 that no stress belongs to, which count in the elements of its body: of
     /// temperature, or brought along.
     pub free_strain: Vec<FreeStrain>,
-    /// Of a load by a gap: the contacts whose gaps it changes, and by how much at factor 1.
+    /// Contacts whose gaps a load by a gap changes, and by how much at factor 1; empty of other
+    /// loads.
     pub opens: Vec<(usize, Opening)>,
 }
 
@@ -72,7 +73,7 @@ impl LoadCase {
         }
     }
 
-    /// What it adds to the gap of a pair at factor 1.
+    /// Gap that the load adds to a pair at factor 1.
     pub fn gap(&self, pair: &Pair) -> f64 {
         let opened = self
             .opens
@@ -83,7 +84,7 @@ impl LoadCase {
             .sum()
     }
 
-    /// Whether it changes anything at factor 1.
+    /// Whether the load changes anything at factor 1.
     pub(crate) fn acts(&self) -> bool {
         match self.measures {
             Magnitude::Displacement => self.magnitude != 0.0,

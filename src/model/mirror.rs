@@ -364,7 +364,7 @@ impl Side {
         }
     }
 
-    /// Whether it lies in a plane with this normal.
+    /// Whether the side lies in a plane with this normal.
     fn is_across(&self, normal: Vector) -> bool {
         let across = |mirror: &Mirror| length_of(cross(mirror.normal, normal)) < SAME;
         self.mirror.as_ref().is_some_and(across)

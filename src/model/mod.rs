@@ -83,11 +83,11 @@ pub struct Model {
     pub freedoms: Freedoms,
     /// Contact pairs, contact by contact, along each surface.
     pub pairs: Vec<Pair>,
-    /// Their rows on the free freedoms.
+    /// Contact rows of the pairs on the free freedoms.
     pub rows: ContactRows,
     /// The contacts of the scene.
     pub contacts: Vec<ContactSurface>,
-    /// Loads.
+    /// Loads of the model, with their factors over the program.
     pub loads: Vec<LoadCase>,
     /// Loads whose factors are always equal, as lists of places among the loads: each list acts on
     /// the structure as one load vector.
@@ -108,7 +108,7 @@ pub struct Model {
 /// Where a model came from.
 #[derive(Debug, Clone)]
 enum Origin {
-    /// Its scene makes it again.
+    /// The scene, which makes the model again.
     Scene,
     /// A mesh, and what was stated node by node, was handed over.
     Arrays(Given),
@@ -266,7 +266,7 @@ impl Model {
         Ok(model)
     }
 
-    /// For each contact freedom: whether it is the motion of a rigid surface.
+    /// Whether each contact freedom is the motion of a rigid surface.
     pub(crate) fn rigid_contact(&self) -> Vec<bool> {
         let owner = |&freedom: &usize| self.freedoms.owners[freedom].0 as usize;
         let nodes = self.rows.freedoms.iter().map(owner);

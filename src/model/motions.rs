@@ -30,8 +30,8 @@ pub(super) struct Motions<'a> {
     nodes: Vec<Vec<usize>>,
 }
 
-/// A rigid motion of some groups: what it costs to handle is a matter of these, not of how many
-/// bodies there are beside them.
+/// A rigid motion of some groups. Its cost depends on these groups alone, not on how many other
+/// bodies there are.
 #[derive(Clone)]
 pub(super) struct Mode {
     /// Group and rigid motion, as `per_group * group + motion`, ascending; whole groups.
@@ -46,7 +46,7 @@ impl Mode {
         place.map_or(0.0, |k| self.values[k])
     }
 
-    /// Its largest entry.
+    /// Largest entry of the motion, without its sign.
     pub(super) fn largest(&self) -> f64 {
         self.values.amax()
     }
@@ -443,8 +443,9 @@ struct Plain {
     mode: Mode,
 }
 
-/// The same motions by a basis that can be described in words: rotations are taken out of all
-/// vectors but as many as it takes, then motions along y, then along x (reduced echelon form).
+/// Motions turned into a basis of the same space that can be described in words: rotations are
+/// taken out of all vectors but as many as it takes, then motions along y, then along x (reduced
+/// echelon form).
 fn plain(rows: &[usize], mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plain> {
     let mut pivots = Vec::new();
     for kind in (0..per).rev() {

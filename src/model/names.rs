@@ -7,9 +7,9 @@ use crate::scene::{Scene, closest};
 /// An entry of a scene, for messages about it.
 pub(super) struct Entry<'s> {
     scene: &'s Scene,
-    /// Its key path, `load.0`.
+    /// Key path of the entry, `load.0`.
     key: String,
-    /// In words, `load 1`.
+    /// Name of the entry in messages, `load 1`.
     what: String,
 }
 

@@ -13,7 +13,7 @@ use std::path::Path;
 /// A field with the mesh that it is read on.
 pub(super) struct OnMesh<'a> {
     mesh: &'a Mesh,
-    /// What it is the value of, for messages.
+    /// Name of the field, for messages.
     name: &'static str,
     values: Values<'a>,
 }
@@ -53,7 +53,7 @@ impl<'a> OnMesh<'a> {
         Ok(OnMesh { mesh, name, values })
     }
 
-    /// Its value at a node.
+    /// Value of the field at a node.
     ///
     /// # Errors
     /// `Input` naming the node, where the formula is not finite or the file has no value.
@@ -74,7 +74,7 @@ impl<'a> OnMesh<'a> {
         }
     }
 
-    /// Its value at the control point of a node.
+    /// Value of the field at the control point of a node.
     ///
     /// # Errors
     /// As [`at_node`](Self::at_node), of the ends of the edge in whose middle the node lies too.
@@ -99,8 +99,8 @@ impl<'a> OnMesh<'a> {
         }
     }
 
-    /// Its value at a point of a facet with these nodes: what a formula has there, or what lies
-    /// between the values at nodes by the shape functions.
+    /// Value of the field at a point of a facet with these nodes: what a formula has there, or what
+    /// lies between the values at nodes by the shape functions.
     ///
     /// # Errors
     /// As [`at_node`](Self::at_node); a formula names the point.

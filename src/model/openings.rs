@@ -8,17 +8,17 @@ use crate::mesh::Mesh;
 use crate::scene::{Field, Load, Scene};
 use std::collections::BTreeMap;
 
-/// By how much a load at factor 1 takes the surfaces of a contact apart.
+/// Distance by which a load at factor 1 takes the surfaces of a contact apart.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Opening {
-    /// The same all over.
+    /// One opening for the whole contact.
     Uniform(f64),
-    /// At the nodes of the slaves, or at their control points.
+    /// Openings at the nodes of the slaves, or at their control points.
     At(BTreeMap<usize, f64>),
 }
 
 impl Opening {
-    /// At a slave.
+    /// Opening at a slave node.
     pub fn at(&self, node: usize) -> f64 {
         match self {
             Opening::Uniform(gap) => *gap,
@@ -26,7 +26,7 @@ impl Opening {
         }
     }
 
-    /// Its largest size.
+    /// Largest size of the opening.
     pub fn largest(&self) -> f64 {
         match self {
             Opening::Uniform(gap) => gap.abs(),
@@ -34,7 +34,7 @@ impl Opening {
         }
     }
 
-    /// Of nodes in the middle of edges, puts it in terms of their control points.
+    /// Restates the openings of nodes in the middle of edges in terms of their control points.
     pub(super) fn restate(&mut self, basis: &ContactBasis) {
         if let Opening::At(gaps) = self {
             let nodal = gaps.clone();

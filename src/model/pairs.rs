@@ -44,7 +44,7 @@ pub struct Pair {
     pub normal: Vector,
     /// Initial gap delta, interference not yet taken off.
     pub gap: f64,
-    /// Interference.
+    /// Interference: the overlap that contact has to push apart.
     pub interference: f64,
     /// What a gap of 1 all over the contact is of the pair: 1, or at a control point of a quadratic
     /// face what the normals round it leave of it.
@@ -52,7 +52,7 @@ pub struct Pair {
     /// Area that belongs to the pair: integral of the slave's shape function over what of its
     /// surface faces the other.
     pub area: f64,
-    /// Distance along the slave's surface from its begin; 0 in a solid model.
+    /// Distance along the slave's surface from its start; 0 in a solid model.
     pub arc: f64,
 }
 
@@ -100,7 +100,7 @@ pub struct ContactSurface {
     pub slave: usize,
     /// Whether the other one is rigid and has no mesh: its displacement is that of a body.
     pub is_rigid: bool,
-    /// Its pairs: `pairs[range]`.
+    /// Pairs of the contact: `pairs[range]`.
     pub range: std::ops::Range<usize>,
     /// Centre and radius of the surface, where it is known to be a circle.
     pub circle: Option<([f64; 2], f64)>,
@@ -116,11 +116,11 @@ pub struct ContactSurface {
     /// In a solid model the pairs at the corners of each piece of a face of the slave surface, in
     /// order.
     pub faces: Vec<Vec<usize>>,
-    /// Of pieces that the other surface does not cover wholly, by their number: polygons that it
-    /// does cover.
+    /// Polygons that the other surface covers, for each piece that it does not cover wholly, by the
+    /// number of the piece.
     pub covered: BTreeMap<usize, Vec<Vec<Vector>>>,
-    /// Of pieces some of whose nodes face too little to be pairs: the pairs nearest in the face,
-    /// and polygons that the other surface covers.
+    /// Pieces some of whose nodes face too little to be pairs: the pairs nearest in the face, and
+    /// polygons that the other surface covers.
     pub slivers: Vec<(Vec<usize>, Vec<Vec<Vector>>)>,
     /// Arc lengths along the slave surface of a plane model between which the other surface covers
     /// it, where that is not known from the pairs.
@@ -143,8 +143,9 @@ impl ContactSurface {
 }
 
 /// A pair on the axis of revolution whose slave belongs to a quadratic element. Its consistent
-/// force is zero whatever the pressure, so the condition that they keep apart has no weight: it is
-/// none of the model's pairs, and the pressure there is the even continuation of that beside it.
+/// force is zero whatever the pressure, so the condition that slave and master keep apart has no
+/// weight there. It is left out of the model's pairs, and the pressure there continues that of its
+/// neighbours evenly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisPoint {
     /// The slave, what it faces, and how far that is.
@@ -188,7 +189,7 @@ impl Entries<'_> {
         let nodes = surface::nodes(self.mesh, second)?;
         let outward = surface::normals(self.mesh, second, &nodes);
         let along: f64 = outward.iter().map(|n| dot(*n, normal)).sum();
-        // All around a ring the sum is nothing.
+        // All around a ring the sum vanishes.
         if along >= -0.5 * outward.len() as f64 {
             return Ok(());
         }

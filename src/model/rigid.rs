@@ -44,9 +44,9 @@ pub(super) struct RigidBody {
 /// How a rigid surface moves.
 #[derive(Debug, PartialEq)]
 enum Motion {
-    /// Not at all.
+    /// The surface does not move.
     Held,
-    /// By a prescribed displacement along these axes.
+    /// A prescribed displacement along these axes.
     Given([bool; 3]),
     /// Freely along a direction.
     Free(Vector),

@@ -23,7 +23,7 @@ pub struct ContactRows {
     /// The free freedoms that rows act on: those of masters in the order of the pairs, overlaps of
     /// soft contact, then the slaves' normal ones.
     pub freedoms: Vec<usize>,
-    /// Of each pair places in `freedoms` and coefficients `b`; the last is the slave's, 1.
+    /// Places in `freedoms` and coefficients `b` of each pair; the last is the slave's, 1.
     pub entries: Vec<Vec<(usize, f64)>>,
     /// Number of rows that act on each contact freedom.
     rows_at: Vec<u32>,

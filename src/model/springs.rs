@@ -16,7 +16,7 @@ use super::pairs::{ContactSurface, Pair};
 pub struct Spring {
     /// The pair; `None` of the one freedom of a model that has no other.
     pub pair: Option<usize>,
-    /// Its free freedom.
+    /// Free freedom of the overlap.
     pub freedom: usize,
     /// `k A`: force over overlap.
     pub stiffness: f64,

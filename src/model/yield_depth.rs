@@ -26,7 +26,7 @@ impl YieldByDepth {
         interpolate(&self.rows, self.surface.distance(place))
     }
 
-    /// Whether it is the same everywhere, and what.
+    /// The yield stress, if it is the same everywhere.
     fn constant(&self) -> Option<f64> {
         let first = self.rows[0][1];
         self.rows.iter().all(|row| row[1] == first).then_some(first)

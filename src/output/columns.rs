@@ -10,9 +10,9 @@ use crate::space::Space;
 /// digits.
 const SAME: f64 = 1e-6;
 
-/// A column.
+/// A column of a table, with a cell for each state.
 pub(crate) struct Column {
-    /// Its heading, in lines.
+    /// Heading of the column, in lines.
     pub heading: &'static str,
     /// The name of its unit; empty: none.
     pub unit: String,
@@ -28,8 +28,8 @@ pub(crate) fn cell(quantity: &Quantity, value: f64) -> String {
     }
 }
 
-/// The columns of states; a narrow table leaves out what is a detail, and the width and the
-/// approach where arcs or pressures at the pole stand beside them.
+/// The columns of states. A narrow table leaves out details, and leaves out the width and the
+/// approach where it shows arcs or pressures at the pole.
 pub(crate) fn of_states(
     states: &[State],
     labels: &Labels,

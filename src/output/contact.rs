@@ -22,7 +22,7 @@ pub(super) struct Row {
     x: f64,
     #[serde(deserialize_with = "number")]
     y: f64,
-    /// Of a solid.
+    /// Undeformed z, of a solid.
     #[serde(skip_serializing_if = "Option::is_none")]
     z: Option<f64>,
     #[serde(deserialize_with = "number")]

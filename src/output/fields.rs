@@ -110,7 +110,7 @@ fn with_ids<'a>(mut grid: Grid<'a>, nodes: &'a [u32], elements: &'a [u32]) -> Gr
 /// A part of the mesh that goes into a file of its own.
 struct Part {
     mesh: Mesh,
-    /// Its nodes and elements as the whole numbers them.
+    /// Nodes and elements of the part as the whole numbers them.
     nodes: Vec<u32>,
     elements: Vec<u32>,
 }
@@ -134,7 +134,7 @@ impl Part {
         some.map(part).collect()
     }
 
-    /// Its share of fields on the whole.
+    /// Share of the part in fields on the whole mesh.
     fn of(&self, whole: &Fields) -> Fields {
         let (dimension, components) = (self.mesh.dimension, 2 * self.mesh.dimension);
         Fields {

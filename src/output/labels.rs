@@ -23,7 +23,7 @@ pub(super) struct UnitNames {
     length: String,
     force: String,
     stress: String,
-    /// Of the total load.
+    /// Unit of the total load.
     load: String,
 }
 
@@ -41,7 +41,7 @@ pub(super) enum Extent {
 }
 
 impl Labels {
-    /// Those of a model.
+    /// Labels of the results of a model.
     pub fn of(model: &Model) -> Self {
         let is_plane = !model.kind.is_axisymmetric() && !model.kind.is_solid();
         let units = model.scene.units.clone().map(|names| UnitNames {
@@ -66,7 +66,7 @@ impl Labels {
         }
     }
 
-    /// Those that `summary.json` has of a run of this kind.
+    /// Labels that `summary.json` has of a run of this kind.
     pub(super) fn recorded(kind: &str, units: Option<UnitNames>, extent: Option<Extent>) -> Self {
         let plane = [Space::PlaneStrain, Space::PlaneStress];
         Labels {
@@ -86,22 +86,22 @@ impl Labels {
         self.extent
     }
 
-    /// Of lengths.
+    /// Unit of lengths; empty where none is named.
     pub fn length(&self) -> &str {
         self.units.as_ref().map_or("", |names| &names.length)
     }
 
-    /// Of stresses.
+    /// Unit of stresses; empty where none is named.
     pub fn stress(&self) -> &str {
         self.units.as_ref().map_or("", |names| &names.stress)
     }
 
-    /// Of the total load.
+    /// Unit of the total load; empty where none is named.
     pub fn load(&self) -> &str {
         self.units.as_ref().map_or("", |names| &names.load)
     }
 
-    /// Of a quantity.
+    /// Unit of a quantity; empty where none is named.
     pub fn unit(&self, unit: Unit) -> String {
         let Some(names) = &self.units else {
             return String::new();
@@ -169,7 +169,7 @@ pub(crate) fn in_line(heading: &str) -> String {
     heading.replace("-\n", "").replace('\n', " ")
 }
 
-/// With a capital first letter.
+/// The text with a capital first letter.
 #[cfg(feature = "report")]
 pub(crate) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();

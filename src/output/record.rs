@@ -11,11 +11,11 @@ use crate::scene::{MeshSource, Scene};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// The scene.
+/// File of the scene in a result directory.
 pub(super) const SCENE_FILE: &str = "scene_as_run.toml";
-/// Its mesh.
+/// File of the scene's mesh in a result directory.
 pub(super) const MESH_FILE: &str = "mesh_as_run.msh";
-/// A model that no scene makes.
+/// File of a model that no scene makes.
 pub(super) const MODEL_FILE: &str = "model_as_run.json";
 
 /// Writes the scene and its mesh, or the model.

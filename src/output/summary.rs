@@ -97,7 +97,7 @@ struct StateEntry {
     plastic_points_by_body: Named<usize>,
     quality: Quality,
     fields: Option<String>,
-    /// Of solids.
+    /// Contact patches, of solids.
     patches: Option<Vec<ContactPatch>>,
     /// The quantities of the table.
     #[serde(flatten)]

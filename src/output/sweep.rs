@@ -34,19 +34,19 @@ pub(crate) struct Sweep {
     pub keys: Vec<String>,
     /// In the order of their values.
     pub points: Vec<Point>,
-    /// Where it is recorded: a share of the points has a file of its own.
+    /// File in which the sweep is recorded: a share of the points has a file of its own.
     #[serde(skip)]
     file: String,
 }
 
-/// A point.
+/// A point of the sweep and how its run ended.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Point {
     /// A value for each key, as it was given.
     pub values: Vec<String>,
-    /// Its folder below that of the sweep.
+    /// Folder of the point below that of the sweep.
     pub folder: String,
-    /// Stands for all that its results depend on.
+    /// Text that stands for all that the results of the point depend on.
     pub identity: String,
     /// Loads over yield stress, larger the further the material yields: what is largest is run
     /// first, so that its factor serves the others.
@@ -59,8 +59,8 @@ pub(crate) struct Point {
 }
 
 impl Point {
-    /// Its run will end the same way again: done, a limit load, an inaccurate result, or the end of
-    /// the contact candidates.
+    /// Whether a run of this point would end the same way again: done, a limit load, an inaccurate
+    /// result, or the end of the contact candidates.
     pub(crate) fn is_finished(&self) -> bool {
         matches!(self.exit_code, Some(0 | 6 | 7 | 8))
     }

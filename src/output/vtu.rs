@@ -1,5 +1,5 @@
-//! VTK XML unstructured grids (`.vtu`) with appended raw binary data, what says of which pieces one
-//! is made (`.pvtu`), and collections (`.pvd`).
+//! VTK XML unstructured grids (`.vtu`) with appended raw binary data, the files that join pieces to
+//! one grid (`.pvtu`), and collections (`.pvd`).
 //!
 //! The head is XML; each array is a block of the appended section, at a byte offset counted from
 //! after its leading `_`:
@@ -34,7 +34,7 @@ pub(super) struct Grid<'a> {
     pub(super) cell_data: Vec<DataArray<'a>>,
 }
 
-/// A named array.
+/// A named array of values on nodes or elements.
 pub(super) struct DataArray<'a> {
     name: &'static str,
     components: usize,
@@ -71,7 +71,7 @@ impl<'a> DataArray<'a> {
 
 /// The values of an array, as they lie in memory, and by the variant as what they are written.
 pub(super) enum Values<'a> {
-    /// As they are.
+    /// Numbers, written as they are.
     Float64(&'a [f64]),
     /// `n x 2`, written as `n x 3` with 0 for the third component.
     Planar(&'a [f64]),
@@ -79,11 +79,11 @@ pub(super) enum Values<'a> {
     Spatial(&'a [f64]),
     /// Symmetric, `n x [xx yy zz xy yz zx]`, written as `n x 9`, row by row.
     Tensors(&'a [f64]),
-    /// As they are.
+    /// Bytes, written as they are.
     UInt8(&'a [u8]),
     /// Small numbers (bodies).
     Int32(&'a [u32]),
-    /// Node indices.
+    /// Numbers of nodes, from 0.
     Int64(&'a [u32]),
     /// Ends of the elements' nodes in the connectivity.
     Offsets(&'a [usize]),

@@ -49,7 +49,7 @@ type Point = (f64, f64);
 /// A curve of the plot.
 struct Curve<'s> {
     name: &'s str,
-    /// Whether it is a series of meshes.
+    /// Whether the curve is a series of meshes.
     is_mesh: bool,
     points: Vec<Point>,
 }

@@ -11,7 +11,7 @@ pub struct ContactPatch {
     /// Contact (scene entry) index, from 0; `summary.json` counts from 1.
     #[serde(with = "from_one")]
     pub contact: usize,
-    /// Force.
+    /// Force that the patch carries.
     #[serde(deserialize_with = "number")]
     pub force: f64,
     /// Area, on the plane across the mean normal; of a patch that closes round a body that of its

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub enum CycleOutcome {
     /// Nothing yields.
     Elastic,
-    /// It yields at first, and not any more.
+    /// The material yields at first, and not any more.
     ElasticShakedown,
     /// Plastic strains go to and fro, and come back in each cycle.
     PlasticShakedown,
@@ -23,7 +23,7 @@ pub enum CycleOutcome {
 }
 
 impl CycleOutcome {
-    /// In words.
+    /// The outcome in words.
     pub fn words(self) -> &'static str {
         match self {
             CycleOutcome::Elastic => "elastic",
@@ -35,11 +35,11 @@ impl CycleOutcome {
     }
 }
 
-/// A cycle.
+/// A cycle of the load and what it changed.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CycleRow {
-    /// Its number, from 1.
+    /// Number of the cycle, from 1.
     pub cycle: usize,
     /// The largest equivalent plastic strain that a point gained in it.
     #[serde(deserialize_with = "number")]
@@ -53,16 +53,16 @@ pub struct CycleRow {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Cycles {
-    /// What they came to.
+    /// Outcome of the cycles.
     pub outcome: CycleOutcome,
     /// The body whose plastic strain grew most in the last.
     pub body: Option<String>,
-    /// Each of them.
+    /// A row for each cycle.
     pub rows: Vec<CycleRow>,
 }
 
 impl Cycles {
-    /// What they came to, in a sentence.
+    /// Outcome of the cycles, in a sentence.
     #[cfg(feature = "report")]
     pub fn told(&self) -> String {
         let last = self.last();

@@ -18,16 +18,16 @@ pub struct EndState {
     pub back_strains: Vec<[f64; 6]>,
     /// Work per volume that was lost with them at each point; empty where there are none.
     pub lost_work: Vec<f64>,
-    /// What it belongs to.
+    /// Model that left this state.
     pub left_by: Option<LeftBy>,
 }
 
 /// The model that left a state in the material, as far as the state has a meaning in another one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LeftBy {
-    /// Its kind: the components of strains and what holds between them.
+    /// Kind of the model: the components of strains and what holds between them.
     pub kind: Space,
-    /// Its bodies, in the order of the mesh.
+    /// Bodies of the model, in the order of the mesh.
     pub bodies: Vec<LeftByBody>,
 }
 
@@ -46,8 +46,8 @@ impl EndState {
         self.elements.is_empty()
     }
 
-    /// Whether it is one of elements of a mesh whose elements have `stride` places for points, and
-    /// its parts fit each other.
+    /// Whether the state is one of elements of a mesh whose elements have `stride` places for
+    /// points, and its parts fit each other.
     pub(crate) fn is_of(&self, n_elements: usize, stride: usize) -> bool {
         let n = self.elements.len() * stride;
         let ascends = self.elements.windows(2).all(|pair| pair[0] < pair[1]);

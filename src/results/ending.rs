@@ -8,12 +8,12 @@ use crate::error::{Error, ErrorKind};
 pub struct Incomplete {
     /// What decides the exit code: stopped, collapse, analysis, ...
     pub kind: ErrorKind,
-    /// In words.
+    /// The reason in words.
     pub why: String,
 }
 
 impl Incomplete {
-    /// The same as an error.
+    /// This ending as an error.
     pub fn to_error(&self) -> Error {
         Error::new(self.kind, self.why.as_str())
     }
@@ -22,16 +22,17 @@ impl Incomplete {
 /// How a run ended, with what it did not keep of what was asked of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ending<'r> {
-    /// Its program is done, every state within its tolerances, the demanded accuracy reached.
+    /// The program is done, every state within its tolerances, the demanded accuracy reached.
     Complete,
-    /// Its program is done, but not so.
+    /// The program is done, but a state misses its tolerances or the demanded accuracy is not
+    /// reached.
     Inaccurate {
         /// States whose quality misses its tolerance, with the figure.
         states: &'r [String],
         /// A demanded accuracy that was not reached.
         demand: Option<&'r Demand>,
     },
-    /// It ended before its program did.
+    /// The run ended before its program did.
     Incomplete(&'r Incomplete),
 }
 

@@ -11,7 +11,7 @@ pub struct HistoryRow {
     /// Load factor at its end, in the program's unit.
     #[serde(deserialize_with = "number")]
     pub alpha: f64,
-    /// Total load.
+    /// Total load at the end of the increment.
     #[serde(deserialize_with = "number")]
     pub load: f64,
     /// Maximum contact pressure.
@@ -23,7 +23,7 @@ pub struct HistoryRow {
     /// Sum of the contact forces.
     #[serde(deserialize_with = "number")]
     pub contact_force: f64,
-    /// Closed pairs.
+    /// Number of closed pairs.
     pub closed_pairs: usize,
     /// Gauss points with plastic strain.
     pub plastic_points: usize,
@@ -54,7 +54,7 @@ pub struct PathPoint {
     /// Load factor, in the program's unit.
     #[serde(deserialize_with = "number")]
     pub alpha: f64,
-    /// Total load.
+    /// Total load at this point.
     #[serde(deserialize_with = "number")]
     pub load: f64,
     /// Maximum contact pressure.

@@ -14,8 +14,8 @@ pub struct Quality {
     #[serde(deserialize_with = "number")]
     pub backward_error: f64,
     /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`;
-    /// none in results of versions that did not have it. It has no tolerance of its own: what it
-    /// shows beside the normwise one are freedoms on which next to nothing acts.
+    /// none in results of versions that did not have it. It has no tolerance of its own: where it
+    /// is large and the normwise backward error is not, next to nothing acts on some freedoms.
     pub componentwise_error: Option<f64>,
     /// What round-off alone may leave out of balance, over the largest applied or contact force:
     /// `2 eps |K| |u|`, the largest of a row, with `u` free of rigid motions: storing `u` and
@@ -40,11 +40,12 @@ pub struct Quality {
 /// What a state's quality may be before its result counts as inaccurate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
-    /// Of [`Quality::backward_error`].
+    /// Tolerance of [`Quality::backward_error`].
     pub backward_error: f64,
-    /// Of [`Quality::equilibrium`].
+    /// Tolerance of [`Quality::equilibrium`].
     pub equilibrium: f64,
-    /// Of [`Quality::complementarity`], [`Quality::penetration`] and [`Quality::adhesion`].
+    /// Tolerance of [`Quality::complementarity`], [`Quality::penetration`] and
+    /// [`Quality::adhesion`].
     pub contact: f64,
     /// What [`Quality::round_off`] may widen those of forces to, and no further.
     pub loosest: f64,

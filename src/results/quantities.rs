@@ -10,9 +10,9 @@ use super::{HistoryRow, PathPoint, Results, State, YieldPoint};
 pub enum Unit {
     /// Nothing: a factor, a count, a strain, a relative error.
     One,
-    /// A length.
+    /// A length, in units of the mesh.
     Length,
-    /// A stress.
+    /// A stress, in units of the moduli.
     Stress,
     /// What loads: a force, in the plane per length; where a stress loads, that.
     Load,
@@ -27,18 +27,18 @@ pub enum Unit {
 /// In which runs a quantity says something.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
-    /// In all.
+    /// Runs of every kind.
     Always,
-    /// With contact.
+    /// Runs with contact.
     Contact,
-    /// Where the material yields.
+    /// Runs in which the material yields.
     Yielding,
-    /// With contact, where the material yields.
+    /// Runs with contact in which the material yields.
     YieldingContact,
 }
 
 impl Scope {
-    /// All of them.
+    /// All scopes, in their order.
     pub const ALL: [Scope; 4] = [
         Scope::Always,
         Scope::Contact,
@@ -60,9 +60,9 @@ impl Scope {
 /// Where a record keeps a quantity. Counts are numbers too; one that is not known is not a number.
 #[derive(Debug)]
 pub struct Field<Record> {
-    /// Reads it.
+    /// Reads the quantity.
     pub get: fn(&Record) -> f64,
-    /// Writes it, as a summary is read back.
+    /// Writes the quantity, as a summary is read back.
     pub(crate) set: fn(&mut Record, f64),
 }
 
@@ -79,48 +79,48 @@ impl<Record> Copy for Field<Record> {}
 pub struct Estimated {
     /// A short name, for demands on it.
     pub short: &'static str,
-    /// Whether it is that of single Gauss points, which a mesh reaches with first order.
+    /// Whether the quantity is one of single Gauss points, which a mesh reaches with first order.
     pub is_of_points: bool,
     /// Whether a demand on all quantities is one on it.
     pub in_all: bool,
 }
 
-/// A quantity.
+/// A quantity that runs report: key, unit, places.
 #[derive(Debug)]
 pub struct Quantity {
-    /// Its key in `summary.json`, name of its column in the tables and in Python.
+    /// Key of the quantity in `summary.json`, name of its column in the tables and in Python.
     pub key: &'static str,
-    /// What it is measured in.
+    /// Unit of the quantity.
     pub unit: Unit,
-    /// Whether it is a count.
+    /// Whether the quantity is a count.
     pub is_count: bool,
-    /// Where it says something.
+    /// Runs in which the quantity is meant.
     pub scope: Scope,
     /// Heading of its column in the tables for readers, in lines; empty: it is in none.
     pub heading: &'static str,
     /// Whether narrow tables leave it out.
     pub is_detail: bool,
-    /// The key of one beside which its column would say the same twice where both are equal.
+    /// Key of the quantity that makes this column redundant where both are equal.
     pub twin: Option<&'static str>,
     /// How its error is estimated, if it is.
     pub estimated: Option<Estimated>,
-    /// At first yield.
+    /// The quantity at first yield.
     pub at_yield: Option<Field<YieldPoint>>,
-    /// In a state.
+    /// The quantity in a state.
     pub in_state: Field<State>,
-    /// In a row of the history.
+    /// The quantity in a row of the history.
     pub in_history: Option<Field<HistoryRow>>,
-    /// On the path between two rows.
+    /// The quantity on the path between two rows.
     pub on_path: Option<Field<PathPoint>>,
 }
 
 impl Quantity {
-    /// That of a key.
+    /// The quantity of a key.
     pub fn of(key: &str) -> Option<&'static Quantity> {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
 
-    /// Its value at a state or at first yield of a run.
+    /// Value of the quantity at a state or at first yield of a run.
     fn at(&self, place: &Place) -> Option<f64> {
         match place {
             Place::Yield(point) => Some((self.at_yield?.get)(point)),
@@ -175,7 +175,7 @@ macro_rules! entry {
     };
 }
 
-/// With an estimated error.
+/// The entry of a quantity whose error is estimated.
 const fn error(short: &'static str, is_of_points: bool, in_all: bool) -> Option<Estimated> {
     Some(Estimated {
         short,

@@ -18,9 +18,9 @@ fn demanded() -> impl Iterator<Item = (&'static str, &'static str)> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "String")]
 pub struct AccuracyDemand {
-    /// Of quantities that are not named; `None` where some are.
+    /// Demand on quantities that are not named; `None` where some are.
     all: Option<f64>,
-    /// By key or path.
+    /// Demands by key or path.
     named: BTreeMap<String, f64>,
 }
 
@@ -138,7 +138,7 @@ impl JsonSchema for AccuracyDemand {
     }
 }
 
-/// As it stands in a scene.
+/// The demand as it stands in a scene.
 #[derive(Deserialize)]
 #[serde(
     untagged,

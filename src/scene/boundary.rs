@@ -69,9 +69,9 @@ impl Contact {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tie {
-    /// One surface.
+    /// Name of one surface.
     pub first: String,
-    /// The other; it may be one of the same body.
+    /// Name of the other surface; it may be one of the same body.
     pub second: String,
     /// Which surface follows: `"auto"` takes the finer one.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
@@ -86,23 +86,23 @@ pub struct Tie {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SlaveSide {
-    /// The finer one; the second where nodes face each other.
+    /// The finer surface; the second where nodes face each other.
     #[default]
     Auto,
-    /// The first.
+    /// The first surface.
     First,
-    /// The second.
+    /// The second surface.
     Second,
 }
 
 impl SlaveSide {
-    /// Whether it is left open.
+    /// Whether the side is left open.
     pub(crate) fn is_auto(&self) -> bool {
         *self == SlaveSide::Auto
     }
 }
 
-/// A support.
+/// A support of a set of nodes or a surface.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Support {
@@ -122,19 +122,19 @@ pub struct Support {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
-    /// x (r).
+    /// Direction x; r of an axisymmetric model.
     X,
-    /// y (z).
+    /// Direction y; z of an axisymmetric model.
     Y,
-    /// z, of a solid.
+    /// Direction z of a solid.
     Z,
 }
 
 impl Direction {
-    /// All of them.
+    /// All directions, in the order of the axes.
     pub const ALL: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
 
-    /// Its axis, from 0.
+    /// Number of the axis, from 0.
     pub fn axis(self) -> usize {
         self as usize
     }
@@ -211,13 +211,13 @@ pub struct Load {
     /// nodes of the slaves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap: Option<Field>,
-    /// How it depends on the load factor.
+    /// Dependence of the load on the load factor.
     #[serde(default)]
     pub history: History,
 }
 
 impl Load {
-    /// Whether it acts on the volume of a body, which `on` then names.
+    /// Whether the load acts on the volume of a body, which `on` then names.
     pub fn acts_on_volume(&self) -> bool {
         self.acceleration.is_some() || self.rotation.is_some() || self.temperature.is_some()
     }
@@ -263,17 +263,17 @@ pub struct Kirsch {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Displacement {
-    /// Along x (r).
+    /// Displacement along x (r).
     pub x: Option<Field>,
-    /// Along y (z).
+    /// Displacement along y (z).
     pub y: Option<Field>,
-    /// Along z, of a solid.
+    /// Displacement along z, of a solid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z: Option<Field>,
 }
 
 impl Displacement {
-    /// Its components, axis by axis.
+    /// Components of the displacement, axis by axis.
     pub fn components(&self) -> [Option<&Field>; 3] {
         [self.x.as_ref(), self.y.as_ref(), self.z.as_ref()]
     }
@@ -283,7 +283,7 @@ impl Displacement {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneForce {
-    /// Direction.
+    /// Direction of the force.
     pub direction: Direction,
     /// Total force along it.
     pub total: f64,

@@ -15,7 +15,7 @@ pub struct Published(pub f64, pub String);
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Listed {
-    /// What it is, and for which pieces its yield stress holds.
+    /// Description of the material, and for which pieces its yield stress holds.
     pub what: String,
     /// Young's modulus.
     pub youngs_modulus: Published,
@@ -56,7 +56,7 @@ impl Listed {
         found.map(|(_, listed)| listed)
     }
 
-    /// Its numbers by the key that a scene has for them, with unit and source.
+    /// Numbers of the material by the key that a scene has for them, with unit and source.
     pub fn figures(&self) -> Vec<(&'static str, &'static str, &Published)> {
         [
             ("youngs_modulus", "MPa", Some(&self.youngs_modulus)),

@@ -91,7 +91,7 @@ impl<'t> Source<'t> {
 struct Node {
     /// Key path, as overrides take it: `contact.0.gap`.
     path: String,
-    /// Its place in words.
+    /// Place of the node in words.
     place: String,
 }
 

@@ -23,6 +23,6 @@ pub struct EquationTerm {
     pub on: String,
     /// Direction of the displacement.
     pub direction: Direction,
-    /// Its coefficient.
+    /// Coefficient of the displacement.
     pub coefficient: f64,
 }

@@ -15,7 +15,7 @@ use std::path::PathBuf;
     expecting = "a number, a formula in quotes or { file = \"values.msh\" } is wanted"
 )]
 pub enum Field {
-    /// The same everywhere.
+    /// One value everywhere.
     Uniform(f64),
     /// A formula of `x`, `y` (of a solid `z`) and of `r`, the distance from the origin, in a solid
     /// from the z axis; of an axisymmetric model of `r` and `z`, its two coordinates.
@@ -62,7 +62,7 @@ impl fmt::Display for Field {
 pub struct VectorField(Vec<Field>);
 
 impl VectorField {
-    /// Each component, as many as are given.
+    /// The components, as many as are given.
     pub fn iter(&self) -> std::slice::Iter<'_, Field> {
         self.0.iter()
     }

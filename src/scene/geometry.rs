@@ -65,7 +65,7 @@ pub enum Formulation {
 }
 
 impl Formulation {
-    /// Whether it is the usual one.
+    /// Whether the formulation is the usual one.
     pub(crate) fn is_mean(&self) -> bool {
         *self == Formulation::Mean
     }
@@ -100,10 +100,10 @@ pub struct Revolution {
 pub struct SurfaceSphere {
     /// Name of the surface.
     pub on: String,
-    /// Centre.
+    /// Centre of the sphere.
     #[serde(default)]
     pub center: [f64; 3],
-    /// Radius.
+    /// Radius of the sphere.
     pub radius: f64,
 }
 
@@ -118,7 +118,7 @@ pub struct SurfaceCylinder {
     pub point: [f64; 3],
     /// Direction of the axis.
     pub axis: [f64; 3],
-    /// Radius.
+    /// Radius of the cylinder.
     pub radius: f64,
 }
 
@@ -151,10 +151,10 @@ fn is_zero(n: &usize) -> bool {
 pub struct SurfaceCircle {
     /// Name of the surface.
     pub on: String,
-    /// Centre.
+    /// Centre of the circle.
     #[serde(default)]
     pub center: [f64; 2],
-    /// Radius.
+    /// Radius of the circle.
     pub radius: f64,
 }
 
@@ -208,7 +208,7 @@ pub struct CylinderOnHalfPlane {
     /// that of this one with a power of the distance. What happens far away matters less to the
     /// contact, so that elements may grow ever faster; default as `growth`.
     pub far_growth: Option<f64>,
-    /// Element shape.
+    /// Shape of the elements.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,
 }
@@ -237,7 +237,8 @@ pub struct CurvedBodies {
     /// Principal radii of the upper body along x and y: positive convex, negative hollow, 0 or
     /// infinite flat.
     pub upper: [f64; 2],
-    /// Those of the lower body.
+    /// Principal radii of the lower body along x and y: positive convex, negative hollow, 0 or
+    /// infinite flat.
     pub lower: [f64; 2],
     /// Elements over the smaller half axis of the contact, at first yield and at any larger contact
     /// at least.
@@ -281,7 +282,7 @@ pub enum Meshed {
     Quarter,
     /// Where x is not negative.
     Half,
-    /// All of it.
+    /// The whole model.
     Full,
 }
 
@@ -355,7 +356,7 @@ pub struct DiscInPlate {
     /// that of this one with a power of the distance. What happens far away matters less to the
     /// contact, so that elements may grow ever faster; default as `growth`.
     pub far_growth: Option<f64>,
-    /// Element shape.
+    /// Shape of the elements.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,
 }
@@ -369,7 +370,7 @@ pub struct DiscInPlate {
 pub struct Part {
     /// Name of the body.
     pub body: String,
-    /// A rectangle.
+    /// A rectangle of a plane model.
     pub block: Option<Block>,
     /// A box of a solid model: surfaces `BODY.left`, `.right` (x), `.front`, `.back` (y),
     /// `.bottom`, `.top` (z).
@@ -379,7 +380,7 @@ pub struct Part {
     pub ring: Option<Ring>,
     /// A quarter, half or full disc.
     pub disc: Option<Disc>,
-    /// Element shape; of a brick hex8 or hex20.
+    /// Shape of the elements; of a brick hex8 or hex20.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,
 }
@@ -388,9 +389,9 @@ pub struct Part {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
-    /// From, to.
+    /// Start and end along x.
     pub x: [f64; 2],
-    /// From, to.
+    /// Start and end along y.
     pub y: [f64; 2],
     /// Number of elements along x and y.
     pub elements: [usize; 2],
@@ -407,11 +408,11 @@ pub struct Block {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BrickPart {
-    /// From, to.
+    /// Start and end along x.
     pub x: [f64; 2],
-    /// From, to.
+    /// Start and end along y.
     pub y: [f64; 2],
-    /// From, to.
+    /// Start and end along z.
     pub z: [f64; 2],
     /// Number of elements along x, y and z.
     pub elements: [usize; 3],
@@ -434,11 +435,11 @@ pub struct Piece {
     pub to: f64,
 }
 
-/// A ring sector.
+/// A sector of a ring, or a closed ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Ring {
-    /// Centre.
+    /// Centre of the ring.
     #[serde(default)]
     pub center: [f64; 2],
     /// Inner and outer radius.
@@ -457,10 +458,10 @@ pub struct Ring {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Disc {
-    /// Centre.
+    /// Centre of the disc.
     #[serde(default)]
     pub center: [f64; 2],
-    /// Radius.
+    /// Radius of the disc.
     pub radius: f64,
     /// Start and end angle in degrees: 90, 180 or 360 apart.
     #[serde(default = "super::defaults::quarter")]

@@ -30,8 +30,8 @@ impl KeyPlaces {
         }
     }
 
-    /// Of keys of a text that was made from something else their places there; overrides keep
-    /// theirs. What has none is `file`'s.
+    /// Gives keys of a text that was made from something else their places there; overrides keep
+    /// theirs. A key that has none there is `file`'s.
     pub(super) fn elsewhere(&self, places: &BTreeMap<String, String>, file: &str) -> KeyPlaces {
         let there = KeyPlaces::new(places.clone());
         let place_of = |(key, place): (&String, &String)| {

@@ -11,9 +11,9 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Material {
-    /// E > 0.
+    /// Young's modulus, E > 0.
     pub youngs_modulus: f64,
-    /// -1 < nu < 0.5.
+    /// Poisson's ratio, -1 < nu < 0.5.
     pub poissons_ratio: f64,
     /// Mass per volume, of which loads by acceleration and rotation are made: force times time
     /// squared per length to the fourth (N, mm, s: t/mm^3, steel 7.85e-9).
@@ -106,8 +106,8 @@ pub struct Body {
     /// How its quadratic quadrilaterals, hexahedra and prisms are integrated.
     #[serde(default, skip_serializing_if = "Integration::is_reduced")]
     pub integration: Integration,
-    /// Its temperature throughout the run, at which the rows `over_temperature` of its material are
-    /// read. Loads by `temperature` add strains to it, and change no modulus.
+    /// Temperature of the body throughout the run, at which the rows `over_temperature` of its
+    /// material are read. Loads by `temperature` add strains to it, and change no modulus.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<f64>,
     /// Yield stress by depth below the surface (case hardening), rows of depth and yield stress,
@@ -133,7 +133,7 @@ pub struct Body {
 }
 
 impl Body {
-    /// What it brings along, by key.
+    /// Stresses and strains that the body brings along, by key.
     pub(crate) fn brought_along(&self) -> impl Iterator<Item = (&'static str, &Vec<Vec<f64>>)> {
         let given = [
             ("initial_stress", &self.initial_stress),

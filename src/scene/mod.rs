@@ -78,7 +78,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A whole scene.
+/// A whole scene: mesh, materials, contacts, loads and their program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
@@ -120,10 +120,10 @@ pub struct Scene {
     /// Linear equations between displacements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub equation: Vec<Equation>,
-    /// Supports.
+    /// Supports of sets and surfaces.
     #[serde(default)]
     pub support: Vec<Support>,
-    /// Loads.
+    /// Loads, each with its factor over the program.
     #[serde(default)]
     pub load: Vec<Load>,
     /// The load program.

@@ -18,10 +18,10 @@ use std::borrow::Cow;
 pub struct MaterialRow {
     /// The temperature, on the scale of the bodies' `temperature`.
     pub temperature: f64,
-    /// E > 0.
+    /// Young's modulus, E > 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub youngs_modulus: Option<f64>,
-    /// -1 < nu < 0.5.
+    /// Poisson's ratio, -1 < nu < 0.5.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub poissons_ratio: Option<f64>,
     /// Strain per change of temperature.
@@ -42,7 +42,7 @@ pub struct MaterialRow {
 }
 
 impl MaterialRow {
-    /// Whether it says anything.
+    /// Whether the row gives no property.
     pub(crate) fn is_empty(&self) -> bool {
         let temperature = self.temperature;
         *self
@@ -54,7 +54,7 @@ impl MaterialRow {
 }
 
 impl Material {
-    /// What it is at a temperature: without rows.
+    /// The material at a temperature: without rows.
     pub fn at(&self, temperature: f64) -> Material {
         let of = |value: fn(&MaterialRow) -> Option<f64>| {
             let rows = self.over_temperature.iter();

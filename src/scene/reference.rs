@@ -29,7 +29,7 @@ pub struct Reference {
     pub body: Option<String>,
     /// The single value.
     pub value: Option<f64>,
-    /// Where it comes from.
+    /// Source of the reference value.
     pub source: Option<String>,
 }
 
@@ -75,7 +75,7 @@ impl PlaceQuantity {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RadiusOnly {
-    /// The radius.
+    /// Radius that the closed form is of.
     pub radius: f64,
 }
 
@@ -85,7 +85,7 @@ pub struct RadiusOnly {
 pub struct TwoBodies {
     /// Principal radii of the first body: positive where convex, 0 or inf where flat.
     pub first: [f64; 2],
-    /// Those of the second body, in the same directions.
+    /// Principal radii of the second body, in the same directions.
     pub second: [f64; 2],
 }
 

@@ -44,7 +44,7 @@ pub struct Moment {
 /// A result that is asked for at nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileRequest {
-    /// Which result.
+    /// The result that is written.
     pub item: ResultItem,
     /// The nodes; all where there is none.
     pub nodes: Option<NamedSet>,
@@ -53,7 +53,7 @@ pub struct FileRequest {
 /// A table of a result on a set of nodes or elements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Print {
-    /// Which result.
+    /// The result that is written.
     pub item: ResultItem,
     /// The nodes of displacements and forces, the elements of the other results; of the force of a
     /// contact the number of the contact, from 0.
@@ -62,7 +62,7 @@ pub struct Print {
     pub totals: Totals,
     /// Whether vectors are along x, y, z also where a node has axes of its own.
     pub is_global: bool,
-    /// Of the force through a surface its faces: the number of the element, and its local facet
+    /// Faces of the force through a surface: the number of the element, and its local facet
     /// ([`crate::mesh::Facet::local`]). Empty otherwise.
     pub faces: Arc<Vec<(u64, u8)>>,
 }
@@ -70,7 +70,7 @@ pub struct Print {
 /// A set of nodes or elements by their numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedSet {
-    /// The name.
+    /// Name of the set.
     pub name: String,
     /// Numbers of the nodes or elements, in the order of the table.
     pub labels: Arc<Vec<u64>>,
@@ -79,12 +79,12 @@ pub struct NamedSet {
 /// Whether the values of a table are added up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Totals {
-    /// The values only.
+    /// The values without a sum.
     #[default]
     No,
     /// The values and their sum.
     Yes,
-    /// The sum only.
+    /// The sum without the values.
     Only,
 }
 
@@ -137,7 +137,7 @@ impl ResultItem {
         ResultItem::Contact,
     ];
 
-    /// Whether it follows from values at integration points.
+    /// Whether the result follows from values at integration points.
     pub fn needs_points(self) -> bool {
         use ResultItem::{PlasticStrain, Section, Stress, StressJump, TotalStrain};
         matches!(

@@ -13,7 +13,7 @@ pub struct RigidSurface {
     /// A sphere; in plane models the circle that a cylinder shows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<RigidSphere>,
-    /// A cylinder.
+    /// A cylinder, convex or hollow.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cylinder: Option<RigidCylinder>,
     /// A torus: all points at a distance from a ring.
@@ -22,7 +22,7 @@ pub struct RigidSurface {
     /// A cone with a rounded tip; in plane models a wedge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cone: Option<RigidCone>,
-    /// A plane.
+    /// A plane without end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<RigidPlane>,
     /// A flat end whose edge has a fillet: of a round bar, in plane models of a strip.
@@ -39,7 +39,7 @@ pub struct RigidSurface {
 pub struct RigidSphere {
     /// Centre; axisymmetric: on the axis.
     pub center: Components,
-    /// Radius.
+    /// Radius of the sphere.
     pub radius: f64,
     /// Whether the bodies are inside, as a ball in its socket.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -56,14 +56,14 @@ pub struct RigidCylinder {
     /// revolution.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
-    /// Radius.
+    /// Radius of the cylinder.
     pub radius: f64,
     /// Whether the bodies are inside, as a pin in its hole.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub hollow: bool,
 }
 
-/// A rigid torus.
+/// A rigid torus: all points at a distance from a ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidTorus {
@@ -95,11 +95,11 @@ pub struct RigidCone {
     pub rounding: f64,
 }
 
-/// A rigid plane.
+/// A rigid plane without end.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidPlane {
-    /// A point of it.
+    /// A point of the plane.
     pub point: Components,
     /// Direction out of the rigid body, towards what it touches.
     pub normal: Components,

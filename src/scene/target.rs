@@ -14,7 +14,7 @@ pub struct Target {
     /// `yield = true`: first yield.
     #[serde(default, rename = "yield")]
     pub first_yield: bool,
-    /// A load factor.
+    /// A load factor of the program.
     pub load_factor: Option<f64>,
     /// A contact half width, as a multiple of that at first yield.
     pub half_width: Option<f64>,
@@ -70,7 +70,7 @@ pub enum TargetFigure {
 }
 
 impl TargetFigure {
-    /// All of them.
+    /// All figures, in their order.
     pub const ALL: [TargetFigure; 6] = [
         TargetFigure::ResidualDepth,
         TargetFigure::ContactForce,
@@ -80,7 +80,7 @@ impl TargetFigure {
         TargetFigure::MaxEquivalentPlasticStrain,
     ];
 
-    /// Its key in the scene and in `summary.json`.
+    /// Key of the figure in the scene and in `summary.json`.
     pub fn key(self) -> &'static str {
         match self {
             TargetFigure::ResidualDepth => "residual_depth",
@@ -92,7 +92,7 @@ impl TargetFigure {
         }
     }
 
-    /// Whether it is one of a contact, of which one may be meant.
+    /// Whether the figure is one of a contact, of which one may be meant.
     pub fn is_of_contact(self) -> bool {
         matches!(
             self,
@@ -182,7 +182,7 @@ impl Target {
 pub struct DisplacementTarget {
     /// Node set or surface.
     pub on: String,
-    /// Direction.
+    /// Direction of the displacement.
     pub direction: Direction,
     /// Value of the mean displacement.
     pub value: f64,

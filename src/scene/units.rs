@@ -42,11 +42,11 @@ const INCH: f64 = 0.0254;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Units {
-    /// Of lengths and displacements, such as `"mm"`.
+    /// Unit of lengths and displacements, such as `"mm"`.
     pub length: String,
-    /// Of forces, such as `"N"`.
+    /// Unit of forces, such as `"N"`.
     pub force: String,
-    /// Of stresses, moduli and pressures: force over length squared, such as `"MPa"`.
+    /// Unit of stresses, moduli and pressures: force over length squared, such as `"MPa"`.
     pub stress: String,
 }
 

@@ -30,7 +30,7 @@ use crate::scene::Scene;
 /// What a family of hard cases came to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// The family.
+    /// Name of the family.
     pub family: &'static str,
     /// What was measured.
     pub figure: &'static str,
@@ -38,7 +38,7 @@ pub struct Row {
     pub cases: usize,
     /// The worst figure; infinite where a case did not run.
     pub worst: f64,
-    /// What it may be at most.
+    /// Largest figure that is allowed.
     pub bound: f64,
     /// Where the bound comes from.
     pub source: &'static str,

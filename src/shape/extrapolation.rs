@@ -3,7 +3,7 @@
 use super::{Rule, Shape};
 use nalgebra::DMatrix;
 
-/// Relative size below which a singular value is none.
+/// Relative size below which a singular value counts as zero.
 const SINGULAR: f64 = 1e-10;
 
 /// Carries values from the integration points of an element to its nodes: the field that fits the

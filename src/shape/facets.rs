@@ -63,7 +63,7 @@ const TRIANGLE_RULE: &Rule = {
 
 const LINE: [Place; 3] = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
 
-/// Two ends.
+/// A line of two nodes, its ends.
 static LINE2: FacetReference = FacetReference {
     n_corners: 2,
     nodes: LINE.split_at(2).0,
@@ -118,7 +118,7 @@ static FACE8: FacetReference = FacetReference {
 };
 
 impl FacetReference {
-    /// All facets.
+    /// All facets that shapes have.
     pub const ALL: [&'static FacetReference; 6] = [&LINE2, &LINE3, &FACE3, &FACE6, &FACE4, &FACE8];
 
     /// The facet of a dimension with a number of nodes.

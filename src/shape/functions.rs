@@ -7,7 +7,7 @@ use super::{MAX_NODES, Place};
 /// The shape functions at a place of an element; zero beyond its nodes.
 #[derive(Debug, Clone, Copy)]
 pub struct Functions {
-    /// Of each node.
+    /// Value of each node's shape function.
     pub values: [f64; MAX_NODES],
     /// Derivatives of each node's along the reference coordinates.
     pub gradients: [[f64; 3]; MAX_NODES],

@@ -23,7 +23,7 @@ impl Integration {
     /// All of them, in the order of their numbers.
     pub const ALL: [Integration; 2] = [Integration::Reduced, Integration::Full];
 
-    /// Whether it is the usual one.
+    /// Whether the integration is the usual one.
     pub(crate) fn is_reduced(&self) -> bool {
         *self == Integration::Reduced
     }

@@ -115,10 +115,10 @@ impl Shape {
         Shape::Prism15,
     ];
 
-    /// Those of the plane.
+    /// Shapes of the plane.
     pub const PLANE: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
 
-    /// Those of space.
+    /// Shapes of space.
     pub const SOLID: [Shape; 6] = [
         Shape::Tet4,
         Shape::Tet10,

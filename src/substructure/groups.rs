@@ -3,8 +3,8 @@
 //!
 //! Pairs belong to one group where their nodes are coupled by the condensed stiffness (the nodes of
 //! one body are) or by a rigid motion. A group of `p` pairs costs `p^3` operations once and `p^2`
-//! numbers from then on, whatever there is beside it: many separate joints cost what each of them
-//! costs.
+//! numbers from then on, whatever other groups there are: the cost of many separate joints is the
+//! sum over the joints.
 
 use super::rows::{Entries, Rows};
 use super::tied::{SplitSlip, Tied, Trace};
@@ -26,11 +26,11 @@ pub(super) struct Groups {
 
 /// Tied pairs that feel one another.
 struct Group {
-    /// Ascending.
+    /// The pairs of the group, ascending.
     pairs: Vec<usize>,
-    /// Their contact freedoms, ascending.
+    /// The contact freedoms of the pairs, ascending.
     contact: Vec<usize>,
-    /// The rigid motions of the model that move them.
+    /// The rigid motions of the model that move the pairs.
     motions: Vec<usize>,
     tied: Tied,
 }

@@ -159,7 +159,7 @@ impl Rows {
         self.follow.len()
     }
 
-    /// `B u`.
+    /// Slip `B u` of each row.
     pub(super) fn slip(&self, u: &DVector<f64>) -> DVector<f64> {
         let of = |row: &Entries| row.iter().map(|&(freedom, b)| b * u[freedom]).sum();
         DVector::from_iterator(self.len(), self.entries.iter().map(of))

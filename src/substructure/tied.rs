@@ -52,7 +52,7 @@ pub(crate) struct Trace {
 
 /// Displacements of the contact freedoms, rigid motions of floating bodies apart.
 pub(super) struct Split {
-    /// Without the rigid motions.
+    /// Displacements of the contact freedoms without the rigid motions.
     pub contact: Vec<f64>,
     /// Amplitude of each rigid motion of the model.
     pub motions: DVector<f64>,
@@ -222,8 +222,9 @@ impl Tied {
             + self.rigid_share.len()
     }
 
-    /// On entry forces on the contact freedoms; on return the first of `contact` hold the unknowns
-    /// of the tied structure under them, and `forces` what each row then carries.
+    /// Eliminates the tied structure. On entry `contact` holds forces on the contact freedoms; on
+    /// return its first places hold the unknowns of the tied structure under them, and `forces`
+    /// what each row then carries.
     pub(crate) fn eliminate(&self, contact: &mut [f64], forces: &mut [f64]) {
         let total = self.rows.on_leaders(contact);
         let n_w = self.kept.len();
@@ -356,9 +357,9 @@ fn orthonormal(traces: &[Trace]) -> Vec<Trace> {
     out
 }
 
-/// Motions of the leaders (`leaders x motions`, independent ones) and the leaders that remain
-/// unknowns beside them: Gaussian elimination with complete pivoting picks for each motion the
-/// leader that distinguishes it best from the others.
+/// Motions of the leaders (`leaders x motions`, independent ones), and the leaders that remain
+/// unknowns: Gaussian elimination with complete pivoting picks for each motion the leader that
+/// distinguishes it best from the others.
 fn basis(rigid: &[Trace], rows: &Rows, part: &[usize]) -> (DMatrix<f64>, Vec<usize>) {
     let n = rows.lead.len();
     let mut all = DMatrix::zeros(n, rigid.len());

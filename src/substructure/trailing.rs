@@ -6,14 +6,14 @@ use crate::linalg;
 /// [`crate::model::ContactRows::freedoms`].
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Trailing {
-    /// On the zone freedoms.
+    /// Values on the zone freedoms.
     pub zone: Vec<f64>,
-    /// On the contact freedoms.
+    /// Values on the contact freedoms.
     pub contact: Vec<f64>,
 }
 
 impl Trailing {
-    /// All zeros.
+    /// The zero vector of these sizes.
     pub fn zeros(n_zone: usize, n_contact: usize) -> Self {
         Trailing {
             zone: vec![0.0; n_zone],
@@ -51,7 +51,7 @@ impl Trailing {
         }
     }
 
-    /// Inner product.
+    /// Inner product of two vectors.
     pub fn dot(&self, other: &Trailing) -> f64 {
         let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         sum(&self.zone, &other.zone) + sum(&self.contact, &other.contact)

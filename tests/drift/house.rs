@@ -14,6 +14,8 @@ const MOST_FILES: usize = 3;
 const SHORTEST: usize = 15;
 /// What a doc comment that does not stand alone opens with.
 const OPENERS: [&str; 5] = ["Those", "That of", "Its", "Their", "The same"];
+/// Doc comments shorter than [`SHORTEST`] that are left, most of them lines of `brinell help`.
+const MOST_SHORT: usize = 6;
 
 /// A file with its name below the root of its tree.
 struct Text {
@@ -111,6 +113,20 @@ fn doc_comments(text: &str) -> Vec<String> {
     out.iter().map(|doc| doc.trim().to_string()).collect()
 }
 
+/// Whether a doc comment is too short to say what an item is.
+fn is_short(doc: &str) -> bool {
+    doc.chars().count() < SHORTEST
+}
+
+/// Whether a doc comment opens with a pronoun, and so needs its neighbour to be understood.
+fn leans(doc: &str) -> bool {
+    let open = |opener: &&str| {
+        let rest = doc.strip_prefix(*opener);
+        rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
+    };
+    OPENERS.iter().any(open)
+}
+
 /// What is counted of a tree, with the places.
 fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
     let (library, tests) = (texts(base, "src"), texts(base, "tests"));
@@ -150,16 +166,8 @@ fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
         .flat_map(|folder| circles(&within(&edges, folder)).into_iter().flatten());
     let circles: Vec<String> = circles.map(String::from).collect();
     let docs = || library.iter().flat_map(|t| doc_comments(&t.text));
-    let short = docs().filter(|doc| doc.chars().count() < SHORTEST);
-    let short: Vec<String> = short.collect();
-    let leans = |doc: &String| {
-        let open = |opener: &&str| {
-            let rest = doc.strip_prefix(*opener);
-            rest.is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric()))
-        };
-        OPENERS.iter().any(open)
-    };
-    let leaning: Vec<String> = docs().filter(leans).collect();
+    let short: Vec<String> = docs().filter(|doc| is_short(doc)).collect();
+    let leaning: Vec<String> = docs().filter(|doc| leans(doc)).collect();
     let (long_here, long_tests) = (long(&library), long(&tests));
     vec![
         (
@@ -243,6 +251,30 @@ fn figures_of_the_house_are_in_contributing() {
     }
 }
 
+/// In rustdoc a reader sees one doc comment without its neighbours.
+#[test]
+fn doc_comments_stand_alone() {
+    let library = texts(&root(), "src");
+    let of = |is_meant: fn(&str) -> bool| -> Vec<String> {
+        let of_file = |t: &Text| {
+            let docs = doc_comments(&t.text).into_iter();
+            let docs = docs.filter(|doc| is_meant(doc));
+            docs.map(|doc| format!("{}: {doc}", t.name))
+                .collect::<Vec<_>>()
+        };
+        library.iter().flat_map(of_file).collect()
+    };
+    let (leaning, short) = (of(leans), of(is_short));
+    assert!(
+        leaning.is_empty(),
+        "name the thing instead of pointing at it with one of {OPENERS:?}: {leaning:#?}"
+    );
+    assert!(
+        short.len() <= MOST_SHORT,
+        "say what the item is in {SHORTEST} characters or more: {short:#?}"
+    );
+}
+
 /// Folders of `src` whose files use each other in circles.
 const WITH_CIRCLES: [&str; 16] = [
     "accuracy",
@@ -308,5 +340,8 @@ pub trait T {
     let types: Vec<&str> = text.lines().filter_map(implemented).collect();
     assert_eq!(types, ["Long"]);
     assert_eq!(doc_comments(text), ["Its length.", "Two."]);
+    assert!(leans("Its length.") && leans("The same, larger.") && leans("Those"));
+    assert!(!leans("Itself a length.") && !leans("Length of those."));
+    assert!(is_short("Two.") && !is_short("Number of pairs."));
     assert_eq!(lines_of_code("a\n\n// b\n    c // d\n"), 2);
 }

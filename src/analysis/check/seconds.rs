@@ -26,10 +26,11 @@ const START: f64 = 1.5e-3;
 const SETUP: f64 = 0.9e-6;
 const YIELD_LOAD: f64 = 2e-6;
 const STATE: f64 = 4.5e-7;
-/// Of the elastic path, per cube of the pairs: each change of contact goes over their matrix.
+/// Seconds of the elastic path, per cube of the pairs: each change of contact goes over their
+/// matrix.
 const PATH: f64 = 1.5e-9;
-/// Of a trailing solve with its share of the plastic iteration: to begin with, and for each entry
-/// of the factor's trailing columns.
+/// Seconds of a trailing solve with its share of the plastic iteration: to begin with, and for each
+/// entry of the factor's trailing columns.
 const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
 /// Share of the pairs that change their status in an increment of their own while the load goes one
 /// way: where gaps differ (the contact grows pair by pair), and where all are alike.
@@ -37,7 +38,8 @@ const CHANGES: [f64; 2] = [0.7, 0.17];
 /// Trailing solves of an elastoplastic increment: where the material hardens; where it has next to
 /// no stiffness left, in a contact that grows; and where all of it may yield.
 const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
-/// The same of an increment in which contact may change.
+/// Trailing solves of an elastoplastic increment in which contact may change, for the three
+/// materials of [`SOLVES`].
 const SOLVES_OF_LONG: [f64; 3] = [25.0, 60.0, 60.0];
 /// Plastic modulus over Youngs modulus below which material counts as soft in that sense.
 const SOFT: f64 = 0.1;

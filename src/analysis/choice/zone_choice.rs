@@ -44,8 +44,8 @@ impl Choice {
         Choice { elements, guard }
     }
 
-    /// Whether it holds all elements that may yield. (That none of it watches does not say so:
-    /// another body may be out of reach.)
+    /// Whether the zone holds all elements that may yield. (That none of it watches does not say
+    /// so: another body may be out of reach.)
     pub fn holds_all(&self, model: &Model) -> bool {
         let n = model.mesh.n_elements();
         self.elements.len() == (0..n).filter(|&e| may_yield(model, e)).count()

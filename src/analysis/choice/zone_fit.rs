@@ -22,7 +22,7 @@ pub(in crate::analysis) struct ZoneFit {
     pub(in crate::analysis) spread: Option<Spread>,
 }
 
-/// What another mesh lets expect of the stress.
+/// What a run on another mesh predicts of the stress.
 pub(in crate::analysis) struct Expected {
     /// Elastic von Mises stress over yield stress of each element at first yield and at the
     /// program's extreme loads, the larger one.
@@ -71,8 +71,8 @@ impl ZoneFit {
 pub(in crate::analysis) struct Spread {
     /// Elements that may be predicted to yield.
     elements: Ascending,
-    /// Their elastic von Mises stress over yield stress at the largest load, and no less than what
-    /// it is at first yield lets expect there.
+    /// Elastic von Mises stress of these elements over yield stress at the largest load, no less
+    /// than the value that the stress at first yield predicts there.
     ratios: Vec<f64>,
     /// The largest load factor.
     pub(in crate::analysis) highest: f64,

@@ -23,7 +23,7 @@ pub(super) struct Approach {
 }
 
 impl Approach {
-    /// Those of all contacts; `None` where the normals of a contact cancel.
+    /// Approaches of all contacts; `None` where the normals of a contact cancel.
     pub(super) fn of_contacts(model: &Model) -> Vec<Option<Approach>> {
         let contacts = model.contacts.iter();
         contacts.map(|contact| Self::of(model, contact)).collect()

@@ -36,7 +36,7 @@ use shape::Shape;
 use std::collections::BTreeSet;
 use topology::Topology;
 
-/// The patches of all contacts, the strongest first; forces up to `vanishing` are none.
+/// The patches of all contacts, the strongest first; forces up to `vanishing` count as zero.
 pub(super) fn patches(
     model: &Model,
     force: &[f64],

@@ -31,7 +31,7 @@ pub(super) struct EdgePoint {
     pub squared: f64,
     /// Squared pressure.
     pub pressure_squared: f64,
-    /// Its weight: the width of the surface there.
+    /// Weight of the pair: the width of the surface there.
     pub weight: f64,
 }
 

@@ -33,7 +33,7 @@ struct EdgeTail {
     way: isize,
     /// Arc length of the middle of the contact.
     middle: f64,
-    /// To the first open pair.
+    /// Distance from the last closed pair to the first open one.
     spacing: f64,
     /// Distances from the middle between which the edge lies.
     bracket: [f64; 2],
@@ -42,9 +42,9 @@ struct EdgeTail {
 /// A pair of a contact along its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
-    /// Its number in the model.
+    /// Number of the pair in the model.
     pub pair: usize,
-    /// Arc length.
+    /// Arc length of the pair along the surface.
     pub arc: f64,
 }
 
@@ -76,10 +76,10 @@ pub(super) fn line_of(
 /// A run of closed pairs `begin..end` of a contact.
 pub(super) struct Patch<'a> {
     pub model: &'a Model,
-    /// Of each pair of the model.
+    /// Pressure of each pair of the model.
     pub pressure: &'a [f64],
     pub contact: &'a ContactSurface,
-    /// Its pairs.
+    /// Pairs of the contact along its surface.
     pub line: &'a [Place],
     /// First closed place of the line, and the first beyond the last.
     pub begin: usize,
@@ -109,7 +109,7 @@ impl Patch<'_> {
         next.then_some(axis)
     }
 
-    /// Whether it takes up all of a surface.
+    /// Whether the patch takes up all of a surface.
     pub(super) fn is_whole(&self) -> bool {
         self.begin == 0 && self.end == self.line.len()
     }

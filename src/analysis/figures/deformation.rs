@@ -106,10 +106,10 @@ impl Deformation {
     }
 }
 
-/// What a deck is told that asks for large displacements where material flows at a stress that is
-/// not small beside the slope of its curve: where flow spreads through a body, the change of its
-/// sections then matters as much as hardening does (A. Considere, *Annales des ponts et chaussees*,
-/// 1885), however small strains are.
+/// Warning for a deck that asks for large displacements where material flows at a stress that is
+/// not small compared with the slope of its curve. Where flow spreads through a body, the change of
+/// its sections then matters as much as hardening does (A. Considere, *Annales des ponts et
+/// chaussees*, 1885), however small strains are.
 pub(in crate::analysis) fn softened(
     model: &Model,
     results: &Results,

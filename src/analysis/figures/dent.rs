@@ -12,7 +12,7 @@ pub(in crate::analysis) struct Dent {
     /// Depth of both surfaces together at the deepest place; negative where they have moved towards
     /// each other everywhere.
     pub depth: f64,
-    /// Each body's share in it.
+    /// Share of each body in the dent.
     pub by_body: Vec<f64>,
     /// The most that a surface rises above its undeformed shape.
     pub rim: f64,

@@ -15,12 +15,12 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 pub(in crate::analysis) struct Gauges {
     /// Nodes of each set.
     sets: Vec<Vec<usize>>,
-    /// Of each contact, how far its bodies have come together.
+    /// Approach of the bodies of each contact.
     approaches: Vec<Option<Approach>>,
 }
 
 impl Gauges {
-    /// Those that the scene asks for; `None` where it asks for none.
+    /// Gauges that the scene asks for; `None` where it asks for none.
     ///
     /// # Errors
     /// A set that the mesh does not have.

@@ -40,15 +40,15 @@ pub(in crate::analysis) fn tolerances(model: &Model) -> Tolerances {
 
 /// Displacements of all freedoms.
 pub(in crate::analysis) struct Displacements {
-    /// The whole.
+    /// The whole displacements, rigid motions included.
     pub total: Vec<f64>,
-    /// Without the rigid motions of floating bodies; `None` where there are none.
+    /// Displacements without the rigid motions of floating bodies; `None` where there are none.
     deformation: Option<Vec<f64>>,
     /// Largest `|f - K u|` of the deformation.
     residual: f64,
     /// Largest `|K| |u|` of a row, of the deformation.
     terms: f64,
-    /// Largest `|f|`.
+    /// Largest `|f|` of a row.
     load: f64,
     /// Largest of a row's `|f - K u|` over its `|K| |u| + |f|`.
     componentwise_error: f64,

@@ -69,7 +69,7 @@ struct Iteration<'i, 'm> {
     t: f64,
     /// The iterate: equilibrium there with the initial loads so far.
     state: Equilibrium,
-    /// Its force out of balance, `J(u) - J`.
+    /// Force out of balance of the iterate, `J(u) - J`.
     balance: Trailing,
     /// What the material answered to the iterate, where a line search has asked it.
     known: Option<Evaluation>,
@@ -81,7 +81,7 @@ struct Iteration<'i, 'm> {
     best: (f64, usize),
     /// Share by which Newton's tangent is damped towards the elastic stiffness.
     damping: f64,
-    /// By how much the change of state was stretched since its loads were eliminated.
+    /// Factor by which the change of state was stretched since its loads were eliminated.
     stretched: f64,
     /// Whether round-off may still decide that forces balance.
     may_settle: bool,

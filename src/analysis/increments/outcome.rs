@@ -11,15 +11,16 @@ pub(super) const STRETCH: f64 = 1e4;
 /// How an increment may end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EndsAt {
-    /// At the next change of contact, within `gamma` (4.18, 4.23), or at the end of the piece.
+    /// The increment ends at the next change of contact, within `gamma` (4.18, 4.23), or at the end
+    /// of the piece.
     NextChange {
         /// Relative tolerance.
         gamma: f64,
     },
-    /// At the end of the piece, statuses changing with the iterates
+    /// The increment ends at the end of the piece, statuses changing with the iterates
     /// ([`super::settling::settle_contact`]).
     EndOfPiece,
-    /// At the end of the piece, statuses frozen.
+    /// The increment ends at the end of the piece, statuses frozen.
     EndOfPieceFrozen,
 }
 
@@ -38,7 +39,7 @@ pub struct Increment {
     pub residual: f64,
     /// Guard elements that yield: the zone is too small.
     pub guard_yields: usize,
-    /// By how much what predicted it was stretched since its loads were eliminated.
+    /// Factor by which the prediction was stretched since its loads were eliminated.
     pub stretched: f64,
 }
 
@@ -76,7 +77,7 @@ pub struct Attempt {
     pub state: Equilibrium,
     /// Material evaluations.
     pub iterations: usize,
-    /// Its out-of-balance force over the force scale.
+    /// Out-of-balance force of the last iterate over the force scale.
     pub residual: f64,
     /// What round-off leaves out of balance at the start of the increment, over the force scale.
     pub round_off: f64,

@@ -33,7 +33,7 @@ pub struct PlasticDrive {
 /// What is known of the stretch ahead.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 enum Ahead {
-    /// Nothing.
+    /// Nothing is known of it.
     Unknown,
     /// Nothing has yielded on it so far.
     Elastic(Box<ElasticStretch>),

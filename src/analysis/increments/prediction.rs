@@ -20,7 +20,7 @@ const BEYOND: f64 = 1e-9;
 /// Changes of the state over the whole piece, as they begin.
 pub(super) struct Prediction {
     pub(super) rates: Equilibrium,
-    /// By how much they were stretched since their loads were eliminated.
+    /// Factor by which the rates were stretched since their loads were eliminated.
     pub(super) stretched: f64,
 }
 

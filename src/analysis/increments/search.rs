@@ -6,10 +6,10 @@ pub const PROGRESS: f64 = 0.7;
 /// How equilibrium and the length of an increment that ends at a change of contact are found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// At once: each iterate is scaled to the change (4.17, 4.22). An iterate far out of balance
-    /// shows the change too early, and scaled to it, it may do so again and again. Else one after
-    /// the other: equilibrium at a length, then the next length, between those that were too short
-    /// and too long.
+    /// Whether equilibrium and length are searched together: each iterate is scaled to the change
+    /// (4.17, 4.22). An iterate far out of balance shows the change too early, and scaled to it, it
+    /// may do so again and again. Otherwise one follows the other: equilibrium at a length, then
+    /// the next length, between those that were too short and too long.
     pub together: bool,
     /// Newton's iteration is given up when the residual has not fallen below the share [`PROGRESS`]
     /// of the best for so many iterations.

@@ -30,7 +30,7 @@ impl Default for Rounds {
 }
 
 impl Rounds {
-    /// Of so many that are wrong.
+    /// Number of pairs to change, of so many that are wrong.
     pub(in crate::analysis) fn take(&mut self, wrong: usize) -> usize {
         if wrong < self.fewest {
             *self = Rounds {

@@ -9,7 +9,7 @@ use crate::scene::{Program, Settings, Stepping};
 /// An accepted increment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct IncrementReport {
-    /// What ended it.
+    /// What ended the increment.
     pub event: String,
     /// Material evaluations.
     pub iterations: usize,
@@ -25,11 +25,11 @@ pub type Monitor<'a> = dyn Fn(&mut Solver) -> Result<f64> + 'a;
 /// How a drive ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Arrival {
-    /// At the end of the piece.
+    /// The drive ended at the end of the piece.
     End,
     /// Where the monitored quantity is zero.
     Monitor,
-    /// At first yield.
+    /// The drive ended at first yield.
     Yield(Peak),
     /// A guard element yields: the zone must grow, the last increment was not taken.
     ZoneTooSmall,

@@ -93,7 +93,8 @@ impl Default for LengthSearch {
     }
 }
 
-/// Least share of the way that is gone: a goal that jumps shows no slope.
+/// Least share of the way to the goal that an iteration takes: a goal that jumps has no slope to go
+/// by.
 const LEAST_RELAXATION: f64 = 0.1;
 
 impl LengthSearch {

@@ -1,5 +1,4 @@
-//! Finding an increment: statuses that come out wrong are mended, increments that do not converge
-//! cut.
+//! Finding an increment: wrong statuses are corrected, increments that do not converge are cut.
 
 use super::collapse::not_found;
 use super::increment::increment;
@@ -70,7 +69,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
         increment(self.solver, self.rules, (end, most), how, ahead)
     }
 
-    /// An increment with statuses that are right at its begin (events) or at its end (steps).
+    /// An increment with statuses that are right at its start (events) or at its end (steps).
     /// Increments that do not converge are cut, searched with equilibrium and length apart and cut
     /// again, down to the share `smallest`; returns whether any was. A state that is known `ahead`
     /// predicts the first that is tried.

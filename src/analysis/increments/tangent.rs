@@ -139,7 +139,9 @@ impl Solver<'_> {
         true
     }
 
-    /// The same of a tangent that is not symmetric.
+    /// Conjugate residuals on the elastic factor, for a tangent that is not symmetric: from the
+    /// direction so far, until what is left of the residual is below `size`; false where a factor
+    /// of the tangent would have cost less.
     fn conjugate_residuals(
         &mut self,
         mut z: Answered,

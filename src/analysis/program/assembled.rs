@@ -36,7 +36,7 @@ impl Analysis {
         })
     }
 
-    /// The model.
+    /// The model that is analysed.
     pub fn model(&self) -> &Model {
         &self.model
     }

@@ -50,13 +50,13 @@ impl<'m> Awaited<'m> {
         }))
     }
 
-    /// Its name.
+    /// Name of the figure that is awaited.
     pub(super) fn key(&self) -> &'static str {
         self.figure.key()
     }
 
-    /// Its value in the current state; of a dent what the plastic strains leave now. A full solve
-    /// for the approach, half a trailing one for a dent.
+    /// Value of the figure in the current state; of a dent what the plastic strains leave now. A
+    /// full solve for the approach, half a trailing one for a dent.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -84,8 +84,8 @@ impl<'m> Awaited<'m> {
         })
     }
 
-    /// Its value in the current state as the target means it: of a dent what is left once the load
-    /// factor has gone back to zero. Notes where yielding on that way leaves the zone.
+    /// Value of the figure in the current state as the target means it: of a dent what is left once
+    /// the load factor has gone back to zero. Notes where yielding on that way leaves the zone.
     fn as_meant(&self, solver: &mut Solver, unloads_outside: &Cell<bool>) -> Result<f64> {
         let here = self.here(solver)?;
         let is_near = (here - self.value).abs() <= NEAR * self.value;

@@ -26,7 +26,7 @@ const LASTS: f64 = 2.0;
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct CycleRecord {
     rows: Vec<CycleRow>,
-    /// Of the last cycle, once that was like the next.
+    /// Outcome of the last cycle, once that was like the next.
     outcome: Option<CycleOutcome>,
     /// Whether the last cycle left its states.
     is_over: bool,
@@ -166,7 +166,8 @@ impl CycleRecord {
     }
 }
 
-/// The same of the elements of another zone: nothing of those that were in none.
+/// Plastic states of the elements of another zone, taken over from the zone before: zero in
+/// elements that were not in it.
 fn aligned(
     known: &[PlasticState<6>],
     from: &[usize],

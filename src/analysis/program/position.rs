@@ -57,7 +57,8 @@ pub(in crate::analysis) enum Purpose {
 pub(super) enum Stage {
     /// Constant loads and interference are applied.
     Preload {
-        /// For the second time, now watched for yield from its start.
+        /// Whether the preload is applied for the second time, now watched for yield from its
+        /// start.
         again: bool,
     },
     /// Target after target is reached.
@@ -99,7 +100,7 @@ impl Search {
 pub(super) struct FirstYield {
     /// Whether the material has yielded, so that increments are elastoplastic.
     pub(super) is_behind: bool,
-    /// Its load factor in the program's unit.
+    /// Load factor at first yield in the program's unit.
     pub(super) alpha: Option<f64>,
     /// Load factors between which the virgin structure is known to stay elastic.
     pub(super) elastic_range: [f64; 2],
@@ -117,7 +118,7 @@ impl FirstYield {
     }
 }
 
-/// Where the way to a target starts: it is gone again where the zone was too small for it.
+/// Where the way to a target starts: it is taken anew if the zone was too small for it.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Start {
     pub(super) state: State,

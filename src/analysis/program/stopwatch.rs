@@ -28,7 +28,7 @@ pub(super) enum Row {
     States,
     /// Stresses of all elements.
     Stresses,
-    /// Checkpoints.
+    /// Writing of checkpoints.
     Checkpoints,
 }
 
@@ -73,7 +73,7 @@ impl Default for Stopwatch {
 }
 
 impl Stopwatch {
-    /// The same that has been running for its row from `since` on.
+    /// This stopwatch, running for its row from `since` on.
     pub(super) fn running_since(self, since: Instant) -> Self {
         Stopwatch { since, ..self }
     }

@@ -93,9 +93,10 @@ impl<'m> Run<'m, '_> {
     }
 
     /// Takes the state at a target that was reached. The guard layer only sees what grows out of
-    /// the zone: if the state shows stress beyond yield elsewhere, the zone is widened to there,
-    /// and the way to the target is gone again. So it is if the state is elastic by the recovered
-    /// stress and a Gauss point is beyond yield: the Gauss points are watched from then on.
+    /// the zone. If the state shows stress beyond yield elsewhere, the zone is widened to there and
+    /// the way to the target is taken anew. The same happens if the state is elastic by the
+    /// recovered stress and a Gauss point is beyond yield: the Gauss points are watched from then
+    /// on.
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
         let (target, label) = self.target();
         let mut figures = self.timed(Row::States, |run| {

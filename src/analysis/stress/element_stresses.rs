@@ -17,7 +17,7 @@ const GRAIN: usize = 128;
 /// iteration.
 const BEYOND: f64 = 1e-8;
 
-/// Of some elements of a mesh.
+/// Stresses of some elements of a mesh.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct ElementStresses {
     /// Forces on the nodes of the mesh, in global axes.
@@ -41,7 +41,7 @@ pub(in crate::analysis) struct Shown {
     pub(in crate::analysis) plastic_strain: Vec<f64>,
     /// What the polynomials around them say.
     pub(in crate::analysis) recovered: Recovered,
-    /// Where they are asked for.
+    /// Values at the points, where they are asked for.
     pub(in crate::analysis) points: Option<PointValues>,
 }
 

@@ -51,11 +51,11 @@ pub(in crate::analysis) struct Indicator {
 /// What the polynomials around some elements say.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct Recovered {
-    /// Of `sigma* - sigma_h` and of `sigma_h`, for each of these elements.
+    /// Energies of `sigma* - sigma_h` and of `sigma_h`, for each of these elements.
     pub(super) energies: Vec<[f64; 2]>,
     /// `n_nodes x S`: sums of `sigma*` at the nodes of the mesh.
     pub(in crate::analysis) at_nodes: Vec<f64>,
-    /// Of how many elements each is the sum.
+    /// Number of elements that the sum at each node is over.
     pub(super) n_elements_of: Vec<u32>,
 }
 
@@ -142,7 +142,7 @@ impl Recovered {
 
 /// What the polynomials of an element say.
 struct OfElement<const S: usize, const N: usize> {
-    /// Of `sigma* - sigma_h` and of `sigma_h`.
+    /// Energies of `sigma* - sigma_h` and of `sigma_h`.
     energies: [f64; 2],
     /// `sigma*` at its nodes.
     at_nodes: [[f64; S]; N],

@@ -1,8 +1,8 @@
 //! Samples of an element across which its body is one element thick.
 //!
 //! The stress of a linear quadrilateral, hexahedron or prism is most accurate at its middle. One
-//! sample there tells nothing of how the stress changes across a body that is one element thick, as
-//! in a strip under bending: its surfaces may be beyond yield while the middle carries nothing. The
+//! sample there does not show how the stress changes across a body that is one element thick, as in
+//! a strip under bending: its surfaces may be beyond yield while the middle carries nothing. The
 //! Gauss points on either side of the middle have a sample each, their mean, which along the body
 //! is as good as the middle.
 

@@ -18,7 +18,7 @@ const ON_EDGE: f64 = 1e-9;
 pub struct Maximum<const D: usize> {
     /// The function's value there.
     pub value: f64,
-    /// Where it is.
+    /// The highest point itself.
     pub at: [f64; D],
 }
 
@@ -111,7 +111,7 @@ impl<const D: usize> Quadratic<D> {
         linear + 0.5 * (0..D).map(square).sum::<f64>()
     }
 
-    /// Its highest point on `[-1, 1]^D`: inside, on a side or at a corner.
+    /// Highest point of the quadratic on `[-1, 1]^D`: inside, on a side or at a corner.
     fn highest(&self) -> [f64; D] {
         let mut best = [0.0; D];
         for sides in 0..3usize.pow(D as u32) {

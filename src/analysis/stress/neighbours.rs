@@ -11,7 +11,7 @@ pub struct Neighbours {
 }
 
 impl Neighbours {
-    /// Of a list of elements.
+    /// Neighbours in a list of elements.
     pub fn new(mesh: &Mesh, elements: impl Iterator<Item = usize> + Clone) -> Self {
         let mut first = vec![0; mesh.n_nodes() + 1];
         for &node in elements.clone().flat_map(|e| mesh.nodes(e)) {

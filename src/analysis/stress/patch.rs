@@ -175,7 +175,7 @@ impl<const D: usize> Patch<D> {
     }
 }
 
-/// `x . x`
+/// Squared length `x . x`.
 #[inline(always)]
 fn square<const D: usize>(x: [f64; D]) -> f64 {
     (1..D).fold(x[0] * x[0], |sum, d| sum + x[d] * x[d])

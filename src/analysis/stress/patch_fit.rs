@@ -30,7 +30,7 @@ pub const fn n_terms(variables: usize, degree: usize) -> usize {
 /// Coordinates about an element, of order 1 in it.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<const D: usize> {
-    /// Where they vanish.
+    /// Point at which the coordinates vanish.
     pub center: [f64; D],
     /// Extents of the element.
     pub scale: [f64; D],
@@ -126,7 +126,7 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
         Some(fit.solve(&right))
     }
 
-    /// `G^-1 right`
+    /// Coefficients `G^-1 right` of the fit.
     #[inline(always)]
     pub fn solve(&self, right: &Terms) -> Terms {
         let (n, l) = (Self::N_TERMS, &self.factor);

@@ -43,9 +43,9 @@ const CANDIDATE: f64 = 0.93;
 const FAR_BELOW: f64 = 0.85;
 /// Stresses closer than this share are equal.
 const TIE: f64 = 1e-9;
-/// Share of the stress, times the square of a spacing, that may lie beside the highest point of
-/// that spacing. A search at that spacing leaves the same of its square, and ends where that is no
-/// more than `gamma`: first yield is an event as changes of contact are.
+/// Share of the stress, times the square of a spacing, by which the stress next to the highest
+/// point of that spacing may exceed it. A search at that spacing leaves the same of its square, and
+/// ends where that is no more than `gamma`: first yield is an event as changes of contact are.
 const CURVATURE: f64 = 0.1;
 /// What a search at a spacing leaves, as a share of the stress.
 fn left_after(spacing: f64) -> f64 {
@@ -74,21 +74,21 @@ pub type Samples = Vec<f64>;
 pub struct Peak {
     /// Von Mises stress over initial yield stress.
     pub ratio: f64,
-    /// Coordinates.
+    /// Coordinates of the point.
     pub location: Vector,
-    /// Body.
+    /// Number of its body.
     pub body: usize,
 }
 
 /// Samples and recovers stresses in the elements that may yield.
 pub enum Recovery {
-    /// Of a plane or axisymmetric model.
+    /// Recovery in a plane or axisymmetric model.
     Plane(Box<RecoveryOf<2, 4, 4, 8>>),
-    /// Of a solid one.
+    /// Recovery in a solid.
     Solid(Box<RecoveryOf<3, 6, 8, 20>>),
-    /// Of a plane or axisymmetric model with a fully integrated body.
+    /// Recovery in a plane or axisymmetric model with a fully integrated body.
     FullPlane(Box<RecoveryOf<2, 4, 9, 8>>),
-    /// Of a solid one.
+    /// Recovery in a solid with a fully integrated body.
     FullSolid(Box<RecoveryOf<3, 6, 27, 20>>),
 }
 

@@ -31,7 +31,7 @@ pub(in crate::analysis) struct StressField<
 
 /// What stresses follow from.
 pub(in crate::analysis) struct Strained<'a, const S: usize> {
-    /// Of the nodes, in global axes.
+    /// Displacements of the nodes, in global axes.
     pub(in crate::analysis) displacements: &'a [Vector],
     /// Factor of each load.
     pub(in crate::analysis) factors: &'a [f64],
@@ -54,7 +54,7 @@ pub(in crate::analysis) struct ElementStress<
     number: usize,
     pub(in crate::analysis) gradients: Gradients<D, S, P, N>,
     pub(in crate::analysis) stress: Components<S, P>,
-    /// Of its points; empty outside the zone.
+    /// Plastic history of the element's points; empty outside the zone.
     pub(in crate::analysis) history: &'a [PlasticState<S>],
 }
 

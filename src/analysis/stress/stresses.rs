@@ -13,7 +13,7 @@ use crate::space::{Vector, dot};
 pub(in crate::analysis) struct Stresses {
     /// Internal forces on the free freedoms.
     pub(in crate::analysis) internal: Vec<f64>,
-    /// Those on nodes (control points) in global axes.
+    /// Internal forces on nodes (control points) in global axes.
     pub(in crate::analysis) nodal: Vec<Vector>,
     /// Internal force on each prescribed displacement.
     pub(in crate::analysis) reactions: Vec<f64>,
@@ -38,8 +38,8 @@ pub(in crate::analysis) struct Stresses {
 }
 
 impl Stresses {
-    /// For the stresses of all elements and the factors of the loads; of what has yielded nothing
-    /// yet.
+    /// Sums for the stresses of all elements at these factors of the loads; nothing that yielded is
+    /// counted yet.
     pub(in crate::analysis) fn new(
         model: &Model,
         of_elements: ElementStresses,

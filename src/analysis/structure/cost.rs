@@ -3,10 +3,10 @@
 use crate::results::Counts;
 use serde::{Deserialize, Serialize};
 
-/// Cost so far.
+/// Cost of a run so far.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub struct Cost {
-    /// What was done.
+    /// Counts of what was done.
     pub counts: Counts,
     /// Whether half a trailing solve has been counted for a whole one.
     half: bool,

@@ -30,7 +30,7 @@ pub(super) struct DrivingForce {
     pub(in crate::analysis) load: usize,
     /// Force of each list of loads that change alike at factor 1 with all pairs tied.
     pub(in crate::analysis) of_loads: Vec<f64>,
-    /// Of a rigid surface all there is: the share of each pair's force in what drives it.
+    /// Share of each pair's force in what drives a rigid surface: nothing else drives one.
     pub(in crate::analysis) of_rigid: Option<Vec<f64>>,
     /// Force of each tied pair where the nodes move by 1.
     pub(in crate::analysis) of_pairs: Vec<f64>,
@@ -41,8 +41,8 @@ pub(super) struct DrivingForce {
 }
 
 impl DrivingForce {
-    /// For the leading load of a structure whose loads are condensed; `None` where that one
-    /// prescribes no displacement. Costs about half a full solve.
+    /// Driving force of the leading load of a structure whose loads are condensed; `None` where
+    /// that load prescribes no displacement. Costs about half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 /// checkpoints hold both.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EliminatedLoad {
-    /// The load.
+    /// The load on zone and contact freedoms.
     #[serde(with = "packed::trailing")]
     pub load: Trailing,
     /// What [`crate::substructure::Substructure::recover`] needs of it.
@@ -35,7 +35,7 @@ impl EliminatedLoad {
         }
     }
 
-    /// Whether it is one of a structure with the same freedoms and pairs.
+    /// Whether both loads are of structures with the same freedoms and pairs.
     pub fn is_like(&self, other: &EliminatedLoad) -> bool {
         let mut parts = self.parts().into_iter().zip(other.parts());
         parts.all(|(own, other)| own.len() == other.len())
@@ -84,7 +84,7 @@ impl EliminatedLoad {
 pub struct Equilibrium {
     /// Initial loads J of the plastic strains.
     pub initial: EliminatedLoad,
-    /// Displacements.
+    /// Displacements of zone and contact freedoms.
     pub u: Trailing,
     /// Gap of each pair.
     pub gap: Vec<f64>,

@@ -19,7 +19,7 @@ const GRAIN: usize = 1 << 14;
 /// The factored structure with its zone and its loads: it changes only where another zone is
 /// chosen.
 pub struct Structure<'m> {
-    /// The model.
+    /// The model of the structure.
     pub model: &'m Model,
     /// Stiffness and loads.
     pub system: &'m System,
@@ -51,17 +51,17 @@ pub struct Structure<'m> {
 /// Loads at factor 1, those that change alike ([`Model::alike`]) together.
 #[derive(Default)]
 pub(in crate::analysis) struct Loads {
-    /// Reduced.
+    /// Load vectors reduced by the interior.
     pub(in crate::analysis) reduced: Vec<Vec<f64>>,
-    /// Condensed.
+    /// Load vectors condensed on zone and contact freedoms.
     pub(in crate::analysis) condensed: Vec<EliminatedLoad>,
     /// Forces `t` of the tied pairs, those of changed gaps among them.
     pub(in crate::analysis) forces: Vec<Vec<f64>>,
     /// Weights of each rigid motion in the far boundary
     /// ([`crate::model::RigidMotion::in_far_boundary`]), reduced as loads are.
     reduced_far: Vec<Vec<f64>>,
-    /// The same on zone and contact freedoms: times their displacements they give the motion's
-    /// amplitude.
+    /// Weights of each rigid motion in the far boundary, condensed on zone and contact freedoms:
+    /// their product with the displacements there is the motion's amplitude.
     pub(in crate::analysis) far: Vec<Trailing>,
     /// Where the leading load prescribes displacements.
     pub(super) driving: Option<DrivingForce>,
@@ -70,7 +70,7 @@ pub(in crate::analysis) struct Loads {
 /// Gaps of the pairs without load.
 pub(in crate::analysis) struct Gaps {
     pub(in crate::analysis) initial: Vec<f64>,
-    /// `T` times these, and times what the whole interference takes off them.
+    /// `T` times the initial gaps, and `T` times the whole interference.
     pub(in crate::analysis) forces: [Vec<f64>; 2],
 }
 
@@ -161,7 +161,7 @@ impl<'m> Structure<'m> {
         let (sub, gaps) = (&self.sub, &mut self.gaps);
         let interference: Vec<f64> = self.model.pairs.iter().map(|p| p.interference).collect();
         gaps.forces = [&gaps.initial, &interference].map(|v| sub.slip_forces(v));
-        // A load that is nothing stays nothing, without a solve.
+        // A load without forces stays zero, without a solve.
         let acts = |load: &Vec<f64>| load.iter().any(|force| *force != 0.0);
         let loads = self.system.loads.iter();
         let reduced = loads.map(|load| match acts(load) {

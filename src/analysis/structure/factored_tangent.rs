@@ -16,7 +16,7 @@ pub struct FactoredTangent {
     pub(in crate::analysis) tableau: Option<Tableau>,
     /// Whether a tangent of the increment had no factor.
     pub(in crate::analysis) is_refused: bool,
-    /// Whether it is that of the last evaluated state.
+    /// Whether the tangent is that of the last evaluated state.
     pub(in crate::analysis) is_fresh: bool,
     /// Share of the softening that is taken off in it.
     pub(in crate::analysis) share: f64,

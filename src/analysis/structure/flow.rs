@@ -18,9 +18,10 @@ const AT_STEP: f64 = 1e-3;
 /// Root of the load since flow began, over that of the elastic range before, of the leg on which
 /// [`STEP`] was found: the load went from one to ten times that at first yield.
 const MODERATE: f64 = 3.0;
-/// The same root where the contact of a ball is fully plastic, taken at `E* a/(Y R) = 30`. That is
-/// 2.5 at first yield, and the mean pressure grows from 1.1 Y to nearly 3 Y: some 400 times the
-/// load (after Johnson, *Contact Mechanics*, 1985, chapter 6).
+/// Root of the load since flow began, over that of the elastic range before, where the contact of a
+/// ball is fully plastic, taken at `E* a/(Y R) = 30`. That is 2.5 at first yield, and the mean
+/// pressure grows from 1.1 Y to nearly 3 Y: some 400 times the load (after Johnson, *Contact
+/// Mechanics*, 1985, chapter 6).
 const DEEP: f64 = 20.0;
 /// Load over that at first yield beyond which the leg alone counts: by the same figures a contact
 /// is then so wide, `a/R = 1500 Y/E*`, that strains are not small in any metal.
@@ -47,7 +48,7 @@ impl Flow {
         }
     }
 
-    /// Whether it is of a program with this many loads.
+    /// Whether the flow is of a program with this many loads.
     pub fn fits(&self, n_loads: usize) -> bool {
         self.onset.factors.len() == n_loads && self.range.is_finite() && self.farthest.is_finite()
     }

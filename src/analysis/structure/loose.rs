@@ -10,9 +10,9 @@ use std::sync::Arc;
 
 /// Share of the largest force above which springs are let go on the way.
 const MOVES: f64 = 1e-9;
-/// The same in a state that is read: round-off.
+/// Share of the largest force above which springs are released in a state that is read: round-off.
 const NOTHING: f64 = 1e-14;
-/// Share of the largest force that they may bear where nothing moves any more.
+/// Share of the largest force that springs may bear where nothing moves any more.
 const SETTLED: f64 = 1e-11;
 /// Share of the largest force that no spring bears but where the load drives a body on: it has
 /// moved by a hundred times the deformation.

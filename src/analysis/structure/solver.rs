@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 /// The structure in its current state.
 pub struct Solver<'m> {
-    /// The structure.
+    /// The factored structure.
     pub structure: Structure<'m>,
     /// Contact matrix, with springs, and the statuses of the pairs.
     pub tableau: Tableau,
@@ -42,7 +42,7 @@ pub struct Solver<'m> {
     pub predictor: Predictor,
     /// What is large and what is small.
     pub scales: Scales,
-    /// Cost so far.
+    /// Cost of the run so far.
     pub cost: Cost,
 }
 
@@ -66,7 +66,7 @@ pub struct Pace {
     pub initial: EliminatedLoad,
     /// The distance over which it was found.
     pub distance: f64,
-    /// By how much it was stretched since its loads were eliminated.
+    /// Factor by which the change was stretched since its loads were eliminated.
     pub stretched: f64,
 }
 
@@ -77,8 +77,8 @@ pub struct Scales {
     pub force: f64,
     /// Displacement, of a state or of the nodes of a pair against each other.
     pub displacement: f64,
-    /// The same without rigid motions of floating bodies: what stresses and their round-off are a
-    /// share of.
+    /// Displacement without rigid motions of floating bodies: what stresses and their round-off are
+    /// a share of.
     pub deformation: f64,
     /// Round-off that equilibrium was accepted at where it is above the tolerance asked for; zero
     /// where it never was.

@@ -125,7 +125,7 @@ fn check_origin(model: &Model, state: &EndState) -> Result<()> {
 }
 
 impl Solver<'_> {
-    /// To where nothing acts, in the state that the run starts from.
+    /// Goes to where nothing acts, in the state that the run starts from.
     ///
     /// # Errors
     /// A body that residual stresses alone push away from every contact.

@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// A committed state of a structure.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(in crate::analysis) struct State {
-    /// Load point.
+    /// Load point of the state.
     pub(in crate::analysis) at: LoadPoint,
     /// Displacements, gaps, contact forces and initial loads.
     pub(in crate::analysis) equilibrium: Equilibrium,
@@ -27,16 +27,16 @@ pub(in crate::analysis) struct State {
     pub(in crate::analysis) border: Vec<usize>,
     /// Number of the zone among those that were chosen in the run.
     pub(in crate::analysis) zone: usize,
-    /// Its elements, ascending.
+    /// Elements of the zone, ascending.
     #[serde(with = "packed::ascending")]
     pub(in crate::analysis) elements: Arc<[usize]>,
-    /// Their plastic history, point by point.
+    /// Plastic history of the elements of the zone, point by point.
     pub(in crate::analysis) history: History,
 }
 
 impl State {
-    /// Whether it is one of a structure with so many pairs, contact freedoms and loads, and its
-    /// parts fit each other.
+    /// Whether the state is one of a structure with so many pairs, contact freedoms and loads, and
+    /// its parts fit each other.
     pub(in crate::analysis) fn fits(
         &self,
         [n_pairs, n_contact]: [usize; 2],

@@ -18,13 +18,13 @@ use crate::substructure::Trailing;
 
 /// The plastic zone of a model with its history.
 pub enum Zone {
-    /// Of a plane or axisymmetric model.
+    /// Zone of a plane or axisymmetric model.
     Plane(Box<ZoneOf<2, 4, 4, 8>>),
-    /// Of a solid one.
+    /// Zone of a solid.
     Solid(Box<ZoneOf<3, 6, 8, 20>>),
-    /// Of a plane or axisymmetric model with a fully integrated body.
+    /// Zone of a plane or axisymmetric model with a fully integrated body.
     FullPlane(Box<ZoneOf<2, 4, 9, 8>>),
-    /// Of a solid one.
+    /// Zone of a solid with a fully integrated body.
     FullSolid(Box<ZoneOf<3, 6, 27, 20>>),
 }
 

@@ -49,7 +49,7 @@ pub(in crate::analysis) struct FreeStrains<const P: usize> {
 }
 
 impl<const P: usize> FreeStrains<P> {
-    /// Of the given elements; `at_points` interpolates between the nodes of the i-th.
+    /// Free strains of the given elements; `at_points` interpolates between the nodes of the i-th.
     pub(in crate::analysis) fn new<const N: usize>(
         model: &Model,
         elements: &[usize],
@@ -80,7 +80,7 @@ impl<const P: usize> FreeStrains<P> {
         }
     }
 
-    /// Bytes held.
+    /// Bytes of heap held.
     pub(in crate::analysis) fn bytes(&self) -> usize {
         let of_loads = self.of_loads.iter();
         of_loads

@@ -133,7 +133,7 @@ pub struct NodalPlaces {
 }
 
 impl NodalPlaces {
-    /// Those of a node of a model.
+    /// Places of a node of a model.
     pub fn new(model: &Model, places: &Places, node: usize) -> Self {
         let none = (places.n_zone + places.n_contact) as u32;
         let fixed = none + model.freedoms.prescribed.len() as u32;
@@ -179,7 +179,7 @@ impl NodalPlaces {
 pub struct Packed {
     /// Index in the mesh.
     pub element: u32,
-    /// Body.
+    /// Number of its body.
     pub body: u32,
     n_places: u8,
     first_place: usize,
@@ -235,7 +235,7 @@ impl GatheredElements {
         });
     }
 
-    /// Bytes held.
+    /// Bytes of heap held.
     pub fn bytes(&self) -> usize {
         self.list.capacity() * size_of::<Packed>()
             + 4 * self.places.capacity()

@@ -38,7 +38,7 @@ impl From<&EndState> for History {
 }
 
 impl History {
-    /// What it leaves in the given elements, whose points these are.
+    /// State that the history leaves in the given elements, whose points these are.
     pub fn end_state(&self, elements: &[usize]) -> EndState {
         let mut out = EndState::default();
         let stride = self.points.len() / elements.len().max(1);
@@ -62,7 +62,7 @@ impl History {
         out
     }
 
-    /// Whether it is of so many points.
+    /// Whether the history is of so many points.
     pub fn is_of(&self, n_points: usize) -> bool {
         self.points.len() == n_points && self.back.is_of(n_points)
     }
@@ -98,7 +98,7 @@ impl<const S: usize> BackStrains<S> {
         self.each == 0
     }
 
-    /// Bytes held.
+    /// Bytes of heap held.
     pub fn bytes(&self) -> usize {
         self.strains.capacity() * size_of::<[f64; S]>()
             + self.lost_work.capacity() * size_of::<f64>()
@@ -109,7 +109,7 @@ impl<const S: usize> BackStrains<S> {
         self.strains.len() == self.each * n_points && self.lost_work.len() == n
     }
 
-    /// Those of a point.
+    /// Back strains of a point.
     #[inline]
     pub fn of(&self, point: usize) -> &[[f64; S]] {
         &self.strains[self.each * point..][..self.each]
@@ -129,7 +129,7 @@ impl<const S: usize> BackStrains<S> {
         }
     }
 
-    /// The same with another number of components.
+    /// Back strains of all points with another number of components.
     pub fn resized<const T: usize>(&self) -> BackStrains<T> {
         BackStrains {
             each: self.each,
@@ -171,7 +171,7 @@ pub struct PathEnds<const S: usize> {
     lost_work: Vec<f64>,
 }
 
-/// Those of an element's points.
+/// Path ends of an element's points.
 pub struct PathEndsOf<'a, const S: usize> {
     each: usize,
     strains: &'a mut [[f64; S]],
@@ -179,7 +179,7 @@ pub struct PathEndsOf<'a, const S: usize> {
 }
 
 impl<const S: usize> PathEnds<S> {
-    /// Those of so many points with `each` back stresses that fade.
+    /// Path ends of so many points with `each` back stresses that fade.
     pub fn new(each: usize, n_points: usize) -> Self {
         PathEnds {
             each,
@@ -188,13 +188,13 @@ impl<const S: usize> PathEnds<S> {
         }
     }
 
-    /// Bytes held.
+    /// Bytes of heap held.
     pub fn bytes(&self) -> usize {
         self.strains.capacity() * size_of::<[f64; S]>()
             + self.lost_work.capacity() * size_of::<f64>()
     }
 
-    /// Those of `n` elements of `stride` points, one after the other.
+    /// Path ends of `n` elements of `stride` points, one element after the other.
     pub fn par_chunks_mut(
         &mut self,
         stride: usize,

@@ -68,7 +68,7 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     factors: Vec<f64>,
     /// Initial loads of the committed plastic strains: what yields adds to them.
     base: Trailing,
-    /// The same on the prescribed displacements.
+    /// Initial loads of the committed plastic strains on the prescribed displacements.
     base_on_prescribed: Vec<f64>,
     /// Displacements and load factors that the history belongs to: where the strain paths of an
     /// increment begin. None before they are known: the whole is one step then.
@@ -154,7 +154,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         }
     }
 
-    /// Bytes held.
+    /// Bytes of heap held.
     pub fn bytes(&self) -> u64 {
         (self.elements.bytes()
             + self.free.bytes()

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 pub(in crate::analysis) struct Yielding {
     /// Elements (places in the zone) with a point that yielded.
     active: Ascending,
-    /// Their points (places in the zone's arrays) that did.
+    /// Points of these elements (places in the zone's arrays) that yielded.
     yielding: Ascending,
     /// What flow takes off the elastic matrix there.
     softening: Vec<Softening<6>>,

@@ -74,7 +74,7 @@ pub(super) struct Body {
 }
 
 impl Body {
-    /// Whether it keeps its shape.
+    /// Whether the body is rigid.
     pub fn is_rigid(&self) -> bool {
         self.youngs_modulus.is_infinite()
     }

@@ -43,7 +43,7 @@ pub(super) struct Sheet {
     pub mean_pressure: f64,
     /// Larger and smaller half axis.
     pub semi_axes: [Option<f64>; 2],
-    /// Of the contact; none of a line without length.
+    /// Area of the contact; none of a line without length.
     pub area: Option<f64>,
     pub approach: Option<f64>,
     /// Slope of the load over the approach.
@@ -79,7 +79,7 @@ pub(super) struct BodySheet {
     pub yield_stress: Option<f64>,
     pub largest_shear: Option<PeakSheet>,
     pub largest_von_mises: Option<PeakSheet>,
-    /// Where it can yield.
+    /// First yield of the body, where it can yield.
     pub first_yield: Option<FirstYield>,
 }
 

@@ -177,7 +177,7 @@ fn load_unit(sheet: &Sheet) -> String {
     }
 }
 
-/// The bodies with their names; once where nothing tells the stresses in them apart.
+/// The bodies with their names; a single entry where the same stresses arise in both.
 fn distinct(sheet: &Sheet) -> Vec<(&'static str, &BodySheet)> {
     let [first, second] = &sheet.bodies;
     let inside = |body: &BodySheet| {

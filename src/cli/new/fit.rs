@@ -72,7 +72,7 @@ fn interference(text: &str) -> std::result::Result<f64, String> {
 /// Interference where none is given, on the default radius.
 const INTERFERENCE: f64 = 0.05;
 
-/// The scene.
+/// Text of the scene.
 pub(super) fn scene(fit: &Fit) -> Result<String> {
     let radius = fit.size.radius_or(RADIUS);
     let made = fit.second.both(&fit.first)?;

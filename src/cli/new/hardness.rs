@@ -58,7 +58,7 @@ pub(in crate::cli) struct Until {
     pub depth: Option<f64>,
 }
 
-/// The scene.
+/// Text of the scene.
 pub(super) fn scene(test: &Hardness) -> Result<String> {
     let radius = test.size.radius_or(RADIUS);
     let flat = test.flat.made()?;

@@ -102,11 +102,11 @@ pub(in crate::cli) enum Which {
 /// A material as a scene has it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Made {
-    /// Its name in the scene.
+    /// Name of the material in the scene.
     name: String,
-    /// Whether it is of the list, so that the scene names it only.
+    /// Whether the material is in the list, so that the scene names it only.
     is_listed: bool,
-    /// Its numbers in MPa.
+    /// Moduli and yield stress in MPa.
     pub material: Material,
     /// Whether the body may yield.
     is_elastic: bool,
@@ -134,7 +134,7 @@ impl Made {
             .filter(|_| !self.is_elastic)
     }
 
-    /// The same, of a body that does not yield.
+    /// This material, of a body that does not yield.
     pub fn kept_elastic(self) -> Self {
         Made {
             is_elastic: true,

@@ -109,7 +109,8 @@ pub(super) struct OnFlat<'m> {
     pub title: &'m str,
     /// Name of the round body.
     pub name: &'m str,
-    /// Whether it is a ball, in an axisymmetric model; else a roller in plane strain.
+    /// Whether the round body is a ball, in an axisymmetric model; else it is a roller in plane
+    /// strain.
     pub ball: bool,
     pub radius: f64,
     pub resolution: usize,
@@ -119,7 +120,7 @@ pub(super) struct OnFlat<'m> {
 }
 
 impl OnFlat<'_> {
-    /// The scene.
+    /// Text of the scene.
     pub fn text(&self, asked: &Asked) -> String {
         let name = self.name;
         let kind = match self.ball {

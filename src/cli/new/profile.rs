@@ -132,7 +132,7 @@ bias = [1.0, {bias}, {against}]
         )
     }
 
-    /// The scene.
+    /// Text of the scene.
     pub fn text(&self, asked: &Asked) -> String {
         format!(
             "{HEAD}#

@@ -29,7 +29,7 @@ pub(in crate::cli) struct Punch {
     pub first: First,
 }
 
-/// Its scene.
+/// Text of the scene.
 pub(super) fn scene(punch: &Punch) -> Result<String> {
     let a = punch.half_width;
     let depth = punch.depth.unwrap_or(0.02 * a);

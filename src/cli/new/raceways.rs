@@ -49,7 +49,8 @@ pub(super) fn scene(bearing: &Bearing, mesh: &str) -> Result<Started> {
     let made = bearing.second.both(&bearing.first)?;
     let [[e1, nu1], [e2, nu2]] = [made[0].elastic(), made[1].elastic()];
     let modulus = contact_modulus(e1, nu1, e2, nu2);
-    // Curvatures add up at the inner raceway, the outer one's takes off.
+    // Curvatures of roller and raceway add up at the inner raceway; at the outer one the raceway's
+    // is subtracted.
     let at_inner = HertzLine::new(1.0 / (1.0 / roller + 1.0 / inner), modulus)?;
     let at_outer = HertzLine::new(1.0 / (1.0 / roller - 1.0 / outer), modulus)?;
     let yield_load = weaker(&made, |nu, y| at_inner.yield_load(nu, y));

@@ -47,7 +47,7 @@ pub(in crate::cli) fn serve() -> Result<()> {
     })
 }
 
-/// Does one run.
+/// Runs a point, and returns how the run ended.
 fn answer(line: &str) -> Ended {
     let of = |error: &Error| {
         let (exit_code, text) = ending(error);
@@ -138,7 +138,7 @@ impl Worker {
         })
     }
 
-    /// Its process.
+    /// Number of the process.
     pub fn id(&self) -> u32 {
         self.child.id()
     }
@@ -190,7 +190,7 @@ impl Worker {
 }
 
 impl Drop for Worker {
-    /// With nothing more to ask it ends.
+    /// Ends the worker: there is nothing more to ask.
     fn drop(&mut self) {
         drop(self.asked.take());
         let _ = self.child.wait();

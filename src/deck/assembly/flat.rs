@@ -26,7 +26,7 @@ enum Values {
     Range,
     /// Number or name, degree of freedom and coefficient by turns; a single one is their number.
     Terms,
-    /// Two points.
+    /// Coordinates of two points.
     Points,
     /// None that depends on instances.
     Same,
@@ -153,7 +153,7 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
-    /// A data line.
+    /// Writes a data line for an instance.
     fn line(&mut self, block: &Block, values: Values, line: Line, scope: Scope) -> Result<()> {
         let source = self.source;
         let mut row = block.fields(source, line);

@@ -18,7 +18,7 @@ const MOST_MOMENTS: usize = 10_000;
 /// The requests that hold in a step. Those of a group stay until a step asks for the group anew.
 struct InForce<'d> {
     requests: Vec<&'d OutputRequest>,
-    /// For all requests.
+    /// Schedule of all requests.
     schedule: Schedule,
 }
 
@@ -207,7 +207,7 @@ impl On {
 struct RequestedSets<'d, 'a> {
     deck: &'d Deck,
     account: &'a mut Account,
-    /// By whether they are of elements, and name in capitals.
+    /// Sets by whether they are of elements, and by name in capitals.
     known: BTreeMap<(bool, String), NamedSet>,
 }
 

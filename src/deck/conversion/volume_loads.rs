@@ -38,7 +38,8 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// Of a plane model about an axis across it, of an axisymmetric one about its own.
+    /// Load by rotation: of a plane model about an axis across it, of an axisymmetric model about
+    /// its own.
     fn rotation(
         &self,
         space: Space,

@@ -13,7 +13,7 @@ use suitesparse_sys as sys;
 /// The system that [`Factor::solve`] solves.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum System {
-    /// `K x = b`.
+    /// The whole system `K x = b`.
     Whole,
     /// `L x = b`, b and x in the order of the factor.
     Lower,
@@ -148,8 +148,8 @@ impl Factor {
         self.raw().is_super != 0
     }
 
-    /// Bytes of the numerical factor with what its computation needs beside it: the largest update
-    /// block, and the permuted copy of a matrix with `entries` stored entries.
+    /// Bytes of the numerical factor and of what its computation needs: the largest update block,
+    /// and the permuted copy of a matrix with `entries` stored entries.
     fn bytes_within(&self, entries: usize) -> f64 {
         let raw = self.raw();
         let factor = if self.is_supernodal() {

@@ -15,18 +15,18 @@ pub const KERNEL_SETTING: &str = "OPENBLAS_CORETYPE";
 /// How much of a vector one instruction takes, in the order of speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Vectors {
-    /// SSE: 128 bits.
+    /// SSE, vectors of 128 bits.
     Bits128,
-    /// AVX: 256 bits, product and sum apart.
+    /// AVX, vectors of 256 bits: product and sum apart.
     Bits256,
-    /// AVX2 and FMA: 256 bits, product and sum in one.
+    /// AVX2 and FMA, vectors of 256 bits: product and sum in one.
     Fused256,
     /// AVX-512 with its parts F, CD, BW, DQ and VL.
     Fused512,
 }
 
 impl Vectors {
-    /// Those of OpenBLAS' kernels of a name (`driver/others/dynamic.c`); `None` of a name that is
+    /// Vectors of OpenBLAS' kernels of a name (`driver/others/dynamic.c`); `None` of a name that is
     /// not known here, as of releases to come.
     fn of_kernels(name: &str) -> Option<Self> {
         match name {
@@ -40,7 +40,7 @@ impl Vectors {
         }
     }
 
-    /// Those of this processor, as far as its system lets programs use them.
+    /// Vectors of this processor, as far as its system lets programs use them.
     #[cfg(target_arch = "x86_64")]
     fn of_processor() -> Option<Self> {
         let has_512 = is_x86_feature_detected!("avx512f")
@@ -102,8 +102,8 @@ pub(super) fn warn_of_slow_kernels() {
     });
 }
 
-/// What a library tells its user where OpenBLAS computes with less than the processor has; it
-/// cannot change that in a process that has begun.
+/// Warning for the user of a library where OpenBLAS computes with less than the processor has: a
+/// process that has started cannot change that.
 pub fn slow_kernels() -> Option<String> {
     let better = better_kernels()?;
     Some(format!(

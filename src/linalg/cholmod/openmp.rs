@@ -1,9 +1,9 @@
 //! CHOLMOD's own parallel loops, switched off.
 //!
 //! CHOLMOD 3 copies each supernode in loops of four OpenMP threads, however small the supernode and
-//! however few the processors, beside the threads of the BLAS: on two cores they take as long as
-//! the factorisation of a plane model itself (154,000 freedoms: 0.56 s with them, 0.26 s without;
-//! `cargo bench --bench history`). The BLAS keeps its threads.
+//! however few the processors, in addition to the threads of the BLAS. On two cores these loops
+//! take as long as the factorisation of a plane model itself (`cargo bench --bench history`). The
+//! BLAS keeps its threads.
 
 /// The functions of the OpenMP runtime, from `ffi/openmp.h`.
 #[cfg(openmp)]

@@ -29,7 +29,7 @@ use suitesparse_sys as sys;
 /// | hex8 | 148 k | 263,000 | 87,000 | 0.5 + 40 s | 1.2 + 13 s |
 const TRY_DISSECTION_ABOVE: f64 = 10_000.0;
 
-/// A number that no part of a dissection reaches: of freedoms that come last of the zone.
+/// Number of a freedom that comes last of the zone, after all parts of a dissection.
 const BORDER: i64 = i64::MAX;
 
 /// METIS draws from the random numbers of the C library, which all threads share: one caller at a

@@ -16,8 +16,8 @@ pub(super) struct Elimination {
 }
 
 impl Elimination {
-    /// Of the `pattern` in the order `permutation`; column `j` of the pattern stands for
-    /// `sizes[j]` freedoms.
+    /// Elimination of the `pattern` in the order `permutation`; column `j` of the pattern stands
+    /// for `sizes[j]` freedoms.
     pub(super) fn new(pattern: &Pattern, sizes: &[i64], permutation: &[i64]) -> Self {
         let n = pattern.n();
         let (starts, rows) = permuted(pattern, permutation);

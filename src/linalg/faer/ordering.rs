@@ -6,9 +6,9 @@
 //! | `nested dissection` | separators of interior and zone | large and solid meshes |
 //!
 //! Neither knows of groups, so each group is ordered by itself. The freedoms of the zone that touch
-//! the interior come last of it: once the interior is gone they are all coupled with one another,
-//! whatever the order. The candidate with the fewest floating point operations is kept. Both order
-//! supervariables ([`Supervariables`]).
+//! the interior come last of it: once the interior is eliminated they are all coupled with one
+//! another, whatever the order. The candidate with the fewest floating point operations is kept.
+//! Both order supervariables ([`Supervariables`]).
 //!
 //! # Source
 //! P. R. Amestoy, T. A. Davis, I. S. Duff, *An approximate minimum degree ordering algorithm*,

@@ -20,7 +20,7 @@ const LOST: f64 = 0.1;
 /// that nothing holds.
 const KNOWN: usize = 3;
 
-/// That the order given is the one used (INFOG(7)).
+/// Value of INFOG(7) where the order given was used.
 const GIVEN: i32 = 1;
 
 /// Bytes of an entry as MUMPS takes it: two numbers and a value.
@@ -28,7 +28,7 @@ const TRIPLET: f64 = 16.0;
 
 /// Variables, order and size of a factor that is not computed yet.
 pub(super) struct Analysis {
-    /// Of the order, for reports.
+    /// Name of the order, for reports.
     pub(super) order_name: &'static str,
     variables: Variables,
     factor: Factor,
@@ -100,7 +100,7 @@ impl Variables {
         }
     }
 
-    /// Of each freedom, from 1; 0 for none.
+    /// Number of each freedom among the variables, from 1; 0 for none.
     fn numbers(&self, n: usize) -> Vec<i32> {
         let mut numbers = vec![0; n];
         for (k, &freedom) in self.freedoms.iter().enumerate() {
@@ -202,9 +202,10 @@ impl Analysis {
         self.by_rank[0].nonzeros
     }
 
-    /// Bytes that each rank needs beside its columns: its part of the factor and of the matrix as
-    /// it is handed over; the first one, which has `own` of its own, the Schur complement and what
-    /// couples too, or while the order is found the pattern of the whole.
+    /// Bytes that each rank needs in addition to its columns: its part of the factor and of the
+    /// matrix as it is handed over. The first rank, which has `own` bytes of its own, needs the
+    /// Schur complement and the coupling, too, or, while the order is found, the pattern of the
+    /// whole matrix.
     pub(super) fn bytes(&self, own: f64) -> Vec<f64> {
         let ranks = self.by_rank.iter().zip(&self.n_entries);
         let mut bytes: Vec<f64> = ranks
@@ -239,7 +240,7 @@ impl Analysis {
         self.host.kept.iter().map(trailing).collect()
     }
 
-    /// That each rank, and all of a machine together, have the memory that they need.
+    /// Checks that each rank, and all ranks of a machine together, have the memory that they need.
     pub(super) fn require_memory(&self, needed: &[f64]) -> Result<()> {
         require_memory(needed, &self.by_rank)
     }

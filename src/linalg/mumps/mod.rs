@@ -152,7 +152,7 @@ pub fn predict_shared(matrix: &Shared, partition: &Partition) -> Result<Predicti
 struct Trailing {
     /// Zone and contact freedoms, ascending; the last freedom where there is none.
     freedoms: Vec<usize>,
-    /// Of these, by their places among themselves.
+    /// Partition of these freedoms, by their places among themselves.
     partition: Partition,
     /// Entries between them.
     own: Vec<Entry>,
@@ -209,7 +209,8 @@ impl Trailing {
         })
     }
 
-    /// Their matrix, with the Schur complement of the interior: ones where it is not known yet.
+    /// Matrix of the trailing freedoms, with the Schur complement of the interior: ones where that
+    /// is not known yet.
     fn matrix(&self, schur: Option<Schur>) -> SymmetricCsc {
         upper_triangle(self.freedoms.len(), |add| {
             self.own.iter().copied().for_each(&mut *add);
@@ -278,9 +279,9 @@ impl Trailing {
 
 /// A dense symmetric matrix on some of the trailing freedoms.
 struct Schur {
-    /// Their numbers.
+    /// Numbers of these freedoms.
     freedoms: Vec<usize>,
-    /// By rows, the lower triangle holds; empty where all are unknown.
+    /// Entries by rows, of which the lower triangle holds; empty where all are unknown.
     values: Vec<f64>,
 }
 
@@ -447,7 +448,7 @@ impl Condensed for MumpsCondensed {
         self.cost.clone()
     }
 
-    /// Of the trailing freedoms: MUMPS does not tell its pivots.
+    /// Weakest pivot of the trailing freedoms: MUMPS does not report its pivots.
     fn weakest_pivot(&self) -> Pivot {
         self.weakest
     }

@@ -42,9 +42,9 @@ pub type Evaluate = fn(&[u8]) -> Result<Vec<u8>>;
 /// What a rank adds to what it is asked.
 #[derive(Default)]
 pub(super) struct Host {
-    /// How it makes columns of a matrix.
+    /// Function that makes the rank's columns of a matrix.
     pub(super) assemble: Option<Assemble>,
-    /// How it answers the program.
+    /// Function that answers the program.
     pub(super) evaluate: Option<Evaluate>,
     // What the first rank alone hands to MUMPS.
     /// Number of variables.
@@ -53,7 +53,7 @@ pub(super) struct Host {
     pub(super) place: Vec<c_int>,
     /// The variables that stay, from 1, as they come in the order.
     pub(super) kept: Vec<c_int>,
-    /// Their matrix.
+    /// Matrix of the variables that stay.
     pub(super) schur: Vec<f64>,
     /// A load, then the solution.
     pub(super) load: Vec<f64>,
@@ -72,7 +72,7 @@ struct Kept {
     matrices: BTreeMap<usize, Columns>,
     /// The trailing freedoms of each matrix.
     trailing: BTreeMap<usize, Vec<bool>>,
-    /// Of factors that are not computed yet.
+    /// Entries of factors that are not computed yet.
     entries: BTreeMap<usize, Entries>,
 }
 
@@ -192,7 +192,7 @@ fn answer<T: Serialize>(value: &T) -> Vec<u8> {
     postcard::to_stdvec(value).unwrap_or_default()
 }
 
-/// Bytes that its limits leave to this rank, and its machine to all, beside the work buffer of the
+/// Bytes that its limits leave to this rank, and its machine to all, without the work buffer of the
 /// BLAS: MUMPS' calls would ask for that without end.
 fn left() -> [Option<f64>; 2] {
     let _entered = cholmod::enter_blas().ok();

@@ -17,7 +17,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 pub struct Part {
     /// One for each freedom of the part.
     pub numbers: Vec<u32>,
-    /// For the rank.
+    /// Message to the rank of the part.
     pub message: Vec<u8>,
 }
 
@@ -31,7 +31,7 @@ struct Inner {
     index: usize,
     /// What was asked before.
     before: Traffic,
-    /// Of each part.
+    /// Number of entries of each part.
     n_entries: Vec<usize>,
     /// The freedoms of each part.
     numbers: Vec<Vec<u32>>,
@@ -199,7 +199,7 @@ impl Shared {
             .collect()
     }
 
-    /// The diagonal.
+    /// Diagonal of the matrix.
     pub fn diagonal(&self) -> &[f64] {
         &self.0.diagonal
     }

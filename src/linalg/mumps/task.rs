@@ -47,11 +47,11 @@ pub(super) struct Made {
 /// Sums over the entries that a rank has.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Product {
-    /// `K u`.
+    /// Products `K u` of the rows.
     pub(super) values: Vec<f64>,
-    /// `|K| |u|`.
+    /// Products `|K| |u|` of the rows.
     pub(super) terms: Vec<f64>,
-    /// `|K|`.
+    /// Sums of `|K|` over the rows.
     pub(super) sizes: Vec<f64>,
 }
 
@@ -69,17 +69,18 @@ pub(super) struct Near {
 pub(super) struct Analysed {
     /// INFOG(1) and INFOG(2).
     pub(super) state: [i32; 2],
-    /// INFO(1).
+    /// State of this rank, INFO(1).
     pub(super) own_state: i32,
-    /// INFOG(7).
+    /// Ordering that was taken, INFOG(7).
     pub(super) order: i32,
-    /// Bytes that the factor will take on this rank, and what stands beside it.
+    /// Bytes that the factorisation will take on this rank: its factor and what is held at the same
+    /// time.
     pub(super) needed: f64,
     /// Bytes that the limits of this rank leave, before it had its entries.
     pub(super) left_by_limits: Option<f64>,
     /// Bytes that its machine leaves to all processes.
     pub(super) left_by_machine: Option<f64>,
-    /// Its machine.
+    /// Name of the rank's machine.
     pub(super) machine: String,
     /// Operations, of all ranks together.
     pub(super) flops: f64,
@@ -92,8 +93,8 @@ pub(super) struct Analysed {
 pub(super) struct Factored {
     /// INFOG(1) and INFOG(2).
     pub(super) state: [i32; 2],
-    /// INFO(1).
+    /// State of this rank, INFO(1).
     pub(super) own_state: i32,
-    /// INFOG(12).
+    /// Number of negative pivots, INFOG(12).
     pub(super) negative_pivots: i32,
 }

@@ -21,9 +21,9 @@ unsafe extern "C" {
 /// This process among the ranks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct World {
-    /// Its number, from 0.
+    /// Number of this rank, from 0.
     pub rank: usize,
-    /// How many there are.
+    /// Number of ranks.
     pub size: usize,
 }
 
@@ -69,7 +69,7 @@ impl World {
         world.ok_or_else(|| Error::analysis("MPI does not start: see what it printed"))
     }
 
-    /// Of the first rank: that all others run the same version of the program.
+    /// Checks, on the first rank, that all others run the same version of the program.
     ///
     /// # Errors
     /// `Input` naming the rank that does not; the others are let go.
@@ -83,7 +83,8 @@ impl World {
         same_version(rank::VERSION, &versions).inspect_err(|_| self.let_go())
     }
 
-    /// Of a rank beyond the first: takes part in what the first one computes, until that ends.
+    /// Serves, on a rank beyond the first: takes part in what the first one computes, until that
+    /// ends.
     pub fn serve(self, assemble: Assemble, evaluate: Evaluate) {
         let _turn = calls();
         send(0, rank::VERSION.as_bytes());
@@ -106,7 +107,7 @@ impl World {
         }
     }
 
-    /// Of the first rank: lets the others go.
+    /// Lets the other ranks go; called on the first.
     pub fn let_go(self) {
         let _turn = calls();
         ALONE.store(true, Ordering::Relaxed);
@@ -183,7 +184,7 @@ fn receive(from: usize) -> Vec<u8> {
     bytes
 }
 
-/// That ranks beyond the first have its version.
+/// Checks that ranks beyond the first have its version.
 fn same_version(own: &str, others: &[String]) -> Result<()> {
     match others.iter().enumerate().find(|(_, other)| *other != own) {
         Some((k, other)) => Err(Error::input(format!(

@@ -25,15 +25,15 @@ pub(crate) enum Columns<'a> {
 /// Neighbouring columns that share their rows, as dense trapezoids in a rectangle: each column has
 /// as many values as the supernode has rows, those above the diagonal without meaning.
 pub(crate) struct Supernodes<'a> {
-    /// First column of each, and the number of columns.
+    /// First column of each supernode, and the number of columns.
     pub(crate) starts: &'a [i64],
-    /// Where the rows of each begin, and their number.
+    /// Start of the rows of each supernode, and the number of rows.
     pub(crate) row_starts: &'a [i64],
-    /// Where the values of each begin, and their number.
+    /// Start of the values of each supernode, and the number of values.
     pub(crate) value_starts: &'a [i64],
-    /// Rows of all: those of a supernode ascend and begin with its own columns.
+    /// Rows of all supernodes: those of a supernode ascend and start with its own columns.
     pub(crate) rows: &'a [i64],
-    /// Values of all.
+    /// Values of all supernodes.
     pub(crate) values: &'a [f64],
 }
 

@@ -307,8 +307,8 @@ pub(crate) fn prediction(
         factor_nonzeros: factor.nonzeros(),
         flops: factor.flops(),
         trailing_nonzeros: trailing as f64,
-        // The matrix as given (16 bytes an entry), the factor with its own needs; after it the
-        // trailing copy, condensed stiffness and vectors, smaller than what is gone by then or
+        // The matrix as given (16 bytes an entry) and the factor with its own needs. Trailing copy,
+        // condensed stiffness and vectors come later and are smaller than what is freed by then or
         // added here.
         memory_bytes: 16.0 * entries as f64
             + factor.bytes(entries)

@@ -287,7 +287,7 @@ fn solve_upper_by_strips(triangle: &[f64], x: &mut [f64]) {
     }
 }
 
-/// `x = L x`.
+/// Multiplies by a lower triangle: `x = L x`.
 pub(crate) fn multiply_lower(triangle: &[f64], x: &mut [f64]) {
     let mut rest = triangle;
     for strip in strips(x.len()).rev() {
@@ -355,11 +355,11 @@ macro_rules! for_this_processor {
 }
 
 for_this_processor!(
-    /// `x = L^-1 x`.
+    /// Solves with a lower triangle: `x = L^-1 x`.
     solve_lower, solve_lower_avx2, solve_lower_by_strips, (triangle: &[f64], x: &mut [f64])
 );
 for_this_processor!(
-    /// `x = L^-T x`.
+    /// Solves with the transpose of a lower triangle: `x = L^-T x`.
     solve_upper, solve_upper_avx2, solve_upper_by_strips, (triangle: &[f64], x: &mut [f64])
 );
 for_this_processor!(

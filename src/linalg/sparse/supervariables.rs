@@ -115,7 +115,7 @@ impl Supervariables {
         Pattern::from_parts(&self.columns, &self.rows)
     }
 
-    /// Their groups.
+    /// Groups of the freedoms.
     pub(crate) fn groups(&self) -> &Groups {
         &self.groups
     }

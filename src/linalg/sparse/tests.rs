@@ -12,7 +12,7 @@ use crate::linalg::tests::{
     partition, solved,
 };
 
-/// Those in which the order is chosen by its cost, the storage too.
+/// Ways in which the order is chosen by its cost, the storage too.
 fn chosen() -> impl Iterator<Item = Way> {
     ways().into_iter().filter(|way| way.is_chosen)
 }

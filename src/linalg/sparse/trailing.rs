@@ -77,8 +77,8 @@ pub(crate) struct Trailing {
     contact: Vec<u32>,
     panels: Vec<Panel>,
     n_zone_panels: usize,
-    /// Of each zone panel the one that its first row below is in; `usize::MAX` where that is a
-    /// contact freedom or there is none.
+    /// Parent of each zone panel: the panel that its first row below is in; `usize::MAX` where that
+    /// is a contact freedom or there is none.
     parents: Vec<usize>,
     /// Disjoint subtrees of the zone's panels, ascending.
     subtrees: Vec<Subtree>,

@@ -154,7 +154,7 @@ fn pivots_alone_do_not_show_a_bad_condition() {
     );
 }
 
-/// A wrong row shows in full, however small it is beside the others.
+/// A wrong row shows in full, however small it is compared with the others.
 #[test]
 fn the_componentwise_error_sees_a_small_row() {
     let mut k = sprs::TriMatI::<f64, i64>::new((2, 2));

@@ -60,7 +60,7 @@ impl Bar {
     }
 }
 
-/// Those of [`each_kind`].
+/// Moduli and rates of [`each_kind`].
 const LAWS: [[f64; 2]; 3] = [[60.0, 40.0], [10.0, 0.0], [30.0, 300.0]];
 
 /// Tension and shear there and back, each way in one increment or in many.

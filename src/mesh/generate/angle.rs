@@ -17,7 +17,7 @@ pub(crate) fn direction(degrees: f64) -> [f64; 2] {
     }
 }
 
-/// For angles from 0 to 90 degrees, by way of the first octant.
+/// Directions of angles from 0 to 90 degrees, by way of the first octant.
 fn first_quadrant(degrees: f64) -> [f64; 2] {
     if degrees < 45.0 {
         let (s, c) = degrees.to_radians().sin_cos();

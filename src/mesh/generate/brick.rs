@@ -10,22 +10,22 @@ use std::ops::Range;
 /// A side of a structured body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Face {
-    /// First index 0.
+    /// The side where the first index is 0.
     Left,
-    /// First index at its end.
+    /// The side where the first index ends.
     Right,
-    /// Second index 0.
+    /// The side where the second index is 0.
     Front,
-    /// Second index at its end.
+    /// The side where the second index ends.
     Back,
-    /// Third index 0.
+    /// The side where the third index is 0.
     Bottom,
-    /// Third index at its end.
+    /// The side where the third index ends.
     Top,
 }
 
 impl Face {
-    /// All of them.
+    /// All sides, each with its name.
     pub(super) const ALL: [(&'static str, Face); 6] = [
         ("left", Face::Left),
         ("right", Face::Right),
@@ -35,7 +35,7 @@ impl Face {
         ("top", Face::Top),
     ];
 
-    /// Its axis, and whether it lies at the end of it.
+    /// Axis across the side, and whether the side lies at the end of it.
     fn place(self) -> (usize, bool) {
         match self {
             Face::Left => (0, false),
@@ -69,7 +69,7 @@ pub(super) struct Brick {
     nodes: Vec<u32>,
 }
 
-/// No node here.
+/// Marks a place without a node.
 const NONE: u32 = u32::MAX;
 
 impl Brick {

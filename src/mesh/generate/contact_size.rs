@@ -13,8 +13,8 @@ use crate::scene::{
 };
 use std::f64::consts::PI;
 
-/// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off
-/// beside their edge.
+/// Elastic contacts are meshed this much wider than Hertz's theory has them: room for what is read
+/// off next to their edge.
 const ROOM: f64 = 1.15;
 /// Mean pressure under a ball over the yield stress where yielding is fully developed.
 ///
@@ -249,7 +249,7 @@ struct Largest {
     hertz: Hertz,
     /// First yield of the weaker body that may yield.
     first: Option<FirstYield>,
-    /// Force.
+    /// Largest contact force.
     force: f64,
     /// Half width that a target asks for.
     asked: f64,

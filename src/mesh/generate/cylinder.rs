@@ -136,7 +136,7 @@ struct Layout {
     n_contact: usize,
     /// Size `W` of each body.
     size: f64,
-    /// By half steps from 0 to `W`.
+    /// Coordinates by half steps from 0 to `W`.
     x: Vec<f64>,
     /// Distance from the contact surface by half steps from 0 to `W`.
     depth: Vec<f64>,

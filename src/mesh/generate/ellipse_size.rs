@@ -10,8 +10,8 @@ use crate::scene::{
 };
 use std::f64::consts::PI;
 
-/// Elastic contacts are meshed this much wider than Hertz has them: room for what is read off
-/// beside their edge.
+/// Elastic contacts are meshed this much wider than Hertz's theory has them: room for what is read
+/// off next to their edge.
 const ROOM: f64 = 1.15;
 
 /// The size of the contact: at first yield, and the largest of the load program.

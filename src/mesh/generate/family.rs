@@ -33,10 +33,10 @@ pub trait Family: Sized {
     /// Why there is none near, in words.
     fn member(&self, ratio: f64) -> Result<(Self, f64), String>;
 
-    /// Its resolution, as a scene has it.
+    /// Resolution of the mesh, as a scene has it.
     fn words(&self) -> String;
 
-    /// The shape of its elements; `None` where a file decides.
+    /// Shape of the elements; `None` where a file decides.
     fn shape(&self) -> Option<Shape>;
 
     /// Takes another shape, where no file decides.
@@ -273,7 +273,7 @@ fn proportional(parts: &[Part], ratio: f64) -> Option<(Vec<Part>, f64)> {
     Some((made(found), divisor as f64 / found as f64))
 }
 
-/// Each count rounded for itself, equal ones alike: within the distortion.
+/// Counts rounded each for itself, equal ones alike: within the distortion.
 fn rounded(parts: &[Part], ratio: f64) -> Option<(Vec<Part>, f64)> {
     let new = |n: usize| scaled(n, step(parts, n), ratio);
     let out = with_counts(parts, new);

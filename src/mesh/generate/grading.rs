@@ -53,7 +53,8 @@ pub(super) struct Growth {
 const MOST_ON_A_LINE: usize = 1_000_000;
 
 impl Growth {
-    /// The same ratio everywhere, where none is given for the far end.
+    /// Growth from `near` to `far` on a line; by the ratio `near` everywhere where none is given
+    /// for the far end.
     pub fn new(near: f64, far: Option<f64>, origin: f64) -> Self {
         Growth {
             near,

@@ -30,13 +30,13 @@ pub(super) struct Grid {
 /// A side of a patch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
-    /// Second index 0.
+    /// The side where the second index is 0.
     Bottom,
-    /// First index at its end.
+    /// The side where the first index ends.
     Right,
-    /// Second index at its end.
+    /// The side where the second index ends.
     Top,
-    /// First index 0.
+    /// The side where the first index is 0.
     Left,
 }
 
@@ -52,7 +52,7 @@ pub(super) fn empty_mesh() -> Mesh {
 }
 
 impl<'m> BodyBuilder<'m> {
-    /// Starts a body.
+    /// Starts a body in a mesh.
     pub(super) fn new(mesh: &'m mut Mesh, name: &str, shape: Shape) -> Self {
         mesh.bodies.push(name.to_string());
         BodyBuilder {

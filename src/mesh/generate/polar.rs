@@ -5,7 +5,7 @@ use super::grid::{BodyBuilder, Grid};
 
 /// A sector of a ring.
 pub(super) struct Sector {
-    /// Centre.
+    /// Centre of the ring.
     pub center: [f64; 2],
     /// Start angle in degrees.
     pub start: f64,

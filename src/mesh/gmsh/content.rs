@@ -41,7 +41,7 @@ pub(super) struct RawElement {
     pub at: usize,
 }
 
-/// A point.
+/// A point of a physical group, as the file has it.
 pub(super) struct RawPoint {
     pub node: u32,
     /// Tag of the physical point.

@@ -77,7 +77,7 @@ impl<'a> Cursor<'a> {
         self.text.len() - self.at
     }
 
-    /// An error here.
+    /// An error at the current place.
     pub(super) fn error(&self, message: impl std::fmt::Display) -> Error {
         self.error_at(self.at, message)
     }

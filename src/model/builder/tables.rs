@@ -1,4 +1,4 @@
-//! What a scene says beside its mesh, as text.
+//! What a scene says besides its mesh, as text.
 
 use super::ModelBuilder;
 use crate::error::{Error, Result};

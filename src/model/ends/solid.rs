@@ -68,7 +68,8 @@ fn outer_edges(contact: &ContactSurface) -> Vec<Edge> {
 struct Beyond {
     /// Angle in degrees by which it turns away from the other body; negative towards it.
     turn: f64,
-    /// Whether it belongs to the candidates of another contact, or another part of this one.
+    /// Whether the boundary beyond belongs to the candidates of another contact, or another part of
+    /// this one.
     is_followed: bool,
 }
 

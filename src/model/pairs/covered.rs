@@ -21,8 +21,8 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    /// Of the pairs from number `start` on. A linear face is one piece; of a quadratic one the
-    /// nodes are the corners of several.
+    /// Pieces of a surface with the pairs from number `start` on. A linear face is one piece; of a
+    /// quadratic one the nodes are the corners of several.
     pub(super) fn new(
         mesh: &Mesh,
         surface: &Surface,

@@ -260,8 +260,9 @@ fn sum(facets: Vec<OfFacet>) -> (BTreeMap<usize, Integrals>, Covered) {
 /// How much longer than those of the slave linear facets of a master may be. They stay straight:
 /// beyond that the kinks between them, not the contact, would shape the pressure.
 const LONGER: f64 = 2.0;
-/// The same where gaps have these kinks too, of curved surfaces whose true shape is not known: the
-/// weights of a slave average them out if its facets are no shorter than the master's.
+/// How much longer facets of a master may be where gaps have these kinks too, of curved surfaces
+/// whose true shape is not known: the weights of a slave average them out if its facets are no
+/// shorter than the master's.
 const LONGER_KINKED: f64 = 1.0;
 
 /// The surface with the smaller facets where the two may face each other, the second if alike; the

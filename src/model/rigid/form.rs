@@ -28,7 +28,7 @@ pub(in crate::model) enum Form {
         axis: Vector,
         meridian: Meridian,
     },
-    /// By heights over a line or a plane.
+    /// Heights over a line or a plane.
     Heights(Heights),
 }
 

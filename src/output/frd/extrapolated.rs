@@ -10,9 +10,9 @@ pub(in crate::output) struct Extrapolated {
     pub(in crate::output) stress: Vec<f64>,
     /// `n_nodes x n_components`.
     pub(in crate::output) strain: Vec<f64>,
-    /// `n_nodes`.
+    /// Equivalent plastic strain, `n_nodes`.
     pub(in crate::output) plastic_strain: Vec<f64>,
-    /// By the numbers of integration and shape.
+    /// Extrapolations by the numbers of integration and shape.
     of_shapes: Vec<Extrapolation>,
 }
 

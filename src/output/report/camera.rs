@@ -17,7 +17,7 @@ const OVERLAP: f64 = 0.1;
 pub(super) struct Camera {
     /// Where the eye is.
     pub eye: Vector,
-    /// To the right, up, and towards the eye.
+    /// Axes of the picture: to the right, up, and towards the eye.
     pub axes: [Vector; 3],
 }
 
@@ -45,9 +45,9 @@ impl Camera {
 
 /// The way up and the axes across it, towards the eye.
 pub(super) struct Stand {
-    /// Up.
+    /// Direction up, a unit vector.
     pub up: Vector,
-    /// Across.
+    /// Directions across the way up.
     pub across: [Vector; 2],
 }
 

@@ -15,33 +15,33 @@ const MOST_POINTS: usize = 600;
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pen {
-    /// A line.
+    /// A solid line.
     Line,
     /// A line with a dot at every point.
     Dotted,
-    /// Dots alone.
+    /// Dots at the points alone.
     Dots,
     /// A dashed line with a dot at every point.
     Dashed,
 }
 
-/// A curve.
+/// A curve of a chart.
 pub(super) struct Curve {
     /// Name in the legend; empty: none.
     pub label: String,
     /// Number of its colour; `None`: faint.
     pub color: Option<usize>,
-    /// How it is drawn.
+    /// Line and dots that draw the curve.
     pub pen: Pen,
-    /// Its points, in order.
+    /// Points of the curve, in order.
     pub points: Vec<[f64; 2]>,
 }
 
-/// A chart.
+/// A chart of some curves.
 pub(super) struct Chart {
     /// Labels of the axes, with units.
     pub labels: [String; 2],
-    /// Its curves.
+    /// Curves of the chart.
     pub curves: Vec<Curve>,
     /// Whether each axis holds 0 although no value does.
     pub from_zero: [bool; 2],
@@ -220,7 +220,7 @@ fn range(curves: &[Curve], axis: usize, from_zero: bool) -> [f64; 2] {
     ]
 }
 
-/// At most [`MOST_POINTS`] finite points, ends and extremes kept.
+/// Thins a curve to at most [`MOST_POINTS`] finite points, ends and extremes kept.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let points: Vec<[f64; 2]> = points
         .iter()

@@ -22,13 +22,13 @@ pub(super) struct ContactFrame {
     pub reach: [f64; 2],
 }
 
-/// Of half axes that differ by less than this share the direction says nothing.
+/// Share by which half axes differ at least for their direction to mean something.
 const ROUND: f64 = 0.05;
 /// How many times longer than wide a patch without end counts as.
 const ENDLESS: f64 = 2.0;
 
 impl ContactFrame {
-    /// That of some states; `None` where no patch carries force.
+    /// Frame of the contact over some states; `None` where no patch carries force.
     pub(super) fn new(model: &Model, states: &[State]) -> Option<Self> {
         let patches = || states.iter().flat_map(|state| &state.patches);
         let strongest = patches().max_by(|a, b| a.force.total_cmp(&b.force))?;

@@ -13,7 +13,7 @@ pub(super) struct Sheet<'t> {
     pub border: &'t [[u32; 2]],
     /// Where the corners are.
     pub places: Vec<[f64; 2]>,
-    /// Their values.
+    /// Values at the corners.
     pub values: Vec<f64>,
 }
 

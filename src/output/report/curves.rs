@@ -15,11 +15,11 @@ use plotters::prelude::SeriesLabelPosition;
 pub(super) struct Titled {
     /// Short name, for the file.
     pub name: String,
-    /// Heading.
+    /// Heading above the chart.
     pub title: String,
-    /// What is seen.
+    /// Caption: what the chart shows.
     pub caption: String,
-    /// The chart.
+    /// The chart itself.
     pub chart: Chart,
 }
 
@@ -90,9 +90,9 @@ pub(super) fn load_label(labels: &Labels) -> String {
 /// change and all contact forces are therefore in proportion to the load.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum AtZero {
-    /// It does, too: a pressure.
+    /// A figure that goes to zero with the load: a pressure.
     Proportional,
-    /// It stays as it is until nothing is pressed any more: an extent.
+    /// A figure that stays as it is until nothing is pressed any more: an extent.
     Constant,
 }
 

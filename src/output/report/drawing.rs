@@ -85,7 +85,7 @@ impl Drawing {
         format!("{}{}</svg>", self.tag(&told), theme::themed(&self.content))
     }
 
-    /// Its box, in units.
+    /// Width and height of the drawing, in units.
     pub(super) fn size(&self) -> [u32; 2] {
         [self.width * FINE, self.height * FINE]
     }

@@ -16,7 +16,7 @@ use crate::results::{Fields, State};
 use plotters::style::RGBColor;
 use rayon::prelude::*;
 
-/// What is shown.
+/// Field that a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Quantity {
     /// Von Mises stress.
@@ -28,7 +28,7 @@ pub(super) enum Quantity {
 }
 
 impl Quantity {
-    /// Its value in an element.
+    /// Value of the field in an element.
     fn of(self, mesh: &Mesh, fields: &Fields, element: usize) -> f64 {
         match self {
             Quantity::VonMises => fields.von_mises[element],
@@ -60,9 +60,9 @@ impl Quantity {
 pub(super) struct View {
     /// Short name, for files; may be empty.
     pub name: &'static str,
-    /// What it is, for captions; may be empty.
+    /// Description of the plane, for captions; may be empty.
     pub words: String,
-    /// Its triangles, mirror images included.
+    /// Triangles of the plane, mirror images included.
     pub patchwork: Patchwork,
     /// What of it is shown.
     pub window: Window,
@@ -76,9 +76,9 @@ pub(super) struct Shown {
     pub state: usize,
     /// Index of the view.
     pub view: usize,
-    /// What is shown.
+    /// Field that the picture shows.
     pub quantity: Quantity,
-    /// The picture.
+    /// The picture itself.
     pub drawing: Drawing,
     /// Whether its scale is not that of the other states.
     pub has_own_scale: bool,
@@ -212,7 +212,7 @@ fn draw_one(labels: &Labels, view: &View, shown: &Values, range: [f64; 2]) -> Re
     picture.finish(labels, Some(&bands), |_| Ok(()))
 }
 
-/// Three digits.
+/// Rounds a value to three digits.
 fn rounded(value: f64) -> f64 {
     significant(value, 3).parse().unwrap_or(value)
 }

@@ -56,7 +56,7 @@ fn magnification(largest: f64, width: f64) -> Option<f64> {
     (largest > 0.0 && most.is_finite() && times >= LEAST).then_some(times)
 }
 
-/// What is seen.
+/// Caption of a picture of the deformed bodies.
 pub(super) fn caption(view: &View, times: f64, load: &str) -> String {
     format!(
         "Deformed contour{}, displacements {} times as large, {load}; grey: undeformed. Bodies \

@@ -68,7 +68,7 @@ struct Captioned {
     name: String,
     /// Heading; empty: none.
     title: String,
-    /// What is seen.
+    /// Caption: what the drawing shows.
     caption: String,
     drawing: Drawing,
 }

@@ -17,15 +17,15 @@ const STYLE: &str = include_str!("report.css");
 
 /// A drawing in its place on the page.
 pub(super) struct Figure {
-    /// Its place in the page.
+    /// Name of the figure, its place in the page.
     pub name: String,
     /// Heading; empty: none.
     pub title: String,
-    /// What is seen.
+    /// Caption: what the figure shows.
     pub caption: String,
     /// The drawing, as it stands in the page.
     pub svg: String,
-    /// Its box, in units.
+    /// Width and height of the figure, in units.
     pub size: [u32; 2],
 }
 
@@ -34,11 +34,11 @@ pub(super) struct Figure {
 pub(super) struct Figures {
     /// The scene drawn.
     pub scene: Vec<Figure>,
-    /// The same with the mesh, shown on demand.
+    /// Drawings of the scene with the mesh, shown on demand.
     pub meshed: Vec<Figure>,
-    /// Charts.
+    /// Charts about the load and the contact.
     pub charts: Vec<Figure>,
-    /// For each state shown its name and pictures.
+    /// Name and pictures of each state shown.
     pub states: Vec<(String, Vec<Figure>)>,
     /// How many states with fields are not shown.
     pub states_left_out: usize,

@@ -30,7 +30,7 @@ pub(super) struct Patchwork {
 }
 
 impl Patchwork {
-    /// Without triangles.
+    /// A patchwork without triangles.
     pub(super) fn new(axes: [Vector; 2]) -> Self {
         Patchwork {
             axes,
@@ -96,7 +96,7 @@ impl Patchwork {
         self.triangles.push(corners);
     }
 
-    /// With its border, once all triangles are there.
+    /// The patchwork with its border, once all triangles are there.
     pub(super) fn finished(mut self) -> Self {
         let sides = self.triangles.iter();
         let sides = sides.flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
@@ -105,7 +105,8 @@ impl Patchwork {
         self
     }
 
-    /// With its mirror images in the axes' zeros; points nearer to them than `small` are their own.
+    /// The patchwork with its mirror images in the axes' zeros; points nearer to them than `small`
+    /// are their own.
     pub(super) fn mirrored(mut self, mesh: &Mesh, mirror: [bool; 2], small: f64) -> Self {
         for axis in (0..2).filter(|&axis| mirror[axis]) {
             let places = self.places(mesh, None);
@@ -193,7 +194,7 @@ impl Patchwork {
         self.points.iter().map(mixed).collect()
     }
 
-    /// With values at its points.
+    /// A sheet with values at its points.
     pub(super) fn sheet(&self, places: Vec<[f64; 2]>, values: Vec<f64>) -> Sheet<'_> {
         Sheet {
             triangles: &self.triangles,

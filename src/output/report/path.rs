@@ -48,7 +48,7 @@ pub(super) fn closed(mut ring: Vec<Spot>) -> Vec<Spot> {
     ring
 }
 
-/// On whole units, none twice in a row.
+/// Rounds points to whole units, none twice in a row.
 fn whole(points: &[Spot]) -> Vec<[i64; 2]> {
     let mut out: Vec<[i64; 2]> = points.iter().map(|p| p.map(|x| x.round() as i64)).collect();
     out.dedup();

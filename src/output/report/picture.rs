@@ -22,7 +22,7 @@ pub(super) struct Picture {
     across: u32,
     /// Room for colours.
     right: u32,
-    /// The paths.
+    /// The paths drawn so far, as SVG.
     elements: String,
 }
 
@@ -52,7 +52,7 @@ impl Picture {
         f64::from(self.across) / self.window.size()[0]
     }
 
-    /// Pixels down.
+    /// Height of the picture, in pixels.
     fn down(&self) -> f64 {
         self.scale() * self.window.size()[1]
     }

@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 
 /// A plane through solids.
 pub(super) struct Cut {
-    /// A point of it.
+    /// A point of the plane.
     pub origin: Vector,
-    /// Its axes; their product points out of the drawing.
+    /// Axes of the plane; their product points out of the drawing.
     pub axes: [Vector; 2],
 }
 
@@ -80,7 +80,7 @@ impl Cut {
 /// The pieces in the making.
 struct Pieces<'m> {
     mesh: &'m Mesh,
-    /// Of each node above the plane.
+    /// Height of each node above the plane.
     height: Vec<f64>,
     /// Middles of faces, numbered after nodes and elements, by the faces' corners.
     faces: BTreeMap<[usize; 4], (usize, Mix)>,

@@ -22,7 +22,7 @@ pub(super) const MAGNIFIED: &str = "magnified";
 
 /// The pictures of a run.
 pub(super) struct Pictures {
-    /// For each state shown its index and pictures.
+    /// Index and pictures of each state shown.
     pub states: Vec<(usize, Vec<Captioned>)>,
     /// How many states of interest are not shown.
     pub left_out: usize,

@@ -3,11 +3,11 @@
 
 use plotters::style::RGBColor;
 
-/// Text, axes.
+/// Colour of text and axes.
 pub(super) const INK: RGBColor = RGBColor(0x1c, 0x21, 0x28);
 /// Secondary lines: grid, reference lines.
 pub(super) const FAINT: RGBColor = RGBColor(0x8a, 0x93, 0x9e);
-/// The ground.
+/// Colour of the ground.
 pub(super) const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xfe);
 /// Curves, in order: told apart by lightness too, for readers who do not tell all hues apart.
 pub(super) const CURVES: [RGBColor; 8] = [

@@ -48,7 +48,7 @@ impl Window {
         })
     }
 
-    /// With its mirror images.
+    /// The window with its mirror images.
     pub(super) fn mirrored(mut self, mirror: [bool; 2]) -> Self {
         for k in 0..2 {
             if mirror[k] {

@@ -31,9 +31,9 @@ const LARGEST: f64 = 4.0;
 
 /// A face with a corner that is not believed.
 pub(super) struct EdgeFace {
-    /// Its corners.
+    /// Corners of the face.
     pub(super) corners: Polygon,
-    /// What the other body covers of it.
+    /// Parts of the face that the other body covers.
     pub(super) parts: Vec<Polygon>,
     /// The square of the pressure by the pairs that are believed.
     pub(super) fit: Fit,
@@ -79,7 +79,7 @@ struct Piece {
     share: f64,
     /// Value of the quadratic.
     fitted: f64,
-    /// `d^3`.
+    /// Cube of the distance, `d^3`.
     cubed: f64,
 }
 

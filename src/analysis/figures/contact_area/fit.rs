@@ -54,8 +54,8 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// By least squares through the nearest known values, weighted by nearness; `None` where they
-    /// do not determine even a plane.
+    /// A fit by least squares through the nearest known values, weighted by nearness; `None` where
+    /// they do not determine even a plane.
     fn new(known: &[Known], origin: [f64; 2]) -> Option<Self> {
         let off = |known: &Known| (known.at[0] - origin[0]).hypot(known.at[1] - origin[1]);
         let mut near: Vec<(f64, Known)> = known.iter().map(|known| (off(known), *known)).collect();

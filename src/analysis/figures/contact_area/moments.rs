@@ -15,7 +15,7 @@ pub(super) type Triangle = [[f64; 2]; 3];
 pub(super) struct Moments {
     pub(super) area: f64,
     pub(super) center: [f64; 2],
-    /// `M`.
+    /// Second moments `M`.
     second: [[f64; 2]; 2],
 }
 
@@ -199,7 +199,7 @@ impl Moments {
         }
     }
 
-    /// The same with another area.
+    /// Moments with the same centre and second moments, but another area.
     pub(super) fn with_area(self, area: f64) -> Moments {
         Moments { area, ..self }
     }

@@ -44,7 +44,7 @@ pub(super) struct Shape<'a> {
     pub(super) members: BTreeSet<usize>,
     pub(super) planes: Vec<Mirror>,
     pub(super) images: Images,
-    /// Those opposite to one of the planes.
+    /// Planes of symmetry opposite to one of `planes`.
     pub(super) opposite: Vec<Mirror>,
     /// Distance between the planes of symmetry at its two ends and the direction across them, where
     /// it has both.

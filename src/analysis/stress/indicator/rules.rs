@@ -82,11 +82,11 @@ fn times_lines(mut points: Vec<(Place, f64)>, dimensions: Range<usize>) -> Vec<(
 pub(super) struct Compared {
     pub(super) weight: f64,
     pub(super) functions: Functions,
-    /// [`shares`]
+    /// Shares of the nodes there, see [`shares`].
     pub(super) shares: Vec<f64>,
 }
 
-/// Those of each shape.
+/// Points at which the stresses of each shape are compared.
 pub(super) static COMPARED: LazyLock<[Vec<Compared>; Shape::ALL.len()]> = LazyLock::new(|| {
     Shape::ALL.map(|shape| {
         let point = |(place, weight)| Compared {

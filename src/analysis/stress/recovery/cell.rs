@@ -14,7 +14,7 @@ pub(super) struct Cell<const D: usize, const N: usize> {
 }
 
 impl<const D: usize, const N: usize> Cell<D, N> {
-    /// Those that an element is searched by.
+    /// Cells that together make an element.
     pub(super) fn of(element: u32, shape: Shape, nodes: [[f64; D]; N]) -> Vec<Self> {
         let cell = |corners: [Place; 8]| Cell {
             element,

@@ -13,8 +13,8 @@ pub enum Watched {
     /// Between superconvergent points, by the polynomials through them.
     #[default]
     Recovered,
-    /// At the Gauss points of the elements, where the material yields: on a mesh that is too
-    /// coarse for the polynomials they may be beyond yield before.
+    /// Watched at the Gauss points of the elements, where the material yields: on a mesh that is
+    /// too coarse for the polynomials they may be beyond yield before.
     GaussPoints,
 }
 

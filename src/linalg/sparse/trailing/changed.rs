@@ -38,7 +38,7 @@ pub(crate) struct Changed {
 }
 
 impl Changed {
-    /// Of a trailing factor of a matrix with this shift.
+    /// A changed factor, for the trailing factor of a matrix with this shift.
     pub(crate) fn new(trailing: &Trailing, shift: &[f64]) -> Self {
         let factor = trailing.like();
         let mut panel_of = vec![0; factor.kept.len()];

@@ -11,15 +11,15 @@ const OPPOSED: f64 = 0.2;
 /// Steps of Newton's method for the place of a point, of which a straight facet needs one.
 const STEPS: usize = 30;
 
-/// A facet.
+/// A facet of a surface with its outward normal.
 pub(super) struct Face {
     pub reference: &'static FacetReference,
     pub nodes: Vec<usize>,
     pub x: Vec<Vector>,
     pub center: Vector,
-    /// Outward, at the centre.
+    /// Outward unit normal at the centre.
     pub normal: Vector,
-    /// Of a ball round the centre that holds the nodes.
+    /// Radius of a ball round the centre that holds the nodes.
     pub radius: f64,
 }
 
