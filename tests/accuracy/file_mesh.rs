@@ -282,7 +282,12 @@ fn the_estimate_of_a_file_is_bounded_and_told_before() {
             &[0.5],
             "0.500 times as large; about 11 times",
         ),
-        ([5, 10], true, &[0.5], "0.500 times as large; about 67 times"),
+        (
+            [5, 10],
+            true,
+            &[0.5],
+            "0.500 times as large; about 67 times",
+        ),
         ([5, 11], true, &[], "energy norm of the stress error"),
     ] {
         let scene = block(cells, solid);
