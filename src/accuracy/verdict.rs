@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
 /// Accuracies that are priced.
-pub(super) const TARGETS: [f64; 3] = [0.1, 0.01, 0.001];
+pub(super) const TARGETS: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
 /// Finest meshes from which a reference is extrapolated.
 const FINEST: usize = 4;
 /// Errors below this are round-off, and no order is read off them.

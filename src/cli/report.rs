@@ -4,6 +4,7 @@ use super::table::{Column::*, Table, page_width, wrap};
 use crate::accuracy::for_a_tenth;
 use crate::analysis::Check;
 use crate::linalg::Prediction;
+use crate::mesh::generate::contact_size;
 use crate::number::{bytes, number, percent, seconds, significant};
 use crate::output::columns::{cell, of_states};
 use crate::output::{Labels, RunHeader};
@@ -43,6 +44,9 @@ pub(super) fn results(
         report.paragraph(&format!("INCOMPLETE: {}", incomplete.why));
     }
     report.reference(&results.reference);
+    if let Some(far) = far_boundary(scene).filter(|_| !results.reference.is_empty()) {
+        report.lines(&format!("  {far}"));
+    }
     if let Some(accuracy) = &results.accuracy {
         report.accuracy(accuracy);
     }
@@ -74,6 +78,20 @@ pub(super) fn results(
         ));
     }
     report.text
+}
+
+/// Where the bodies of a generated contact end, which closed forms do not know of.
+fn far_boundary(scene: &Scene) -> Option<String> {
+    let mesh = &scene.mesh;
+    let solid = (mesh.curved_bodies.as_ref()).map(|p| (p.far_size, "half axes"));
+    let plane = mesh.cylinder_on_half_plane.as_ref();
+    let plane = plane.map(|p| (contact_size::far_size(scene, p), "half widths"));
+    let (far, of) = solid.or(plane)?;
+    Some(format!(
+        "Closed forms are of bodies without end; these end at {} {of} at first yield. No mesh of the \
+         same `far_size` shows what that changes: twice the size does.",
+        significant(far, 3)
+    ))
 }
 
 /// What a run would do and cost; with `all_effects` those that are off have a row each.

@@ -5,7 +5,7 @@ use super::commands::{at_once, header, json, prepare};
 use super::progress::Progress;
 use super::table::{Column::*, Table, page_width, wrap};
 use super::{interrupt, print};
-use crate::accuracy::{Knob, Plan, QuantityStudy, Study, foremost, study};
+use crate::accuracy::{Knob, Plan, Price, QuantityStudy, Study, Usage, foremost, study};
 use crate::error::{Error, ErrorKind, Result};
 use crate::model::Model;
 use crate::number::{bytes, seconds, significant};
@@ -105,6 +105,9 @@ pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
     }
 }
 
+/// Length of the bar of a time, and what ten times as long adds.
+const BAR: f64 = 6.0;
+
 fn report(study: &Study, out: &Path) -> String {
     let mut text = String::from("Runs\n");
     let mut table = Table::new(&[
@@ -135,6 +138,12 @@ fn report(study: &Study, out: &Path) -> String {
         ]);
     }
     text.push_str(&table.render(page_width()));
+    if let Some(all) = all {
+        text.push_str(
+            "\nWhat accuracy costs (the worst of all quantities; bars are logarithmic)\n",
+        );
+        text.push_str(&cheapest_settings(study, all).render(page_width()));
+    }
     text.push_str("\nPrices\n");
     for quantity in foremost(&study.quantities) {
         prices(quantity, &mut text);
@@ -151,6 +160,38 @@ fn report(study: &Study, out: &Path) -> String {
         seconds(study.seconds)
     ));
     text
+}
+
+/// The cheapest setting for each error, with its time as a bar.
+fn cheapest_settings(study: &Study, all: &QuantityStudy) -> Table {
+    let mut table = Table::new(&[
+        (Number, "error\n[%]"),
+        (Number, "time"),
+        (Number, "memory"),
+        (Text, "cheapest setting"),
+        (Text, ""),
+    ]);
+    let usage = |price: &Price| price.run.map(|i| study.runs[i].usage);
+    let of_time = |usage: Usage| usage.undisturbed_seconds();
+    let times = all.prices.iter().filter_map(usage).map(of_time);
+    let shortest = times.fold(f64::INFINITY, f64::min);
+    for price in &all.prices {
+        let error = significant(100.0 * price.accuracy, 2);
+        let Some((run, usage)) = price.run.map(|i| &study.runs[i]).zip(usage(price)) else {
+            let none = "none of those that were tried".to_string();
+            table.row([error, "-".into(), "-".into(), none, String::new()]);
+            continue;
+        };
+        let length = BAR * (1.0 + (of_time(usage) / shortest).log10());
+        table.row([
+            error,
+            seconds(of_time(usage)),
+            (usage.peak_memory_bytes).map_or("-".to_string(), |b| bytes(b as f64)),
+            format!("{}, {}", run.series, run.value),
+            "#".repeat(length.round() as usize),
+        ]);
+    }
+    table
 }
 
 fn prices(quantity: &QuantityStudy, text: &mut String) {

@@ -101,10 +101,10 @@ fn the_header_is_the_one_that_the_source_says() {
     }
 }
 
-/// The lines of the README are C that the header knows.
+/// The lines of `ffi/README.md` are C that the header knows.
 #[test]
 fn the_lines_of_the_readme_compile() {
-    let readme = std::fs::read_to_string(root().join("README.md")).unwrap();
+    let readme = std::fs::read_to_string(root().join("ffi/README.md")).unwrap();
     let lines = readme.split("```c\n").nth(1).unwrap();
     let lines = lines.split("```").next().unwrap();
     let folder = tempfile::tempdir().unwrap();

@@ -81,7 +81,7 @@ fn the_bearing_ball_dents_its_race_as_the_table_says() {
 #[test]
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 fn the_ten_lines_print_what_is_shown() {
-    let text = section("Ten lines");
+    let text = section("First run");
     let block = |language: &str| {
         let after = text.split(&format!("```{language}\n")).nth(1).unwrap();
         after.split("```").next().unwrap().to_string()

@@ -20,7 +20,7 @@ def test_the_readme_runs_its_own_scene(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "ball.toml").write_text(blocks("README.md", "toml")[0], encoding="utf-8")
     names = {}
-    exec(blocks("README.md", "python")[0], names)
+    exec(blocks("ffi/README.md", "python")[0], names)
     assert names["result"]["off"].residual_depth > 0
 
 

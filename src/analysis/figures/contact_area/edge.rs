@@ -43,11 +43,38 @@ pub(super) struct EdgeFace {
     pub(super) pressures: Vec<f64>,
 }
 
+/// The shares of a face's corners in a place: what two neighbours have more than all.
+#[derive(Clone, Copy)]
+struct Shares {
+    /// The first of the two.
+    at: usize,
+    of_first: f64,
+    of_second: f64,
+}
+
+/// Values at the corners of a face, and their mean.
+struct AtCorners {
+    values: Vec<f64>,
+    mean: f64,
+}
+
+impl AtCorners {
+    fn new(values: Vec<f64>) -> Self {
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        AtCorners { values, mean }
+    }
+
+    fn at(&self, shares: &Shares) -> f64 {
+        let [a, b] = [shares.of_first, shares.of_second];
+        let next = (shares.at + 1) % self.values.len();
+        (1.0 - a - b) * self.mean + a * self.values[shares.at] + b * self.values[next]
+    }
+}
+
 /// A small piece of a face.
 struct Piece {
     area: f64,
-    /// Each corner's share of it.
-    weights: Vec<f64>,
+    shares: Shares,
     /// Share of the corners that are not believed.
     share: f64,
     /// Value of the quadratic.
@@ -59,32 +86,29 @@ struct Piece {
 impl EdgeFace {
     /// The shares of the corners at a place: linear in the triangles between two of them and the
     /// middle, at which all have the same.
-    fn weights(&self, x: [f64; 2]) -> Vec<f64> {
+    fn shares(&self, x: [f64; 2]) -> Shares {
         let n = self.corners.len();
         let middle = [0, 1].map(|d| self.corners.iter().map(|c| c[d]).sum::<f64>() / n as f64);
         let from = |y: [f64; 2]| [y[0] - middle[0], y[1] - middle[1]];
         let turned = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
         let x = from(x);
-        let shares = |k: usize| {
-            let (a, b) = (from(self.corners[k]), from(self.corners[(k + 1) % n]));
+        let of_two = |at: usize| {
+            let (a, b) = (from(self.corners[at]), from(self.corners[(at + 1) % n]));
             let whole = turned(a, b);
-            [turned(x, b) / whole, turned(a, x) / whole]
+            Shares {
+                at,
+                of_first: turned(x, b) / whole,
+                of_second: turned(a, x) / whole,
+            }
         };
-        let inside = |k: &usize| {
-            let [a, b] = shares(*k);
-            a.min(b)
-        };
-        let at = (0..n).max_by(|a, b| inside(a).total_cmp(&inside(b)));
-        let at = at.unwrap_or(0);
-        let [a, b] = shares(at);
-        let mut out = vec![(1.0 - a - b) / n as f64; n];
-        out[at] += a;
-        out[(at + 1) % n] += b;
-        out
-    }
-
-    fn between(weights: &[f64], values: &[f64]) -> f64 {
-        weights.iter().zip(values).map(|(w, v)| w * v).sum()
+        let inside = |shares: &Shares| shares.of_first.min(shares.of_second);
+        let all = (0..n).map(of_two);
+        all.max_by(|a, b| inside(a).total_cmp(&inside(b)))
+            .unwrap_or(Shares {
+                at: 0,
+                of_first: 0.0,
+                of_second: 0.0,
+            })
     }
 
     /// The cube roots of what is positive at open corners.
@@ -101,27 +125,30 @@ impl EdgeFace {
 
     /// The square of the pressure.
     fn level(&self, constant: f64) -> impl Fn([f64; 2]) -> f64 + '_ {
-        let over = self.over(constant);
+        let over = AtCorners::new(self.over(constant));
+        let layers = AtCorners::new(self.layers.clone());
         move |x| {
-            let weights = self.weights(x);
-            let [beyond, over] = [&self.layers, &over].map(|of| Self::between(&weights, of));
+            let shares = self.shares(x);
+            let [beyond, over] = [&layers, &over].map(|of| of.at(&shares));
             self.fit.value(x) + constant * beyond.powi(3) - over.powi(3)
         }
     }
 
     fn pieces(&self) -> Vec<Piece> {
         let mut out = Vec::new();
+        let layers = AtCorners::new(self.layers.clone());
+        let is_ours = |l: &f64| if *l > 0.0 { 1.0 } else { 0.0 };
+        let ours = AtCorners::new(self.layers.iter().map(is_ours).collect());
         where_positive(&self.parts, |_| 1.0, &mut |[p, q, r]| {
             let [a, b] = [q, r].map(|x| [x[0] - p[0], x[1] - p[1]]);
             let x = [0, 1].map(|d| (p[d] + q[d] + r[d]) / 3.0);
-            let weights = self.weights(x);
-            let ours = weights.iter().zip(&self.layers);
+            let shares = self.shares(x);
             out.push(Piece {
                 area: 0.5 * (a[0] * b[1] - a[1] * b[0]).abs(),
-                share: ours.map(|(w, l)| if *l > 0.0 { *w } else { 0.0 }).sum(),
+                share: ours.at(&shares),
                 fitted: self.fit.value(x),
-                cubed: Self::between(&weights, &self.layers).powi(3),
-                weights,
+                cubed: layers.at(&shares).powi(3),
+                shares,
             });
         });
         out
@@ -130,16 +157,17 @@ impl EdgeFace {
     /// Force of the pairs that are not believed.
     fn given(&self, pieces: &[Piece]) -> f64 {
         let ours = self.layers.iter().zip(&self.pressures);
-        let ours: Vec<f64> = ours.map(|(l, p)| if *l > 0.0 { *p } else { 0.0 }).collect();
-        let force = |piece: &Piece| piece.area * Self::between(&piece.weights, &ours);
+        let ours = ours.map(|(l, p)| if *l > 0.0 { *p } else { 0.0 });
+        let ours = AtCorners::new(ours.collect());
+        let force = |piece: &Piece| piece.area * ours.at(&piece.shares);
         pieces.iter().map(force).sum()
     }
 
     /// Force of the level on these pairs.
     fn force(&self, pieces: &[Piece], constant: f64) -> f64 {
-        let over = self.over(constant);
+        let over = AtCorners::new(self.over(constant));
         let force = |piece: &Piece| {
-            let over = Self::between(&piece.weights, &over);
+            let over = over.at(&piece.shares);
             let square = piece.fitted + constant * piece.cubed - over.powi(3);
             piece.area * piece.share * square.max(0.0).sqrt()
         };
