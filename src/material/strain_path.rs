@@ -16,6 +16,9 @@
 //! L. F. Richardson (1911), doi:10.1098/rsta.1911.0009; substeps along strain paths: S. W.
 //! Sloan (1987), doi:10.1002/nme.1620240505.
 
+mod deviators;
+
+use self::deviators::Deviators;
 use super::{Lame, Material, Past, PlasticState, Update, sum, von_mises_product};
 use crate::space::Space;
 
@@ -79,7 +82,15 @@ impl Material {
             path.carry(old.state, &whole.state, memory);
             return whole;
         }
-        let Some((state, lost, normal)) = path.integrate(old, &whole.state, memory) else {
+        let integrated = match (&self.hardening, self.back_stresses.n_stored()) {
+            (Some(hardening), 0) => {
+                let share = path.begin_of_flow(old);
+                let begin = path.relative(path.begin, old);
+                Deviators::new(&path, hardening).integrate(&begin, share, old.state, LEAST_TURN)
+            }
+            _ => path.integrate(old, &whole.state, memory),
+        };
+        let Some((state, lost, normal)) = integrated else {
             return whole;
         };
         let mut update = Update { state, ..whole };
