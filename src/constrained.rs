@@ -321,8 +321,8 @@ fn sizes(c: &DMatrix<f64>, rows: &DMatrix<f64>) -> DVector<f64> {
     })
 }
 
-/// Where nothing but a row holds a body its part of `T` is zero: the difference of equals leaves
-/// round-off.
+/// Drops round-off from `T`: where nothing but a row holds a body, its part of `T` is zero, and the
+/// difference of equals leaves round-off.
 fn drop_round_off(matrix: &mut DMatrix<f64>, sizes: &DVector<f64>) {
     for i in 0..sizes.len() {
         if matrix[(i, i)] <= CANCELLED * sizes[i] {

@@ -196,7 +196,7 @@ pub struct YieldPoint {
     pub max_pressure: f64,
     /// Contact half width: half the arc length of the contact, doubled on a symmetry plane.
     pub half_width: f64,
-    /// How well it is read off the contact pressures.
+    /// Accuracy of the half width's reading off the contact pressures.
     #[serde(default)]
     pub half_width_reading: EdgeReading,
     /// Where: coordinates of the point.
@@ -208,8 +208,7 @@ pub struct YieldPoint {
 /// How well the half width of the largest contact patch is read off the pressures.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct EdgeReading {
-    /// How far another reading of the same pressures puts it off; half a spacing where there is
-    /// none.
+    /// Distance to another reading of the same pressures; half a spacing where there is none.
     pub error: f64,
     /// Closed pairs on one side of the middle.
     pub pairs: usize,
@@ -243,7 +242,7 @@ pub struct State {
     pub pole_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
-    /// How well it is read off the contact pressures.
+    /// Accuracy of the half width's reading off the contact pressures.
     #[serde(default)]
     pub half_width_reading: EdgeReading,
     /// Area of the contact patch with the largest force, of the whole; in the plane its width.
@@ -285,8 +284,8 @@ pub struct State {
     /// Estimated energy norm of the stress error over that of the stress (Zienkiewicz-Zhu); known
     /// where fields are.
     pub energy_error: Option<f64>,
-    /// [`State::energy_error`] of the elements that touch a closed pair or have yielded, where there
-    /// are any: how wrong pressures and strains there may be.
+    /// [`State::energy_error`] of the elements that touch a closed pair or have yielded, if any: how
+    /// wrong pressures and strains there may be.
     #[serde(default)]
     pub local_energy_error: Option<f64>,
     /// Relative approach of the bodies: the work of the loads that vary with the load factor on the

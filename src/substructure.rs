@@ -128,7 +128,8 @@ impl Substructure {
         Ok(())
     }
 
-    /// How many factorisations it took: none where it took over the factor of an earlier run.
+    /// Number of factorisations that the substructure took: none where it took over the factor of
+    /// an earlier run.
     pub fn factorizations(&self) -> usize {
         usize::from(self.is_new)
     }

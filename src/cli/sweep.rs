@@ -377,7 +377,7 @@ fn ask_to_stop(id: u32) {
     }
 }
 
-/// Where there are no signals a run is let end.
+/// Without signals a run cannot be asked to stop: it is let end.
 #[cfg(not(unix))]
 fn ask_to_stop(_: u32) {}
 

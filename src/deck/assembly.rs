@@ -303,7 +303,7 @@ impl Assembled {
             .map(|(_, part)| &part.keyword)
     }
 
-    /// What there is to say about numbers, and where.
+    /// Note about numbers, and its place.
     pub(super) fn note(&self, instances: &Instances) -> Option<(&Keyword, String)> {
         let first = self.instances.first()?;
         let names = instances.names().iter().take(MOST_NAMED).enumerate();

@@ -11,11 +11,11 @@ pub(super) struct ElementType {
     pub(super) space: Space,
     /// Reduced of shapes that have one rule.
     pub(super) integration: Integration,
-    /// How its formulation differs from what it is computed with.
+    /// Difference between its formulation and the one that it is computed with.
     pub(super) note: Option<&'static str>,
 }
 
-/// How formulations differ from the element that takes their place.
+/// Differences between formulations and the element that takes their place.
 const REDUCED: &str =
     "one point with hourglass control there; here full integration with mean dilatation (B-bar)";
 const MODES: &str = "incompatible modes there; here mean dilatation (B-bar), without them";

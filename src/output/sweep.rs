@@ -52,7 +52,7 @@ pub(crate) struct Point {
     /// first, so that its factor serves the others.
     #[serde(skip)]
     pub demand: f64,
-    /// How its run ended; `None` where it has not.
+    /// Exit code of the point's run; `None` where it has not ended.
     pub exit_code: Option<i32>,
     /// Why, where it did not end well.
     pub message: String,

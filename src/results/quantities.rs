@@ -102,7 +102,7 @@ pub struct Quantity {
     pub is_detail: bool,
     /// Key of the quantity that makes this column redundant where both are equal.
     pub twin: Option<&'static str>,
-    /// How its error is estimated, if it is.
+    /// Estimate of the quantity's error, if there is one.
     pub estimated: Option<Estimated>,
     /// The quantity at first yield.
     pub at_yield: Option<Field<YieldPoint>>,

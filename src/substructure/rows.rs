@@ -287,7 +287,7 @@ impl Rows {
     }
 }
 
-/// What moves with each leader: itself and its followers.
+/// Freedoms that move with each leader: itself and its followers.
 fn moved(lead: &[usize], follow: &[usize], carried: &[Entries]) -> Vec<Entries> {
     let mut moved: Vec<Entries> = lead.iter().map(|&freedom| vec![(freedom, 1.0)]).collect();
     for (row, &freedom) in carried.iter().zip(follow) {

@@ -14,7 +14,7 @@ use std::time::Instant;
 
 /// A state as it is reported.
 pub struct Figures {
-    /// What the results show of it.
+    /// State as the results show it.
     pub state: State,
     /// Elements outside the zone with stress beyond yield: the zone was too small for this state.
     pub beyond_yield_outside: Vec<usize>,

@@ -27,7 +27,7 @@ pub(in crate::analysis) struct Run<'m, 'o> {
     pub(super) position: Position,
     /// Where the way to the target at hand starts.
     pub(super) start: Option<Start>,
-    /// What vanishes at the target at hand, where it is no load factor.
+    /// Function that vanishes at the target at hand, where the target is no load factor.
     pub(super) monitor: Option<Box<Monitor<'m>>>,
     /// Whether the target at hand was looked for with a zone outside of which unloading yields.
     pub(super) unloads_outside: Rc<Cell<bool>>,

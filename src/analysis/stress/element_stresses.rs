@@ -39,7 +39,7 @@ pub(in crate::analysis) struct Shown {
     pub(in crate::analysis) von_mises: Vec<f64>,
     /// The largest equivalent plastic strain at a point.
     pub(in crate::analysis) plastic_strain: Vec<f64>,
-    /// What the polynomials around them say.
+    /// Recovered stresses and energies, by the polynomials around the elements.
     pub(in crate::analysis) recovered: Recovered,
     /// Values at the points, where they are asked for.
     pub(in crate::analysis) points: Option<PointValues>,

@@ -128,7 +128,7 @@ struct Part {
 #[derive(Debug, Clone)]
 pub struct NodalPlaces {
     places: [u32; 3],
-    /// What is added to them, where they are sums.
+    /// Parts added to these displacements, where they are sums.
     parts: Vec<Part>,
 }
 

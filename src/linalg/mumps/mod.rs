@@ -156,7 +156,7 @@ struct Trailing {
     partition: Partition,
     /// Entries between them.
     own: Vec<Entry>,
-    /// Where there is an interior.
+    /// Analysis of the interior, where there is one.
     analysis: Option<Analysis>,
     /// Bytes of the columns that each rank has.
     columns: Vec<f64>,

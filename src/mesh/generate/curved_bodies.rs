@@ -19,8 +19,7 @@ const ROUND_OFF: f64 = 1e-9;
 pub struct EllipseSize {
     /// Half axes along x and y at first yield.
     pub semi_axes: [f64; 2],
-    /// How far the contact may reach, in these half axes; less than the even part of the mesh is no
-    /// matter.
+    /// Reach of the contact, in these half axes; less than the even part of the mesh is no matter.
     pub reach: f64,
 }
 
@@ -91,7 +90,7 @@ struct Layout {
     origin: [usize; 2],
     /// Cells that may touch, along x and y.
     candidates: [std::ops::Range<usize>; 2],
-    /// Where these end.
+    /// Coordinates where these cells end, along x and y.
     edge: [f64; 2],
     /// Relative radii.
     radii: [f64; 2],

@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Shape};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-/// What messages call it.
+/// Name of the generator in messages.
 const KEY: &str = "roller between raceways";
 /// Ratio of neighbouring element sizes away from the contacts.
 const GROWTH: f64 = 1.15;
@@ -19,7 +19,8 @@ const CORE: f64 = 0.5;
 /// How deep elements are even below a contact, over how far they are along it.
 const DEPTH: f64 = 0.8;
 
-/// What it is made to the measure of. The roller's centre is the origin, the inner ring below it.
+/// Measures of a roller between two raceways. The roller's centre is the origin, the inner ring
+/// below it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Raceways {
     /// Radius of the roller.

@@ -412,7 +412,7 @@ impl Sides<'_> {
     }
 }
 
-/// How far facets may be off a surface through their nodes.
+/// Distance by which facets may be off a surface through their nodes.
 fn depth(faces: &[Face]) -> f64 {
     let mut at: BTreeMap<usize, &Face> = BTreeMap::new();
     let mut largest = 0.0f64;

@@ -22,7 +22,8 @@ const AGREE: f64 = 0.5;
 const DEEP: f64 = 0.9;
 /// Most faces that are looked at, the deepest ones.
 const MOST: usize = 8;
-/// How far from either end of an overlap it is asked whether the place is inside, as a share of it.
+/// Distance from either end of an overlap, as a share of it, at which it is asked whether the place
+/// is inside.
 const NEAR_ENDS: f64 = 0.125;
 /// Share of an element's size that a place may lie outside of its faces and count as inside.
 const OUTSIDE: f64 = 1e-3;
@@ -225,7 +226,7 @@ fn outward(mesh: &Mesh, facet: Facet) -> (Vector, Vector) {
     (middle, direction(reference.area(&at, &points)))
 }
 
-/// How far its element reaches behind a facet.
+/// Distance that its element reaches behind a facet.
 fn depth(mesh: &Mesh, facet: Facet) -> f64 {
     let (middle, normal) = outward(mesh, facet);
     let behind = mesh.nodes(facet.element).iter().map(|&node| {

@@ -15,7 +15,8 @@ pub(in crate::model) struct Tied {
     pub what: String,
     /// The surface whose nodes follow.
     pub slaves: String,
-    /// What each of its nodes follows; the area is the integral of the dual function.
+    /// Rows by which each of its nodes follows others; the area is the integral of the dual
+    /// function.
     pub rows: Vec<Pair>,
 }
 

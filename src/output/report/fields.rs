@@ -64,7 +64,7 @@ pub(super) struct View {
     pub words: String,
     /// Triangles of the plane, mirror images included.
     pub patchwork: Patchwork,
-    /// What of it is shown.
+    /// Window of the plane that is shown.
     pub window: Window,
     /// Labels of its axes.
     pub labels: [String; 2],

@@ -18,7 +18,7 @@ const SLIVER: f64 = 1e-7;
 const PARTLY: f64 = 1e-9;
 /// Share of a facet that may be covered twice: more than polygons are off facets with curved edges.
 const TWICE: f64 = 0.05;
-/// What each end of an edge counts at the middle of it: that of [`crate::model::ContactBasis`].
+/// Weight of each end of an edge at its middle: that of [`crate::model::ContactBasis`].
 const ALPHA: f64 = crate::model::ContactBasis::ALPHA;
 
 /// Integrals of the functions of a slave node.
@@ -101,7 +101,7 @@ struct Sample {
 pub(super) struct OfFacet {
     /// The integrals of each of its nodes; none where it faces no master.
     pub nodes: Vec<(usize, Integrals)>,
-    /// What masters cover of it, where that is not all.
+    /// Part of the facet that masters cover, where that is not all of it.
     pub covered: Option<CoveredFacet>,
 }
 
