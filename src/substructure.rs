@@ -25,7 +25,7 @@ mod tied;
 mod tied_stiffness;
 mod trailing;
 
-pub(crate) use rows::{Entries, Rows};
+pub(crate) use rows::{RowEntries, Rows};
 pub use sharing::sharing_factors;
 pub(crate) use softened::Softened;
 pub(crate) use tied::{Tied, Trace};

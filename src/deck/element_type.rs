@@ -81,9 +81,9 @@ pub(super) fn has_two_rules(shape: Shape) -> bool {
     shape.n_points(Integration::Full) > shape.n_points(Integration::Reduced)
 }
 
-type Found = Option<(Shape, Option<&'static str>)>;
+type TypeFound = Option<(Shape, Option<&'static str>)>;
 
-fn in_plane(rest: &str) -> Found {
+fn in_plane(rest: &str) -> TypeFound {
     Some(match rest {
         "3" => (Shape::Tri3, None),
         "3H" => (Shape::Tri3, Some(HYBRID)),
@@ -102,7 +102,7 @@ fn in_plane(rest: &str) -> Found {
     })
 }
 
-fn in_space(rest: &str) -> Found {
+fn in_space(rest: &str) -> TypeFound {
     Some(match rest {
         "4" => (Shape::Tet4, None),
         "4H" => (Shape::Tet4, Some(HYBRID)),

@@ -3,7 +3,7 @@
 use super::checkpoints::CheckpointWriter;
 use super::path::PathSampler;
 use super::position::{Position, Purpose, Start};
-use super::stopwatch::Row;
+use super::stopwatch::TimeRow;
 use crate::analysis::choice::zone_fit::ZoneFit;
 use crate::analysis::figures::gauges::Gauges;
 use crate::analysis::increments::step::Monitor;
@@ -76,7 +76,7 @@ impl<'m, 'o> Run<'m, 'o> {
     }
 
     /// Does work that a row of the time table is about.
-    pub(super) fn timed<T>(&mut self, row: Row, work: impl FnOnce(&mut Self) -> T) -> T {
+    pub(super) fn timed<T>(&mut self, row: TimeRow, work: impl FnOnce(&mut Self) -> T) -> T {
         let before = self.position.seconds.switch(row);
         let out = work(self);
         self.position.seconds.switch(before);

@@ -92,7 +92,7 @@ pub fn condense_shared(
     shift: &[f64],
 ) -> Result<Box<dyn Condensed>> {
     check::partition(partition, shift)?;
-    let mut trailing = Trailing::new(matrix, partition)?;
+    let mut trailing = RemainingMatrix::new(matrix, partition)?;
     let cost = trailing.cost()?;
     if let Some(analysis) = &trailing.analysis {
         // The columns are there already.
@@ -145,11 +145,11 @@ pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Predictio
 /// As [`super::predict`].
 pub fn predict_shared(matrix: &Shared, partition: &Partition) -> Result<Prediction> {
     check::partition(partition, &[])?;
-    Trailing::new(matrix, partition)?.cost()
+    RemainingMatrix::new(matrix, partition)?.cost()
 }
 
 /// What is left of the matrix when the interior is eliminated.
-struct Trailing {
+struct RemainingMatrix {
     /// Zone and contact freedoms, ascending; the last freedom where there is none.
     freedoms: Vec<usize>,
     /// Partition of these freedoms, by their places among themselves.
@@ -162,7 +162,7 @@ struct Trailing {
     columns: Vec<f64>,
 }
 
-impl Trailing {
+impl RemainingMatrix {
     fn new(matrix: &Shared, partition: &Partition) -> Result<Self> {
         let n = partition.n;
         let mut freedoms: Vec<usize> = (partition.zone.iter())
@@ -200,7 +200,7 @@ impl Trailing {
             true => None,
             false => Some(Analysis::new(matrix, &place, &touched, coupling)?),
         };
-        Ok(Trailing {
+        Ok(RemainingMatrix {
             freedoms,
             partition: inner,
             own,

@@ -38,7 +38,7 @@ pub(crate) struct Raceways {
 }
 
 /// A ring: its raceway, and where it lies beyond that.
-struct Ring {
+struct RacewayRing {
     name: &'static str,
     radius: f64,
     /// Height of its centre.
@@ -76,14 +76,14 @@ impl Raceways {
         self.add_roller(&mut mesh, shape, &along)?;
         let [below, above] = self.centers();
         for ring in [
-            Ring {
+            RacewayRing {
                 name: "inner",
                 radius: self.inner,
                 center: below,
                 out: -1.0,
                 back: "bore",
             },
-            Ring {
+            RacewayRing {
                 name: "outer",
                 radius: self.outer,
                 center: above,
@@ -165,7 +165,13 @@ impl Raceways {
         body.surface("outer", top.side(Side::Top), None)
     }
 
-    fn add_ring(&self, mesh: &mut Mesh, shape: Shape, along: &[f64], ring: &Ring) -> Result<()> {
+    fn add_ring(
+        &self,
+        mesh: &mut Mesh,
+        shape: Shape,
+        along: &[f64],
+        ring: &RacewayRing,
+    ) -> Result<()> {
         let angle = |arc: &f64| (self.roller * (arc / self.roller).sin() / ring.radius).asin();
         let mut angles: Vec<f64> = along.iter().map(angle).collect();
         let facing = angles.len() - 1;

@@ -6,7 +6,7 @@
 //! surfaces seem to overlap by what lies between them; but what overlaps lies inside both bodies,
 //! there it lies inside one, then inside the other.
 
-use super::{Entries, Pair};
+use super::{ContactInput, Pair};
 use crate::balls::Balls;
 use crate::deck::face_number;
 use crate::error::{Error, Result};
@@ -82,7 +82,7 @@ fn is_met(corners: &[Vector], x: Vector, line: Vector) -> bool {
     }
 }
 
-impl Entries<'_> {
+impl ContactInput<'_> {
     /// Refuses a facet of one surface that looks the same way as what lies opposite it on the
     /// other, where nothing else of its own surface lies between and looks at that.
     pub(super) fn check_sides(&self) -> Result<()> {

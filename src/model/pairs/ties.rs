@@ -1,7 +1,7 @@
 //! Surfaces that are tied: which of their nodes follow which, by the rows of [`super::mortar`].
 
 use super::stated::Stated;
-use super::{ContactSurface, Entries, Pair, list, mortar};
+use super::{ContactInput, ContactSurface, Pair, list, mortar};
 use crate::error::{Error, Result};
 use crate::mesh::{Facet, Mesh, Surface};
 use crate::model::names::Entry;
@@ -72,7 +72,7 @@ fn rows(
         ..Contact::default()
     };
     let stated = Stated::default();
-    let entries = Entries {
+    let entries = ContactInput {
         index,
         contact: sides,
         stated: &stated,
