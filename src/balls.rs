@@ -17,11 +17,11 @@ pub(crate) struct Balls {
     /// Items, leaf by leaf.
     order: Vec<usize>,
     /// Balls of the tree, in preorder.
-    nodes: Vec<Node>,
+    nodes: Vec<BallNode>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
-struct Node {
+struct BallNode {
     center: Vector,
     radius: f64,
     /// Items below it, as places in the order.
@@ -56,7 +56,7 @@ impl Balls {
         let reach = of_items.map(|(c, radius)| length(difference(c, center)) + radius);
         let radius = reach.fold(0.0, f64::max);
         let own = self.nodes.len();
-        self.nodes.push(Node {
+        self.nodes.push(BallNode {
             center,
             radius,
             items: range.clone(),
@@ -80,7 +80,7 @@ impl Balls {
     }
 
     /// The items of a leaf; none of other nodes.
-    fn of_leaf(&self, node: &Node) -> &[usize] {
+    fn of_leaf(&self, node: &BallNode) -> &[usize] {
         match node.items.len() <= LEAF {
             true => &self.order[node.items.clone()],
             false => &[],
@@ -118,7 +118,7 @@ impl Balls {
     /// A distance within which `count` items lie, or all: the farthest in a small ball near the
     /// point that has so many.
     fn reach(&self, point: Vector, count: usize) -> Option<f64> {
-        let off = |node: &Node| length(difference(point, node.center));
+        let off = |node: &BallNode| length(difference(point, node.center));
         let mut at = 0;
         let mut ball = self.nodes.first()?;
         while ball.items.len() > LEAF {

@@ -30,7 +30,7 @@ pub use path::Event;
 use crate::contact::{self, Tableau};
 use crate::error::{Error, Result};
 use crate::linalg::{self, Backend, Condensed, Partition, SymmetricCsc};
-use crate::substructure::{Entries, Rows, Tied};
+use crate::substructure::{RowEntries, Rows, Tied};
 use held::{condense, pushed_away};
 use nalgebra::{DMatrix, DVector};
 use path::Way;
@@ -158,7 +158,7 @@ impl ConstrainedStructure {
         }
         let stiffness_of_contact = condensed.contact_stiffness();
         let c = stiffness_of_contact.dense();
-        let entries = |row: &Vec<(usize, f64)>| -> Entries {
+        let entries = |row: &Vec<(usize, f64)>| -> RowEntries {
             row.iter()
                 .map(|&(freedom, b)| (place[&freedom], b))
                 .collect()
@@ -321,8 +321,8 @@ fn sizes(c: &DMatrix<f64>, rows: &DMatrix<f64>) -> DVector<f64> {
     })
 }
 
-/// Where nothing but a row holds a body its part of `T` is zero: the difference of equals leaves
-/// round-off.
+/// Drops round-off from `T`: where nothing but a row holds a body, its part of `T` is zero, and the
+/// difference of equals leaves round-off.
 fn drop_round_off(matrix: &mut DMatrix<f64>, sizes: &DVector<f64>) {
     for i in 0..sizes.len() {
         if matrix[(i, i)] <= CANCELLED * sizes[i] {

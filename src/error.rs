@@ -120,7 +120,7 @@ impl Error {
         &self.message
     }
 
-    /// What caused it, what caused that, and so on.
+    /// Causes of the error: what caused it, what caused that, and so on.
     pub fn causes(&self) -> impl Iterator<Item = &(dyn StdError + 'static)> {
         std::iter::successors(self.source(), |&cause| cause.source())
     }

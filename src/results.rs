@@ -198,7 +198,7 @@ pub struct YieldPoint {
     pub max_pressure: f64,
     /// Contact half width: half the arc length of the contact, doubled on a symmetry plane.
     pub half_width: f64,
-    /// How well it is read off the contact pressures.
+    /// Accuracy of the half width's reading off the contact pressures.
     #[serde(default)]
     pub half_width_reading: EdgeReading,
     /// Where: coordinates of the point.
@@ -210,8 +210,7 @@ pub struct YieldPoint {
 /// How well the half width of the largest contact patch is read off the pressures.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct EdgeReading {
-    /// How far another reading of the same pressures puts it off; half a spacing where there is
-    /// none.
+    /// Distance to another reading of the same pressures; half a spacing where there is none.
     pub error: f64,
     /// Closed pairs on one side of the middle.
     pub pairs: usize,
@@ -245,7 +244,7 @@ pub struct State {
     pub pole_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
-    /// How well it is read off the contact pressures.
+    /// Accuracy of the half width's reading off the contact pressures.
     #[serde(default)]
     pub half_width_reading: EdgeReading,
     /// Area of the contact patch with the largest force, of the whole; in the plane its width.

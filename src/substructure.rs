@@ -25,7 +25,7 @@ mod tied;
 mod tied_stiffness;
 mod trailing;
 
-pub(crate) use rows::{Entries, Rows};
+pub(crate) use rows::{RowEntries, Rows};
 pub use sharing::sharing_factors;
 pub(crate) use softened::Softened;
 pub(crate) use tied::{Tied, Trace};
@@ -128,7 +128,8 @@ impl Substructure {
         Ok(())
     }
 
-    /// How many factorisations it took: none where it took over the factor of an earlier run.
+    /// Number of factorisations that the substructure took: none where it took over the factor of
+    /// an earlier run.
     pub fn factorizations(&self) -> usize {
         usize::from(self.is_new)
     }

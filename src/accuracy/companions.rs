@@ -103,7 +103,7 @@ fn wanted(scene: &Scene, elements: usize, can_be_read: impl Fn(f64) -> bool) -> 
     let coarser = COARSER.into_iter().chain(nearer);
     let coarser = coarser.filter(|ratio| can_be_read(*ratio));
     let finer = FINER.into_iter().filter(|ratio| *ratio >= finest);
-    let mut found = Found::new(scene);
+    let mut found = MembersFound::new(scene);
     for ratio in coarser.chain(finer) {
         // A file is subdivided in steps of two, whatever ratio is asked for.
         found.add(ratio, |level| {
@@ -120,7 +120,7 @@ fn wanted(scene: &Scene, elements: usize, can_be_read: impl Fn(f64) -> bool) -> 
 /// estimate of the path's error on the coarser. Meshes on which the contact can be read come before
 /// meshes on which it cannot.
 fn cheap(scene: &Scene, can_be_read: impl Fn(f64) -> bool) -> Companions {
-    let mut found = Found::new(scene);
+    let mut found = MembersFound::new(scene);
     for ratio in COARSER {
         found.add(ratio, |level| level.ratio > 1.0);
     }
@@ -144,16 +144,16 @@ fn cheap(scene: &Scene, can_be_read: impl Fn(f64) -> bool) -> Companions {
 }
 
 /// Members of a family as they are asked for.
-struct Found<'s> {
+struct MembersFound<'s> {
     scene: &'s Scene,
     levels: Vec<Level>,
     /// Why the first that there is not is none.
     failure: Option<String>,
 }
 
-impl<'s> Found<'s> {
+impl<'s> MembersFound<'s> {
     fn new(scene: &'s Scene) -> Self {
-        Found {
+        MembersFound {
             scene,
             levels: Vec::new(),
             failure: None,

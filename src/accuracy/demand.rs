@@ -112,7 +112,7 @@ struct Pursuit {
 }
 
 /// A mesh that was run, with what its errors say of the demand.
-struct Mesh {
+struct MeshRun {
     reached: Reached,
     outcome: Outcome,
 }
@@ -127,7 +127,7 @@ enum Next {
 
 impl Pursuit {
     fn run(&mut self, observer: &mut dyn Observer) -> Result<Reached> {
-        let mut last: Option<Mesh> = None;
+        let mut last: Option<MeshRun> = None;
         let mut wanted = COARSEST;
         loop {
             let level = match self.next_level(wanted) {
@@ -156,7 +156,7 @@ impl Pursuit {
                         (last, wanted) = (None, ratio / STEP);
                         continue;
                     }
-                    (Ok(reached), None) => self.end(Some(Mesh::unjudged(reached)), why),
+                    (Ok(reached), None) => self.end(Some(MeshRun::unjudged(reached)), why),
                     (Err(error), None) => Err(error),
                 };
             }
@@ -202,7 +202,7 @@ impl Pursuit {
         ratio: f64,
         seconds: f64,
         observer: &mut dyn Observer,
-    ) -> Result<Mesh> {
+    ) -> Result<MeshRun> {
         let Reached { scene, results, .. } = &mut reached;
         self.work += work(results);
         self.runs.keep(scene, results, seconds);
@@ -225,7 +225,7 @@ impl Pursuit {
         self.choices
             .push(format!("{words}: stated error {stated} in {seconds}"));
         results.accuracy = Some(found);
-        Ok(Mesh { reached, outcome })
+        Ok(MeshRun { reached, outcome })
     }
 
     /// The member of the family nearest to the wanted element size, finer than the last.
@@ -340,7 +340,7 @@ impl Pursuit {
     }
 
     /// Ends with the last mesh that was run to its end, at the user's wish.
-    fn stopped(&mut self, mut last: Mesh) -> Result<Reached> {
+    fn stopped(&mut self, mut last: MeshRun) -> Result<Reached> {
         let why = "stopped on the way to the demanded accuracy";
         let results = &mut last.reached.results;
         results.incomplete = Some(Incomplete {
@@ -351,8 +351,8 @@ impl Pursuit {
     }
 
     /// Ends with the last mesh; without a reason the demand was reached.
-    fn end(&mut self, last: Option<Mesh>, why: String) -> Result<Reached> {
-        let Some(Mesh {
+    fn end(&mut self, last: Option<MeshRun>, why: String) -> Result<Reached> {
+        let Some(MeshRun {
             mut reached,
             outcome,
         }) = last
@@ -375,13 +375,13 @@ impl Pursuit {
     }
 }
 
-impl Mesh {
+impl MeshRun {
     /// One whose run ended before its program did: nothing is known of its errors.
     fn unjudged(reached: Reached) -> Self {
         let outcome = Outcome {
             stated: f64::NAN,
             ..Outcome::default()
         };
-        Mesh { reached, outcome }
+        MeshRun { reached, outcome }
     }
 }

@@ -134,7 +134,7 @@ fn orders() -> Vec<f64> {
 
 /// A law `q = limit + slope h^order` and the weighted mean of its squared deviations.
 #[derive(Debug, Clone, Copy)]
-struct Fit {
+struct FittedLaw {
     order: f64,
     slope: f64,
     limit: f64,
@@ -143,7 +143,7 @@ struct Fit {
 
 /// The law that fits best, of these orders and both weightings; between two neighbouring orders by
 /// the parabola through their deviations.
-fn best(values: &[(f64, f64)], orders: &[f64]) -> Fit {
+fn best(values: &[(f64, f64)], orders: &[f64]) -> FittedLaw {
     let total: f64 = values.iter().map(|(h, _)| 1.0 / h).sum();
     let equal = |_: f64| 1.0 / values.len() as f64;
     let finer = |h: f64| 1.0 / h / total;
@@ -155,7 +155,7 @@ fn best(values: &[(f64, f64)], orders: &[f64]) -> Fit {
             fits[0]
         }
     };
-    let all: Vec<Fit> = orders.iter().map(|order| of(*order)).collect();
+    let all: Vec<FittedLaw> = orders.iter().map(|order| of(*order)).collect();
     let mut least = 0;
     for (i, fit) in all.iter().enumerate() {
         if fit.square < all[least].square {
@@ -171,7 +171,7 @@ fn best(values: &[(f64, f64)], orders: &[f64]) -> Fit {
 }
 
 /// Weighted least squares with a given order.
-fn fit(values: &[(f64, f64)], order: f64, weight: impl Fn(f64) -> f64) -> Fit {
+fn fit(values: &[(f64, f64)], order: f64, weight: impl Fn(f64) -> f64) -> FittedLaw {
     let mean = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
         values
             .iter()
@@ -181,7 +181,7 @@ fn fit(values: &[(f64, f64)], order: f64, weight: impl Fn(f64) -> f64) -> Fit {
     let (mean_x, mean_q) = (mean(&|x, _| x), mean(&|_, q| q));
     let slope = mean(&|x, q| (x - mean_x) * (q - mean_q)) / mean(&|x, _| (x - mean_x).powi(2));
     let limit = mean_q - slope * mean_x;
-    Fit {
+    FittedLaw {
         order,
         slope,
         limit,

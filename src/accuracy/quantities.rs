@@ -13,9 +13,9 @@ pub struct Quantity {
     /// The largest size that a quantity of this KEY has in the run: what its error is measured
     /// against.
     pub scale: f64,
-    /// What the reading of it off the pressures may be wrong by: of half widths and areas, else 0.
+    /// Error of the reading off the pressures: of half widths and areas, else 0.
     pub reading: f64,
-    /// What its error is no smaller than: of plastic zones a layer of Gauss points, else 0.
+    /// Least error of the quantity: of plastic zones a layer of Gauss points, else 0.
     pub least: f64,
 }
 

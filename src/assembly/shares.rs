@@ -25,21 +25,21 @@ struct Share<'a> {
 /// # Errors
 /// Those of the ranks.
 pub fn assemble(model: &Model) -> Result<Shared> {
-    let mut shares = Shares::new(model, World::join()?.size);
+    let mut shares = RankShares::new(model, World::join()?.size);
     Shared::new(model.freedoms.n, |rank| shares.take(rank), columns)
 }
 
 /// The shares of all ranks, made one by one.
-struct Shares<'a> {
+struct RankShares<'a> {
     model: &'a Model,
     owner_of_node: Vec<u32>,
     /// Elements that each rank assembles.
     elements: Vec<Vec<usize>>,
 }
 
-impl<'a> Shares<'a> {
+impl<'a> RankShares<'a> {
     fn new(model: &'a Model, ranks: usize) -> Self {
-        let mut shares = Shares {
+        let mut shares = RankShares {
             owner_of_node: model.mesh.shared_among(ranks),
             elements: vec![Vec::new(); ranks],
             model,
@@ -144,7 +144,7 @@ mod tests {
             let model = Model::new(&scene).unwrap();
             let whole = super::super::all(&model).stiffness(|_| true);
             for ranks in [1, 2, 7] {
-                let mut shares = Shares::new(&model, ranks);
+                let mut shares = RankShares::new(&model, ranks);
                 let mut n_columns = 0;
                 for rank in 0..ranks {
                     let part = shares.take(rank).unwrap();

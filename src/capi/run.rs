@@ -44,7 +44,7 @@ pub struct brinell_increment {
     pub max_equivalent_plastic_strain: f64,
     /// Share of the load program that lies behind.
     pub fraction: f64,
-    /// What ended it, such as "closes: pair 12". Valid during the call only.
+    /// Event that ended the increment, such as "closes: pair 12". Valid during the call only.
     pub event: *const c_char,
 }
 

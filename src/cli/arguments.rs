@@ -215,7 +215,7 @@ pub(super) struct RunArguments {
     pub frd: Option<PathBuf>,
     /// How progress is shown on standard error
     #[arg(long, value_enum, value_name = "HOW", default_value_t)]
-    pub progress: Shown,
+    pub progress: ProgressKind,
     /// No progress and no warnings, only results and errors
     #[arg(long, short)]
     pub quiet: bool,
@@ -224,7 +224,7 @@ pub(super) struct RunArguments {
 impl RunArguments {
     /// Whether standard error is for JSON lines alone.
     pub(super) fn progress_is_json(&self) -> bool {
-        self.progress == Shown::Json && !self.quiet
+        self.progress == ProgressKind::Json && !self.quiet
     }
 }
 
@@ -315,7 +315,7 @@ pub(super) enum Estimate {
 
 /// How progress is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub(super) enum Shown {
+pub(super) enum ProgressKind {
     /// Bars on a terminal, lines elsewhere
     #[default]
     Auto,

@@ -39,7 +39,7 @@ pub(super) struct CcxArguments {
 }
 
 /// What the words of a command line ask for.
-enum Task {
+enum CcxTask {
     Usage,
     Version,
     Job(Job),
@@ -52,9 +52,9 @@ struct Job {
     options: Options,
 }
 
-impl Task {
+impl CcxTask {
     /// Some programs write a blank behind `-i`.
-    fn new(words: &[OsString]) -> Task {
+    fn new(words: &[OsString]) -> CcxTask {
         let mut options = Options {
             increments: true,
             ..Options::default()
@@ -63,7 +63,7 @@ impl Task {
         let mut words = words.iter();
         while let Some(word) = words.next() {
             match word.to_string_lossy().trim() {
-                "-v" => return Task::Version,
+                "-v" => return CcxTask::Version,
                 "-i" => named = words.next(),
                 "--small-strain" => options.small_strain = true,
                 "" => {}
@@ -71,13 +71,13 @@ impl Task {
             }
         }
         let Some(name) = named.or(name) else {
-            return Task::Usage;
+            return CcxTask::Usage;
         };
         let mut name = PathBuf::from(name);
         if crate::deck::is_deck(&name) {
             name.set_extension("");
         }
-        Task::Job(Job { name, options })
+        CcxTask::Job(Job { name, options })
     }
 }
 
@@ -90,16 +90,16 @@ pub(super) fn is_its_name(path: &OsStr) -> bool {
 
 /// Does what ccx would do; the exit code.
 pub(super) fn run(arguments: &CcxArguments, start: Instant) -> u8 {
-    let done = match Task::new(&arguments.words) {
-        Task::Usage => {
+    let done = match CcxTask::new(&arguments.words) {
+        CcxTask::Usage => {
             let _ = print("Usage: CalculiX.exe -i jobname\n");
             return FAILED;
         }
-        Task::Version => print(&format!(
+        CcxTask::Version => print(&format!(
             "\nThis is Version {LIKE} as brinell {} takes its place\n\n",
             env!("CARGO_PKG_VERSION")
         )),
-        Task::Job(job) => job.run(start),
+        CcxTask::Job(job) => job.run(start),
     };
     match done {
         Ok(()) => 0,
@@ -245,8 +245,8 @@ mod tests {
 
     fn name(words: &[&str]) -> Option<String> {
         let words: Vec<OsString> = words.iter().map(OsString::from).collect();
-        match Task::new(&words) {
-            Task::Job(job) => Some(job.name.display().to_string()),
+        match CcxTask::new(&words) {
+            CcxTask::Job(job) => Some(job.name.display().to_string()),
             _ => None,
         }
     }

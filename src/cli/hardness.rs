@@ -38,7 +38,7 @@ pub(super) struct HardnessArguments {
 
 /// The figures, as `--json` prints them; what is not known is `null`.
 #[derive(Debug, Serialize)]
-struct Sheet {
+struct HardnessSheet {
     /// Version of the program.
     brinell: &'static str,
     /// State with the largest force.
@@ -78,7 +78,7 @@ pub(super) fn run(arguments: &HardnessArguments) -> Result<()> {
         warn(&why);
     }
     let recorded = output::read(dir)?;
-    let sheet = Sheet::of(&recorded).map_err(|error| error.within(dir.display()))?;
+    let sheet = HardnessSheet::of(&recorded).map_err(|error| error.within(dir.display()))?;
     if sheet.beyond_small_strains {
         warn(&format!(
             "the contact radius is {} of the ball's: beyond {SMALL} strains are no longer small, \
@@ -98,8 +98,8 @@ fn ball(model: &Model) -> Option<f64> {
     (model.scene.kind.is_axisymmetric() && model.materials.len() == 2).then_some(made.radius)
 }
 
-impl Sheet {
-    fn of(recorded: &Recorded) -> Result<Sheet> {
+impl HardnessSheet {
+    fn of(recorded: &Recorded) -> Result<HardnessSheet> {
         let (model, results) = (&recorded.model, &recorded.results);
         let radius = ball(model).ok_or_else(|| {
             Error::input(
@@ -126,7 +126,7 @@ impl Sheet {
         let yield_stress = yield_stress.is_finite().then_some(yield_stress);
         let relative = test.contact_radius / radius;
         let units = model.scene.units.clone();
-        Ok(Sheet {
+        Ok(HardnessSheet {
             brinell: env!("CARGO_PKG_VERSION"),
             state: pressed.name.clone(),
             ball_diameter: 2.0 * radius,

@@ -52,7 +52,7 @@ pub(super) struct HertzArguments {
     )]
     angle: f64,
     #[command(flatten)]
-    given: Given,
+    given: ContactGiven,
     /// Length of a line contact, over which the load is the total
     #[arg(long, value_name = "L", value_parser = positive, allow_negative_numbers = true)]
     length: Option<f64>,
@@ -78,7 +78,7 @@ pub(super) struct HertzArguments {
 /// What the contact is asked for by.
 #[derive(Debug, Args)]
 #[group(multiple = false)]
-struct Given {
+struct ContactGiven {
     /// Load
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     load: Option<f64>,
@@ -145,7 +145,7 @@ impl HertzArguments {
     }
 }
 
-impl Given {
+impl ContactGiven {
     /// The load, of a line per length, by whatever is given.
     fn load(
         &self,

@@ -46,7 +46,7 @@ use std::process::{Command, ExitCode};
 use std::sync::OnceLock;
 use std::time::Instant;
 
-/// What runs this program where it is no file of its own.
+/// Words of the command that runs this program where it is no file of its own.
 static WITHIN: OnceLock<Vec<OsString>> = OnceLock::new();
 
 /// Runs the program with the arguments of the process and returns its exit code.

@@ -11,7 +11,7 @@
 //! | `stopping` | `message`: Ctrl-C or another signal was heard |
 //! | `error` | `message`, `exit_code`: the last line of a run that failed |
 
-use super::arguments::Shown as Wish;
+use super::arguments::ProgressKind;
 use super::forecast::Forecast;
 use super::interrupt;
 use super::remaining::Remaining;
@@ -89,14 +89,14 @@ enum Shown {
 
 impl Progress {
     /// Progress of a run that began at `started`.
-    pub fn new(quiet: bool, wish: Wish, started: Instant) -> Self {
+    pub fn new(quiet: bool, wish: ProgressKind, started: Instant) -> Self {
         let bars_wanted = match wish {
-            Wish::Auto => io::stderr().is_terminal(),
-            wish => wish == Wish::Bar,
+            ProgressKind::Auto => io::stderr().is_terminal(),
+            wish => wish == ProgressKind::Bar,
         };
         let shown = if quiet {
             Shown::Nothing
-        } else if wish == Wish::Json {
+        } else if wish == ProgressKind::Json {
             Shown::Json
         } else if bars_wanted {
             Shown::bars(ProgressDrawTarget::stderr())
@@ -393,7 +393,7 @@ mod tests {
     #[test]
     fn each_phase_has_a_bar_with_elapsed_and_predicted_time() {
         let terminal = Terminal::default();
-        let mut progress = Progress::new(false, Wish::Bar, Instant::now());
+        let mut progress = Progress::new(false, ProgressKind::Bar, Instant::now());
         let target = ProgressDrawTarget::term_like_with_hz(Box::new(terminal.clone()), 255);
         progress.shown = Shown::bars(target);
         progress.start("mesh and model");
@@ -437,7 +437,7 @@ mod tests {
 
     #[test]
     fn nothing_stops_a_run_that_nobody_stopped() {
-        let mut progress = Progress::new(true, Wish::Auto, Instant::now());
+        let mut progress = Progress::new(true, ProgressKind::Auto, Instant::now());
         progress.phase("factorisation");
         let flow = progress.increment(&HistoryRow::default(), 0.5);
         assert_eq!(flow, Flow::Continue);

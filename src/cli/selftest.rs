@@ -1,6 +1,6 @@
 //! `brinell selftest`.
 
-use super::arguments::Shown;
+use super::arguments::ProgressKind;
 use super::progress::Progress;
 use super::table::{Column::*, Table, page_width};
 use super::{interrupt, print};
@@ -22,7 +22,11 @@ pub(super) struct SelftestArguments {
 /// Runs the hard cases and prints what came of each family.
 pub(super) fn execute(arguments: &SelftestArguments) -> Result<()> {
     interrupt::listen(None, || {})?;
-    let mut progress = Progress::new(arguments.quiet, Shown::default(), std::time::Instant::now());
+    let mut progress = Progress::new(
+        arguments.quiet,
+        ProgressKind::default(),
+        std::time::Instant::now(),
+    );
     let rows = selftest::run(&mut progress);
     progress.finish();
     let text = if arguments.markdown {

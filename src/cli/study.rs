@@ -1,6 +1,6 @@
 //! `brinell accuracy SCENE`: what the digits cost.
 
-use super::arguments::{CommonArguments, Shown};
+use super::arguments::{CommonArguments, ProgressKind};
 use super::commands::{at_once, header, json, prepare};
 use super::progress::Progress;
 use super::table::{Column::*, Table, page_width, wrap};
@@ -82,7 +82,11 @@ pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
     let claim = Claim::new(&out)?;
     interrupt::listen(None, at_once(Some(&claim)))?;
     let start = Instant::now();
-    let mut progress = Progress::new(arguments.quiet, Shown::default(), std::time::Instant::now());
+    let mut progress = Progress::new(
+        arguments.quiet,
+        ProgressKind::default(),
+        std::time::Instant::now(),
+    );
     let found = study(&scene, common.solver.into(), &plan, &mut progress)?;
     let header = header(&Model::new(&scene)?, common, start.elapsed().as_secs_f64());
     progress.start("output");

@@ -15,7 +15,7 @@ use crate::deck::{self, Options};
 use crate::error::{Error, ErrorKind, Result};
 use crate::files;
 use crate::number::{number, seconds};
-use crate::output::sweep::{Outcome, Point, Sweep, folder};
+use crate::output::sweep::{Outcome, Sweep, SweepPoint, folder};
 use crate::scene::Field;
 use clap::{Args, ValueEnum};
 use points::{Points, Shard, Varied, varied};
@@ -103,7 +103,7 @@ pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
     let keys = asked.keys;
     // What is wrong with any point is found before the first is run.
     let points = asked.values.into_iter();
-    let points: Result<Vec<Point>> = points.map(|v| point(arguments, &keys, v)).collect();
+    let points: Result<Vec<SweepPoint>> = points.map(|v| point(arguments, &keys, v)).collect();
     let mut points = points?;
     tell_apart(&mut points);
     if let Some(shard) = arguments.shard {
@@ -123,7 +123,7 @@ pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
     let running: Arc<Mutex<Vec<u32>>> = Arc::default();
     let at_once = Arc::clone(&running);
     interrupt::listen(None, move || stop(&at_once))?;
-    let work = Work {
+    let work = SweepRuns {
         arguments,
         dir: &dir,
         order: demand::order(&sweep.points),
@@ -157,7 +157,7 @@ pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
 }
 
 /// A point that has not been run, with what its results depend on.
-fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Result<Point> {
+fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Result<SweepPoint> {
     let common = &arguments.common;
     let options = Options {
         small_strain: common.small_strain,
@@ -186,17 +186,17 @@ fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Re
             content.extend(files::read("read the values of nodes", &path, None)?);
         }
     }
-    Ok(Point {
+    Ok(SweepPoint {
         folder: folder(keys, &values),
         values,
         identity: format!("{:032x}", xxh3_128(&content)),
         demand: demand::of(&scene),
-        ..Point::default()
+        ..SweepPoint::default()
     })
 }
 
 /// Points whose folders would have the same name get what they stand for at its end.
-fn tell_apart(points: &mut [Point]) {
+fn tell_apart(points: &mut [SweepPoint]) {
     let mut seen = BTreeSet::new();
     let twice: BTreeSet<String> = (points.iter())
         .filter(|point| !seen.insert(point.folder.clone()))
@@ -219,7 +219,7 @@ fn overrides(common: &CommonArguments, keys: &[String], values: &[String]) -> Ve
 }
 
 /// The runs of a sweep, several at a time.
-struct Work<'w> {
+struct SweepRuns<'w> {
     arguments: &'w SweepArguments,
     dir: &'w Path,
     /// Numbers of the points as they are run.
@@ -235,7 +235,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-impl Work<'_> {
+impl SweepRuns<'_> {
     fn run(&self) -> Result<()> {
         let jobs = usize::from(self.arguments.jobs);
         std::thread::scope(|scope| {
@@ -273,7 +273,7 @@ impl Work<'_> {
     }
 
     /// The next point that is not finished.
-    fn take(&self) -> Option<(usize, Point)> {
+    fn take(&self) -> Option<(usize, SweepPoint)> {
         let sweep = lock(&self.sweep);
         let mut next = lock(&self.next);
         while let Some(&index) = self.order.get(*next) {
@@ -298,7 +298,7 @@ impl Work<'_> {
     }
 
     /// Runs a point in a worker, which is started where there is none.
-    fn run_point(&self, worker: &mut Option<Worker>, point: &Point) -> Result<Ended> {
+    fn run_point(&self, worker: &mut Option<Worker>, point: &SweepPoint) -> Result<Ended> {
         if worker.is_none() {
             let new = Worker::start()?;
             lock(self.running).push(new.id());
@@ -317,7 +317,7 @@ impl Work<'_> {
     }
 
     /// The words of the command that runs a point.
-    fn words(&self, point: &Point) -> Vec<String> {
+    fn words(&self, point: &SweepPoint) -> Vec<String> {
         let SweepArguments { common, jobs, .. } = self.arguments;
         let processors = std::thread::available_parallelism().map_or(1, usize::from);
         let share = (processors / usize::from(*jobs)).max(1);
@@ -377,7 +377,7 @@ fn ask_to_stop(id: u32) {
     }
 }
 
-/// Where there are no signals a run is let end.
+/// Without signals a run cannot be asked to stop: it is let end.
 #[cfg(not(unix))]
 fn ask_to_stop(_: u32) {}
 
@@ -396,7 +396,7 @@ fn table(sweep: &Sweep, outcome: &Outcome<'_>, shown: &[String]) -> Table {
             key.clone()
         }
     };
-    let failed = |point: &Point| point.exit_code != Some(0);
+    let failed = |point: &SweepPoint| point.exit_code != Some(0);
     let mut columns: Vec<(Column, String)> = Vec::new();
     columns.extend(sweep.keys.iter().map(|key| (Column::Number, short(key))));
     columns.extend(

@@ -26,14 +26,14 @@ const SHARED: usize = 512;
 pub(super) struct Swept {
     /// The matrix without the pivots that wait.
     matrix: DMatrix<f64>,
-    waiting: Vec<Pivot>,
+    waiting: Vec<SweptPivot>,
     /// Columns of pivots that were applied, for the next ones.
     spare: Vec<Vec<f64>>,
 }
 
 /// A principal pivot on entry (k, k).
 #[derive(Debug, Clone)]
-struct Pivot {
+struct SweptPivot {
     k: usize,
     /// Column `k` before it.
     column: Vec<f64>,
@@ -43,7 +43,7 @@ struct Pivot {
     sign: f64,
 }
 
-impl Pivot {
+impl SweptPivot {
     /// Entry (i, j) beyond this pivot.
     fn entry(&self, before: f64, i: usize, j: usize) -> f64 {
         match (i == self.k, j == self.k) {
@@ -95,7 +95,7 @@ impl Swept {
         let mut column = self.spare.pop().unwrap_or_default();
         column.resize(self.matrix.nrows(), 0.0);
         self.column(k, &mut column);
-        self.waiting.push(Pivot {
+        self.waiting.push(SweptPivot {
             k,
             value: column[k],
             column,
@@ -139,7 +139,7 @@ impl Swept {
 /// Takes column `j` through the pivots; `row(k)` gives the entries in the rows of the pivots, in
 /// their order.
 fn bring_forward(
-    pivots: &[Pivot],
+    pivots: &[SweptPivot],
     j: usize,
     column: &mut [f64],
     mut row: impl FnMut(usize) -> f64,
@@ -150,7 +150,7 @@ fn bring_forward(
     let own = pivots.iter().rposition(|pivot| pivot.k == j);
     let rest = match own {
         Some(own) => {
-            let Pivot {
+            let SweptPivot {
                 column: u,
                 value,
                 sign,
@@ -165,7 +165,7 @@ fn bring_forward(
     };
     for (block, entries) in column.chunks_mut(ROWS).enumerate() {
         let at = block * ROWS;
-        let part = |pivot: &'_ Pivot| pivot.column[j] / pivot.value;
+        let part = |pivot: &'_ SweptPivot| pivot.column[j] / pivot.value;
         let mut four = rest.chunks_exact(4);
         for pivots in &mut four {
             let [f0, f1, f2, f3] = std::array::from_fn(|m| part(&pivots[m]));

@@ -29,7 +29,7 @@ impl Deck {
                 Adjust::Nodes(set) => self.indices(What::Nodes, set, at),
             };
             let Ok(chosen) = chosen else { continue };
-            let surface = Pieces::new(self, &master);
+            let surface = SurfacePieces::new(self, &master);
             let (mut n_moved, mut farthest) = (0, 0.0f64);
             for &node in nodes
                 .iter()
@@ -71,12 +71,12 @@ impl Adjust {
 }
 
 /// A surface as triangles, or lines whose last two corners are one.
-struct Pieces {
+struct SurfacePieces {
     corners: Vec<[Vector; 3]>,
     around: Balls,
 }
 
-impl Pieces {
+impl SurfacePieces {
     fn new(deck: &Deck, faces: &[Face]) -> Self {
         let mut corners = Vec::new();
         for &(element, local) in faces {
@@ -99,7 +99,7 @@ impl Pieces {
             (center, radius.into_iter().fold(0.0, f64::max))
         };
         let around = Balls::new(corners.iter().map(ball).collect());
-        Pieces { corners, around }
+        SurfacePieces { corners, around }
     }
 
     /// The nearest point.

@@ -72,7 +72,7 @@ impl Block {
 }
 
 /// A part with what it is made of.
-struct Part {
+struct PartBlocks {
     keyword: Keyword,
     name: String,
     blocks: Vec<Block>,
@@ -96,7 +96,7 @@ enum Item {
 /// The rest of a deck from its first part on.
 #[derive(Default)]
 pub(super) struct Assembled {
-    parts: Vec<Part>,
+    parts: Vec<PartBlocks>,
     instances: Vec<Instance>,
     items: Vec<Item>,
     /// The name of the assembly.
@@ -203,7 +203,7 @@ impl Assembled {
             return Err(keyword.error(files, message));
         }
         block.no_more(source, 0)?;
-        self.parts.push(Part {
+        self.parts.push(PartBlocks {
             keyword: keyword.clone(),
             name,
             blocks: Vec::new(),
@@ -303,7 +303,7 @@ impl Assembled {
             .map(|(_, part)| &part.keyword)
     }
 
-    /// What there is to say about numbers, and where.
+    /// Note about numbers, and its place.
     pub(super) fn note(&self, instances: &Instances) -> Option<(&Keyword, String)> {
         let first = self.instances.first()?;
         let names = instances.names().iter().take(MOST_NAMED).enumerate();

@@ -297,7 +297,7 @@ pub(super) enum Kind {
 }
 
 impl Kind {
-    /// How many there are.
+    /// Number of kinds.
     pub(super) const COUNT: usize = Kind::Volume as usize + 1;
 }
 
@@ -414,7 +414,7 @@ pub struct Note {
     pub place: String,
     /// The keyword, as it is written in manuals.
     pub keyword: String,
-    /// What there is to say.
+    /// Text of the note.
     pub text: String,
 }
 

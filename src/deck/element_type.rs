@@ -11,11 +11,11 @@ pub(super) struct ElementType {
     pub(super) space: Space,
     /// Reduced of shapes that have one rule.
     pub(super) integration: Integration,
-    /// How its formulation differs from what it is computed with.
+    /// Difference between its formulation and the one that it is computed with.
     pub(super) note: Option<&'static str>,
 }
 
-/// How formulations differ from the element that takes their place.
+/// Differences between formulations and the element that takes their place.
 const REDUCED: &str =
     "one point with hourglass control there; here full integration with mean dilatation (B-bar)";
 const MODES: &str = "incompatible modes there; here mean dilatation (B-bar), without them";
@@ -81,9 +81,9 @@ pub(super) fn has_two_rules(shape: Shape) -> bool {
     shape.n_points(Integration::Full) > shape.n_points(Integration::Reduced)
 }
 
-type Found = Option<(Shape, Option<&'static str>)>;
+type TypeFound = Option<(Shape, Option<&'static str>)>;
 
-fn in_plane(rest: &str) -> Found {
+fn in_plane(rest: &str) -> TypeFound {
     Some(match rest {
         "3" => (Shape::Tri3, None),
         "3H" => (Shape::Tri3, Some(HYBRID)),
@@ -102,7 +102,7 @@ fn in_plane(rest: &str) -> Found {
     })
 }
 
-fn in_space(rest: &str) -> Found {
+fn in_space(rest: &str) -> TypeFound {
     Some(match rest {
         "4" => (Shape::Tet4, None),
         "4H" => (Shape::Tet4, Some(HYBRID)),

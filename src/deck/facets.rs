@@ -8,9 +8,9 @@ use std::collections::HashMap;
 pub(crate) type Face = (u32, u8);
 
 /// The corners of a face, ascending; filled up where it has fewer than four.
-type Corners = [u32; 4];
+type FaceCorners = [u32; 4];
 
-fn corners(nodes: &[u32], shape: Shape, local: usize) -> Corners {
+fn corners(nodes: &[u32], shape: Shape, local: usize) -> FaceCorners {
     let mut out = [u32::MAX; 4];
     let n = shape.facet_reference(local).n_corners;
     for (out, &corner) in out.iter_mut().zip(&shape.facet(local)[..n]) {
@@ -37,7 +37,7 @@ impl Deck {
         nodes
             .into_iter()
             .for_each(|node| marked[node as usize] = true);
-        let mut found: HashMap<Corners, (Face, usize)> = HashMap::new();
+        let mut found: HashMap<FaceCorners, (Face, usize)> = HashMap::new();
         for element in 0..self.n_elements() {
             let nodes = self.element_nodes(element);
             let shape = self.elements.types[element].shape;

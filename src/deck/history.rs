@@ -53,7 +53,7 @@ struct Interval {
 }
 
 /// What a step gives for a key: values with their amplitudes.
-struct Given<'d> {
+struct StepGiven<'d> {
     values: Vec<(f64, Option<&'d str>)>,
     /// Whether the last value stays.
     is_fixed: bool,
@@ -184,12 +184,12 @@ impl Deck {
     }
 
     /// What a step gives, key by key.
-    fn given<'d>(&self, kind: Kind, step: &'d Step) -> Result<BTreeMap<Key, Given<'d>>> {
-        let mut out: BTreeMap<Key, Given> = BTreeMap::new();
+    fn given<'d>(&self, kind: Kind, step: &'d Step) -> Result<BTreeMap<Key, StepGiven<'d>>> {
+        let mut out: BTreeMap<Key, StepGiven> = BTreeMap::new();
         for condition in step.conditions.iter().filter(|c| c.kind == kind) {
             let value = (condition.value, condition.amplitude.as_deref());
             for key in self.keys(condition)? {
-                let given = out.entry(key).or_insert(Given {
+                let given = out.entry(key).or_insert(StepGiven {
                     values: Vec::new(),
                     is_fixed: false,
                     place: condition.place,
@@ -282,7 +282,7 @@ impl Deck {
         &self,
         kind: Kind,
         number: usize,
-        given: &Given,
+        given: &StepGiven,
         time: &Interval,
         entry: &mut Entry,
     ) -> Result<()> {

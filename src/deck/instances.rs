@@ -64,7 +64,7 @@ impl Instances {
         }
     }
 
-    /// What to do about a number that there is not.
+    /// Advice about a number that there is not.
     pub(super) fn hint(&self, label: u64) -> &'static str {
         match self.names.is_empty() || self.of(label).is_some() {
             true => "",

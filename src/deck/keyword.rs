@@ -297,7 +297,7 @@ impl Keyword {
         }
     }
 
-    /// What is done with it.
+    /// Use of the keyword.
     ///
     /// # Errors
     /// The one that may be meant, where it is not known.

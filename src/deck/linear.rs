@@ -20,7 +20,7 @@ pub(super) type Terms = BTreeMap<Key, f64>;
 
 /// An equation of a line.
 #[derive(Debug, Clone)]
-pub(super) struct Row {
+pub(super) struct LinearRow {
     pub(super) terms: Terms,
     /// The term that follows the others where it can.
     pub(super) first: Option<Key>,
@@ -46,12 +46,12 @@ pub(super) struct Reduced {
     /// Displacements of other nodes.
     pub(super) others: Vec<Follows>,
     /// Equations between known displacements alone.
-    pub(super) known: Vec<Row>,
+    pub(super) known: Vec<LinearRow>,
 }
 
 /// Equations with the rows that each key is in.
 struct Matrix {
-    rows: Vec<Row>,
+    rows: Vec<LinearRow>,
     of_key: BTreeMap<Key, BTreeSet<usize>>,
     /// The largest coefficient of each key.
     scale: BTreeMap<Key, f64>,
@@ -60,7 +60,7 @@ struct Matrix {
 /// Reduces equations. `is_loose` says whether a displacement is one of a node without elements,
 /// `is_known` whether it is given: that of a known one is a number and follows nothing.
 pub(super) fn reduce(
-    rows: Vec<Row>,
+    rows: Vec<LinearRow>,
     is_loose: impl Fn(&Key) -> bool,
     is_known: impl Fn(&Key) -> bool,
 ) -> Reduced {
@@ -101,7 +101,7 @@ pub(super) fn reduce(
 }
 
 impl Matrix {
-    fn new(rows: Vec<Row>) -> Self {
+    fn new(rows: Vec<LinearRow>) -> Self {
         let mut out = Matrix {
             rows,
             of_key: BTreeMap::new(),
@@ -189,8 +189,8 @@ impl Matrix {
 mod tests {
     use super::*;
 
-    fn row(terms: &[(u32, f64)]) -> Row {
-        Row {
+    fn row(terms: &[(u32, f64)]) -> LinearRow {
+        LinearRow {
             terms: terms.iter().map(|&(node, c)| ((node, 0), c)).collect(),
             first: terms.first().map(|term| (term.0, 0)),
             place: Place::default(),

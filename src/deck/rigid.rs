@@ -15,7 +15,7 @@
 use super::Deck;
 use super::data::{RigidNodes, Target};
 use super::history::Key;
-use super::linear::{Row, Terms};
+use super::linear::{LinearRow, Terms};
 use super::sets::{At, What};
 use super::source::Place;
 use crate::error::Result;
@@ -114,7 +114,7 @@ impl Deck {
 
 impl RigidBody {
     /// The equations of its nodes along the axes of the model.
-    pub(super) fn rows(&self, deck: &Deck) -> impl Iterator<Item = (u32, usize, Row)> {
+    pub(super) fn rows(&self, deck: &Deck) -> impl Iterator<Item = (u32, usize, LinearRow)> {
         let dimension = deck.dimension();
         let origin = deck.point(self.reference as usize);
         self.nodes.iter().flat_map(move |&node| {
@@ -130,7 +130,7 @@ impl RigidBody {
                         terms.insert((self.rotation, of as u8), c);
                     }
                 }
-                let row = Row {
+                let row = LinearRow {
                     terms,
                     first: None,
                     place: self.place,

@@ -26,7 +26,7 @@ impl What {
     }
 }
 
-/// Where something is named: its line and keyword.
+/// Place at which something is named: its line and keyword.
 pub(super) type At<'k> = (Place, &'k str);
 
 impl Deck {

@@ -62,11 +62,11 @@ pub type FullPlaneKernel = Kernel<2, 4, 9, 8>;
 pub type FullSolidKernel = Kernel<3, 6, 27, 20>;
 
 /// The shape functions of all shapes of a dimension.
-type Tables<const D: usize, const P: usize, const N: usize> =
+type ShapeTables<const D: usize, const P: usize, const N: usize> =
     LazyLock<[Option<Table<D, P, N>>; Shape::ALL.len()]>;
 
 /// The tables of a kernel: at the points of either integration, and at the sampling points.
-type AllTables<const D: usize, const P: usize, const N: usize> = [Tables<D, P, N>; 3];
+type AllTables<const D: usize, const P: usize, const N: usize> = [ShapeTables<D, P, N>; 3];
 
 const fn all_tables<const D: usize, const P: usize, const N: usize>() -> AllTables<D, P, N> {
     [
@@ -203,7 +203,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
 
     fn sampled(
         &self,
-        points: &'static Tables<D, P, N>,
+        points: &'static ShapeTables<D, P, N>,
         shape: Shape,
         nodes: &[[f64; D]; N],
     ) -> Sampling<D, S, P, N> {
@@ -220,7 +220,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Kernel<D, S
     #[inline]
     fn at(
         &self,
-        tables: &'static Tables<D, P, N>,
+        tables: &'static ShapeTables<D, P, N>,
         shape: Shape,
         nodes: &[[f64; D]; N],
     ) -> Gradients<D, S, P, N> {

@@ -269,7 +269,7 @@ impl Backend {
         }
     }
 
-    /// What is said where it is asked for and this build does not have it.
+    /// Message where a backend is asked for that this build does not have.
     #[cfg_attr(
         all(feature = "cholmod", feature = "faer", feature = "mumps"),
         allow(dead_code)

@@ -85,7 +85,7 @@ pub(super) struct Rows {
 }
 
 /// The rows that have the numbers of a part's columns.
-struct Part<'a> {
+struct RowBlock<'a> {
     columns: Range<usize>,
     residual: &'a mut [f64],
     terms: &'a mut [f64],
@@ -118,7 +118,7 @@ impl Rows {
                 bound(part + 1)
             };
             let own = columns.len();
-            parts.push(Part {
+            parts.push(RowBlock {
                 columns,
                 residual: residual.split_off_mut(..own).unwrap_or_default(),
                 terms: terms.split_off_mut(..own).unwrap_or_default(),
@@ -167,7 +167,7 @@ impl Rows {
     }
 }
 
-impl Part<'_> {
+impl RowBlock<'_> {
     /// Subtracts the products of the part's columns of the upper triangle, and of the rows that
     /// mirror them, from the residual and adds up their sizes.
     fn subtract_products(&mut self, matrix: &SymmetricCsc, pointers: &[i64], u: &[f64]) {

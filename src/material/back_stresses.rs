@@ -62,7 +62,7 @@ impl BackStresses {
         self.linear
     }
 
-    /// How many have a memory of their own at each point.
+    /// Number of back stresses that have a memory of their own at each point.
     pub fn n_stored(&self) -> usize {
         self.fading.len()
     }

@@ -96,7 +96,7 @@ impl<const S: usize> Softening<S> {
         }
     }
 
-    /// How much flow a strain increment makes: what it adds to the stress along the normal.
+    /// Amount of flow that a strain increment makes: what it adds to the stress along the normal.
     #[inline]
     pub fn flow(&self, strain: &[f64; S]) -> f64 {
         let terms = self.normal.iter().zip(strain);

@@ -84,7 +84,7 @@ pub struct Past<'a, const S: usize> {
     pub state: &'a PlasticState<S>,
     /// Strains of the back stresses that fade, the material's first: engineering shear, trace 0.
     pub back: &'a [[f64; S]],
-    /// What the yield stress lies above the material's there.
+    /// Yield stress at the point less the material's.
     pub harder: f64,
 }
 

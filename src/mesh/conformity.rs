@@ -10,7 +10,7 @@ const GRAIN: usize = 512;
 
 /// A facet by its corners, ascending and filled up.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Side {
+struct FacetCorners {
     corners: [u32; MOST_CORNERS],
     facet: Facet,
 }
@@ -25,7 +25,7 @@ const MOST_CORNERS: usize = 4;
 /// # Errors
 /// Input errors name elements, nodes and body.
 pub(super) fn check(mesh: &Mesh) -> Result<()> {
-    let mut sides: Vec<Side> = (0..mesh.n_elements())
+    let mut sides: Vec<FacetCorners> = (0..mesh.n_elements())
         .flat_map(|element| {
             (0..mesh.shapes[element].n_facets()).map(move |local| Facet { element, local })
         })
@@ -35,7 +35,7 @@ pub(super) fn check(mesh: &Mesh) -> Result<()> {
                 *place = corner;
             }
             corners.sort_unstable();
-            Side { corners, facet }
+            FacetCorners { corners, facet }
         })
         .collect();
     sides.par_sort_unstable();

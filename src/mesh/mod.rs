@@ -159,7 +159,7 @@ impl Mesh {
         self.dimension == 3
     }
 
-    /// What a facet is as an element of its own.
+    /// Reference data of a facet as an element of its own.
     pub(crate) fn facet_reference(&self, facet: Facet) -> &'static FacetReference {
         self.shapes[facet.element].facet_reference(facet.local)
     }

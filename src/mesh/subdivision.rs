@@ -107,7 +107,7 @@ fn sorted(corners: impl Iterator<Item = (u32, u32)>) -> Between {
 
 /// A node that subdivision adds.
 struct New {
-    /// Where the map of its element puts it.
+    /// Coordinates to which the map of its element takes the node.
     mapped: Vector,
     /// Coordinates of the node.
     x: Vector,

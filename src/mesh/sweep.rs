@@ -41,7 +41,7 @@ pub fn extruded(plane: &Mesh, extrusion: &Extrusion) -> Result<Mesh> {
         solid => Some(solid),
     };
     let on_axis = vec![false; plane.n_nodes()];
-    Sweep::new(plane, n, false, on_axis).mesh(along, curve)
+    SweptSection::new(plane, n, false, on_axis).mesh(along, curve)
 }
 
 /// A plane mesh of coordinates (r, y) turned about the y axis, from the x axis towards z.
@@ -71,7 +71,7 @@ pub fn revolved(plane: &Mesh, revolution: &Revolution) -> Result<Mesh> {
         let [c, s] = direction(angle * half as f64 / (2 * n) as f64);
         [r * c, y, r * s]
     };
-    Sweep::new(plane, n, angle == 360.0, on_axis).mesh(round, turned_curve)
+    SweptSection::new(plane, n, angle == 360.0, on_axis).mesh(round, turned_curve)
 }
 
 /// Refuses what cannot be drawn through so many layers: a solid mesh, and one beyond the memory.
@@ -134,7 +134,7 @@ fn turned_curve(curve: Curve, points: &[[f64; 2]]) -> Option<Curve> {
 
 /// A section with the layers it is drawn through, numbered by half steps: even ones are layers of
 /// corners, odd ones half way between.
-struct Sweep<'a> {
+struct SweptSection<'a> {
     plane: &'a Mesh,
     layers: usize,
     closed: bool,
@@ -156,7 +156,7 @@ struct Drawn {
     ends: [usize; 2],
 }
 
-impl<'a> Sweep<'a> {
+impl<'a> SweptSection<'a> {
     fn new(plane: &'a Mesh, layers: usize, closed: bool, on_axis: Vec<bool>) -> Self {
         let mut halved = vec![false; plane.n_nodes()];
         for (element, shape) in plane.shapes.iter().enumerate() {
@@ -166,7 +166,7 @@ impl<'a> Sweep<'a> {
                 }
             }
         }
-        let mut out = Sweep {
+        let mut out = SweptSection {
             plane,
             layers,
             closed,

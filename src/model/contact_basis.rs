@@ -24,9 +24,9 @@ use crate::mesh::{Mesh, Surface};
 use crate::space::{Vector, along, dot};
 use std::collections::BTreeMap;
 
-/// What each end of an edge counts at the middle of it.
+/// Weight of each end of an edge at the middle of the edge.
 const ALPHA: f64 = ContactBasis::ALPHA;
-/// What the control point of the middle counts there.
+/// Weight of the middle's control point there.
 const OWN: f64 = 1.0 - 2.0 * ALPHA;
 
 /// The middle nodes of the edges of quadratic faces in contact, each with the ends of its edge.
@@ -36,7 +36,7 @@ pub struct ContactBasis {
 }
 
 impl ContactBasis {
-    /// What each end of an edge counts at the middle of it.
+    /// Weight of each end of an edge at the middle of the edge.
     pub const ALPHA: f64 = 0.2;
 
     /// The basis for the pairs of a solid model: of the slaves' faces, and of faces that match

@@ -217,7 +217,7 @@ impl Freedoms {
         if followers.terms.is_empty() {
             return Ok(false);
         }
-        let mut expansion = Expansion {
+        let mut expansion = FollowerExpansion {
             freedoms: self,
             mesh,
             followers,
@@ -341,14 +341,14 @@ enum Expanded {
 }
 
 /// Followers by the axes that follow nothing.
-struct Expansion<'a> {
+struct FollowerExpansion<'a> {
     freedoms: &'a Freedoms,
     mesh: &'a Mesh,
     followers: &'a Followers,
     of: Vec<Expanded>,
 }
 
-impl Expansion<'_> {
+impl FollowerExpansion<'_> {
     fn expand(&mut self, k: usize) -> Result<()> {
         match &self.of[k] {
             Expanded::To(_) => return Ok(()),

@@ -152,7 +152,8 @@ impl Freedoms {
         Ok((freedoms, followers))
     }
 
-    /// What holds the middle of an edge by its control point must hold its ends.
+    /// Refuses an edge whose middle is held by its control point and whose ends are not held as
+    /// well.
     fn check_edges(&self, mesh: &Mesh) -> Result<()> {
         let held = |node: usize, direction: Vector| {
             let axes = self.local(node);

@@ -79,7 +79,7 @@ impl Images {
         self.0.iter()
     }
 
-    /// How many there are.
+    /// Number of images.
     pub fn count(&self) -> usize {
         self.0.len()
     }

@@ -250,13 +250,13 @@ impl Conditions {
     }
 
     /// Whether all nodes of a side are held along its normal.
-    fn hold(model: &Model, side: &Side, normal: Vector) -> bool {
+    fn hold(model: &Model, side: &MirrorSide, normal: Vector) -> bool {
         let mut nodes = side.nodes.iter();
         nodes.all(|&node| Self::hold_node(model, node, normal))
     }
 
     /// Whether two sides that are held across keep a node from moving along an axis.
-    fn hold_between(model: &Model, normal: Vector, other: &Side, axis: Vector) -> bool {
+    fn hold_between(model: &Model, normal: Vector, other: &MirrorSide, axis: Vector) -> bool {
         let plane = |mirror: &Mirror| cross(normal, mirror.normal);
         other.mirror.as_ref().is_some_and(|mirror| {
             length_of(plane(mirror)) > SAME
@@ -267,7 +267,7 @@ impl Conditions {
 
     /// Whether what binds a slot along an axis binds a whole side alike: it is tied, or held or
     /// kept plane across.
-    fn go_on(&self, model: &Model, side: &Side, slot: Slot, axis: Vector) -> bool {
+    fn go_on(&self, model: &Model, side: &MirrorSide, slot: Slot, axis: Vector) -> bool {
         let is_tied = matches!(slot, Slot::Sum(_));
         let is_held = Self::is_held(model, slot);
         let alike = |other: Slot| {
@@ -283,7 +283,7 @@ impl Conditions {
 /// The planes of symmetry on which elements have a facet. The whole of what the elements have of a
 /// plane must be one: the stress goes on as its mirror image if every condition there does.
 pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Vec<Mirror> {
-    let sides = Sides::of(model, conditions, elements);
+    let sides = ActingSides::of(model, conditions, elements);
     let planes = || {
         let sides = sides.0.iter();
         sides.filter_map(|side| side.mirror.map(|mirror| (side, mirror)))
@@ -336,14 +336,14 @@ fn bodies_at(model: &Model, contact: &ContactSurface) -> BTreeSet<u32> {
 }
 
 /// A facet of an element.
-struct Side {
+struct MirrorSide {
     nodes: Vec<usize>,
     /// The plane that it lies in, if it is plane.
     mirror: Option<Mirror>,
     length: f64,
 }
 
-impl Side {
+impl MirrorSide {
     fn of(model: &Model, facet: Facet) -> Self {
         let mesh = &model.mesh;
         let reference = mesh.facet_reference(facet);
@@ -357,7 +357,7 @@ impl Side {
             offset: dot(normal, points[0]),
         };
         let mut off = points.iter().map(|&x| mirror.beyond(x).abs());
-        Side {
+        MirrorSide {
             nodes,
             mirror: off.all(|off| off <= SAME * length).then_some(mirror),
             length,
@@ -372,9 +372,9 @@ impl Side {
 }
 
 /// The facets of some elements on which something acts.
-struct Sides(Vec<Side>);
+struct ActingSides(Vec<MirrorSide>);
 
-impl Sides {
+impl ActingSides {
     fn of(model: &Model, conditions: &Conditions, elements: &[usize]) -> Self {
         let of_element = |&element: &usize| {
             let facets = (0..model.mesh.shapes[element].n_facets())
@@ -383,9 +383,11 @@ impl Sides {
                 let mut nodes = model.mesh.facet_nodes(*facet);
                 nodes.any(|node| conditions.act_on(model, node))
             };
-            facets.filter(acted_on).map(|facet| Side::of(model, facet))
+            facets
+                .filter(acted_on)
+                .map(|facet| MirrorSide::of(model, facet))
         };
-        Sides(elements.iter().flat_map(of_element).collect())
+        ActingSides(elements.iter().flat_map(of_element).collect())
     }
 
     /// Whether the conditions along a side are those of a plane of symmetry: its nodes move along
@@ -393,18 +395,18 @@ impl Sides {
     /// held or kept plane across its own normal: that goes on beyond the plane.
     fn are_symmetric(
         &self,
-        side: &Side,
+        side: &MirrorSide,
         normal: Vector,
         model: &Model,
         conditions: &Conditions,
     ) -> bool {
         side.nodes.iter().all(|&node| {
-            let at_rim = |of: &dyn Fn(&Side) -> bool| {
+            let at_rim = |of: &dyn Fn(&MirrorSide) -> bool| {
                 let others = self.0.iter().filter(|other| other.nodes.contains(&node));
                 let mut others = others.filter(|other| !other.is_across(normal));
                 others.any(of)
             };
-            let is_loaded = |other: &Side| other.nodes.iter().all(|&n| conditions.loaded[n]);
+            let is_loaded = |other: &MirrorSide| other.nodes.iter().all(|&n| conditions.loaded[n]);
             if conditions.in_equation[node] || (conditions.loaded[node] && !at_rim(&is_loaded)) {
                 return false;
             }

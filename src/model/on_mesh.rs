@@ -15,10 +15,10 @@ pub(super) struct OnMesh<'a> {
     mesh: &'a Mesh,
     /// Name of the field, for messages.
     name: &'static str,
-    values: Values<'a>,
+    values: FieldValues<'a>,
 }
 
-enum Values<'a> {
+enum FieldValues<'a> {
     Uniform(f64),
     Formula(Box<dyn Fn(Vector) -> f64 + Send + Sync + 'a>),
     Nodal { path: String, at: Vec<Option<f64>> },
@@ -37,17 +37,17 @@ impl<'a> OnMesh<'a> {
         mesh: &'a Mesh,
     ) -> Result<Self> {
         let values = match field {
-            Field::Uniform(value) => Values::Uniform(*value),
+            Field::Uniform(value) => FieldValues::Uniform(*value),
             Field::Nodal(of) => {
                 let path = scene.beside(&of.file);
-                Values::Nodal {
+                FieldValues::Nodal {
                     at: nodal(&path, name, mesh)?,
                     path: path.display().to_string(),
                 }
             }
             Field::Formula(_) => {
                 let function = field.function(scene.kind).map_err(Error::input)?;
-                Values::Formula(Box::new(function))
+                FieldValues::Formula(Box::new(function))
             }
         };
         Ok(OnMesh { mesh, name, values })
@@ -63,9 +63,9 @@ impl<'a> OnMesh<'a> {
             format!("node {label} at {place}")
         };
         match &self.values {
-            Values::Uniform(value) => Ok(*value),
-            Values::Formula(of) => self.finite(of(self.mesh.point(node)), label),
-            Values::Nodal { path, at } => at[node].ok_or_else(|| {
+            FieldValues::Uniform(value) => Ok(*value),
+            FieldValues::Formula(of) => self.finite(of(self.mesh.point(node)), label),
+            FieldValues::Nodal { path, at } => at[node].ok_or_else(|| {
                 Error::input(format!(
                     "{path} has no value of {}: is the file of another mesh?",
                     label()
@@ -94,8 +94,8 @@ impl<'a> OnMesh<'a> {
     /// The number, where it is the same everywhere.
     fn uniform(&self) -> Option<f64> {
         match &self.values {
-            Values::Uniform(value) => Some(*value),
-            Values::Formula(_) | Values::Nodal { .. } => None,
+            FieldValues::Uniform(value) => Some(*value),
+            FieldValues::Formula(_) | FieldValues::Nodal { .. } => None,
         }
     }
 
@@ -106,13 +106,13 @@ impl<'a> OnMesh<'a> {
     /// As [`at_node`](Self::at_node); a formula names the point.
     pub fn at_point(&self, nodes: &[usize], point: &FacetPoint) -> Result<f64> {
         match &self.values {
-            Values::Uniform(value) => Ok(*value),
-            Values::Formula(of) => self.finite(of(point.position), || {
+            FieldValues::Uniform(value) => Ok(*value),
+            FieldValues::Formula(of) => self.finite(of(point.position), || {
                 let place = in_words(point.position.map(rounded), self.mesh.dimension);
                 let label = nodes.first().map_or(0, |node| self.mesh.node_label(*node));
                 format!("{place}, a point of the facet of node {label}")
             }),
-            Values::Nodal { .. } => {
+            FieldValues::Nodal { .. } => {
                 let terms = nodes.iter().zip(point.values);
                 terms
                     .map(|(node, share)| Ok(share * self.at_node(*node)?))

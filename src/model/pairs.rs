@@ -159,7 +159,7 @@ pub struct AxisPoint {
 const NO_AREA: f64 = 0.02;
 
 /// What a contact is resolved from.
-struct Entries<'a> {
+struct ContactInput<'a> {
     index: usize,
     contact: Contact,
     stated: &'a Stated<'a>,
@@ -171,7 +171,7 @@ struct Entries<'a> {
     is_of_deck: bool,
 }
 
-impl Entries<'_> {
+impl ContactInput<'_> {
     /// A direction from the second body to the first, as one from the slave's body to the other.
     fn towards_master(&self, normal: Vector, slave: usize) -> Vector {
         match slave {
@@ -223,7 +223,7 @@ pub(super) fn resolve(
         );
         let stated = Stated::of(contact, scene, mesh);
         let stated = stated.map_err(|error| entry.refused(error.within(&what)))?;
-        let mut entries = Entries {
+        let mut entries = ContactInput {
             index,
             contact: contact.clone(),
             stated: &stated,
@@ -237,7 +237,7 @@ pub(super) fn resolve(
         };
         let is_rigid = [&contact.first, &contact.second].map(|name| rigid.named(name));
         let given = given.pairs.get(&index).map(Vec::as_slice);
-        let find = |entries: &Entries, notes: &mut Vec<String>| {
+        let find = |entries: &ContactInput, notes: &mut Vec<String>| {
             let found = match is_rigid {
                 [Some(body), _] => rigid::pairs(entries, 1, body)?,
                 [_, Some(body)] => rigid::pairs(entries, 0, body)?,
@@ -341,7 +341,7 @@ struct Found {
 
 /// The contact of the pairs from `start` on.
 fn surface_of(
-    entries: &Entries,
+    entries: &ContactInput,
     found: &Found,
     pairs: &mut Vec<Pair>,
     start: usize,
@@ -398,7 +398,11 @@ fn turn(mesh: &Mesh, surface: &Surface, pairs: &[Pair]) -> Option<f64> {
 }
 
 /// Takes the pair on the axis that can carry no force out of the pairs from `start` on.
-fn take_axis_pair(entries: &Entries, pairs: &mut Vec<Pair>, start: usize) -> Option<AxisPoint> {
+fn take_axis_pair(
+    entries: &ContactInput,
+    pairs: &mut Vec<Pair>,
+    start: usize,
+) -> Option<AxisPoint> {
     let last = pairs.len().checked_sub(1).filter(|last| *last > start)?;
     if !entries.space.is_axisymmetric() {
         return None;

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::convert::Infallible;
 
 /// Forces at nodes, ascending.
-type Nodal = Vec<(usize, Vector)>;
+type NodeForces = Vec<(usize, Vector)>;
 
 /// A load of a scene that acts on a surface by a pressure or a traction.
 pub(super) struct Tractions<'a> {
@@ -36,7 +36,7 @@ impl<'a> Tractions<'a> {
     ///
     /// # Errors
     /// `Input` where the pressure is not known somewhere.
-    pub fn of_pressure(&self, pressure: &Field, surface: &Surface) -> Result<(Nodal, f64)> {
+    pub fn of_pressure(&self, pressure: &Field, surface: &Surface) -> Result<(NodeForces, f64)> {
         let field = OnMesh::new(pressure, "pressure", self.scene, self.mesh);
         let found = field.and_then(|field| {
             let traction = |nodes: &[usize], point: &FacetPoint| {
@@ -52,7 +52,11 @@ impl<'a> Tractions<'a> {
     ///
     /// # Errors
     /// `Input` where a component is not known somewhere.
-    pub fn of_vector(&self, traction: &VectorField, surface: &Surface) -> Result<(Nodal, f64)> {
+    pub fn of_vector(
+        &self,
+        traction: &VectorField,
+        surface: &Surface,
+    ) -> Result<(NodeForces, f64)> {
         let fields = traction
             .iter()
             .map(|field| OnMesh::new(field, "traction", self.scene, self.mesh));
@@ -78,7 +82,7 @@ impl<'a> Tractions<'a> {
         surface: &Surface,
         traction: impl Fn(&[usize], &FacetPoint) -> Result<(Vector, f64)>,
         size_at: impl Fn(usize) -> Result<f64>,
-    ) -> Result<(Nodal, f64)> {
+    ) -> Result<(NodeForces, f64)> {
         let mut largest = 0.0f64;
         let forces = try_integrate(self.scene.kind, self.mesh, surface, |nodes, point| {
             let (traction, size) = traction(nodes, point)?;
@@ -103,7 +107,7 @@ pub(super) fn integrate(
     mesh: &Mesh,
     surface: &Surface,
     traction: impl Fn(&FacetPoint) -> Vector,
-) -> Nodal {
+) -> NodeForces {
     let Ok(forces) = try_integrate(space, mesh, surface, |_, point| {
         Ok::<_, Infallible>(traction(point))
     });
@@ -116,7 +120,7 @@ fn try_integrate<E>(
     mesh: &Mesh,
     surface: &Surface,
     mut traction: impl FnMut(&[usize], &FacetPoint) -> std::result::Result<Vector, E>,
-) -> std::result::Result<Nodal, E> {
+) -> std::result::Result<NodeForces, E> {
     let mut forces = BTreeMap::new();
     for &facet in &surface.facets {
         let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 /// A row. The columns are the fields.
 #[derive(Serialize, Deserialize)]
-pub(super) struct Row {
+pub(super) struct PairRow {
     /// Number of the state, from 1, as in the names of the field files.
     pub state: usize,
     #[serde(deserialize_with = "number")]
@@ -38,9 +38,9 @@ pub(super) struct Row {
     name: String,
 }
 
-impl Row {
+impl PairRow {
     fn new(dimension: usize, state: usize, name: &str, alpha: f64, pair: &PairState) -> Self {
-        Row {
+        PairRow {
             state,
             alpha,
             pair: pair.pair + 1,
@@ -89,14 +89,14 @@ pub(super) fn write(out: &mut impl Write, dimension: usize, states: &[State]) ->
     };
     let rows = states.iter().enumerate().flat_map(|(i, state)| {
         let pairs = state.pairs.iter();
-        pairs.map(move |pair| Row::new(dimension, i + 1, &state.name, state.alpha, pair))
+        pairs.map(move |pair| PairRow::new(dimension, i + 1, &state.name, state.alpha, pair))
     });
-    table::write(out, &Row::new(dimension, 0, "", 0.0, &nothing), rows)
+    table::write(out, &PairRow::new(dimension, 0, "", 0.0, &nothing), rows)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Row;
+    use super::PairRow;
     use crate::results::{PairState, Status};
 
     #[test]
@@ -111,7 +111,7 @@ mod tests {
             pressure: 0.0,
             status: Status::Closed,
         };
-        let row = |dimension: usize| Row::new(dimension, 0, "end", 1.0, &pair);
+        let row = |dimension: usize| PairRow::new(dimension, 0, "end", 1.0, &pair);
         assert_eq!((row(3).x, row(3).y, row(3).z), (1.0, 2.0, Some(3.0)));
         assert_eq!(row(2).z, None);
     }

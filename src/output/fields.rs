@@ -49,7 +49,7 @@ pub(super) fn write(
     results: &Results,
 ) -> Result<()> {
     let states = &results.states;
-    let (times, parts) = (times(states), Part::all(mesh, n_pieces(results)));
+    let (times, parts) = (times(states), MeshPart::all(mesh, n_pieces(results)));
     let file = |(i, state): (usize, &State)| -> Result<Option<(f64, String)>> {
         let Some(fields) = &state.fields else {
             return Ok(None);
@@ -80,14 +80,14 @@ pub(super) fn write(
 fn write_pieces(
     staging: &Staging,
     header: &RunHeader,
-    (mesh, parts, fields): (&Mesh, &[Part], &Fields),
+    (mesh, parts, fields): (&Mesh, &[MeshPart], &Fields),
     name: &str,
 ) -> Result<()> {
     let stem = name.strip_suffix(PIECES_SUFFIX).unwrap_or(name);
     let files: Vec<String> = (1..=parts.len())
         .map(|number| format!("{stem}_part_{number}{FILE_SUFFIX}"))
         .collect();
-    let piece = |(part, file): (&Part, &String)| -> Result<()> {
+    let piece = |(part, file): (&MeshPart, &String)| -> Result<()> {
         let fields = part.of(fields);
         let grid = grid(header, &part.mesh, &fields);
         let grid = with_ids(grid, &part.nodes, &part.elements);
@@ -108,23 +108,23 @@ fn with_ids<'a>(mut grid: Grid<'a>, nodes: &'a [u32], elements: &'a [u32]) -> Gr
 }
 
 /// A part of the mesh that goes into a file of its own.
-struct Part {
+struct MeshPart {
     mesh: Mesh,
     /// Nodes and elements of the part as the whole numbers them.
     nodes: Vec<u32>,
     elements: Vec<u32>,
 }
 
-impl Part {
+impl MeshPart {
     /// The parts of a mesh that is written in `n` pieces; none where that is one.
-    fn all(mesh: &Mesh, n: usize) -> Vec<Part> {
+    fn all(mesh: &Mesh, n: usize) -> Vec<MeshPart> {
         if n < 2 {
             return Vec::new();
         }
         let parts = mesh.elements_among(n.min(mesh.n_elements())).into_iter();
         let part = |elements: Vec<usize>| {
             let (part, nodes) = mesh.part(&elements);
-            Part {
+            MeshPart {
                 mesh: part,
                 nodes,
                 elements: elements.iter().map(|&e| e as u32).collect(),

@@ -84,7 +84,7 @@ impl JobFiles {
 }
 
 /// An increment of the deck: the way from one state to the next.
-struct Row {
+struct DeckIncrement {
     step: usize,
     increment: usize,
     iterations: usize,
@@ -95,7 +95,7 @@ struct Row {
 }
 
 /// The increments of a run. What brinell took them in is added up.
-fn rows(model: &Model, results: &Results) -> Vec<Row> {
+fn rows(model: &Model, results: &Results) -> Vec<DeckIncrement> {
     let moments = &model.scene.requests.moments;
     let mut ahead = &results.history[..];
     let mut before = (0, 0.0);
@@ -112,7 +112,7 @@ fn rows(model: &Model, results: &Results) -> Vec<Row> {
         };
         before = (moment.step, moment.step_time);
         let closed = state.pairs.iter();
-        Row {
+        DeckIncrement {
             step: moment.step,
             increment: moment.increment,
             iterations: own.iter().map(|row| row.iterations).sum::<usize>().max(1),
@@ -128,7 +128,7 @@ fn rows(model: &Model, results: &Results) -> Vec<Row> {
     states.map(row).collect()
 }
 
-impl Row {
+impl DeckIncrement {
     fn status(&self) -> String {
         let [total, of_step, of_increment] = self.times.map(short);
         let (step, increment, iterations) = (self.step, self.increment, self.iterations);
@@ -169,7 +169,7 @@ mod tests {
     /// The rows of ccx 2.20 for the same.
     #[test]
     fn rows_are_those_of_calculix() {
-        let row = Row {
+        let row = DeckIncrement {
             step: 1,
             increment: 2,
             iterations: 3,

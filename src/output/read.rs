@@ -4,7 +4,7 @@
 //! fields, and the scene as it was run makes the model. Numbers that were not finite were written
 //! as null (or an empty cell) and come back as NaN.
 
-use super::contact::Row;
+use super::contact::PairRow;
 use super::rows::{rows, summary};
 use super::{CONTACT_FILE, HISTORY_FILE, Labels, PATH_FILE, RunHeader, SUMMARY_FILE};
 use super::{history, record, vtu_read};
@@ -103,7 +103,7 @@ fn read_pairs(path: &Path, model: &Model, results: &mut Results) -> Result<()> {
     let on_axis = model.contacts.iter().filter(|c| c.axis.is_some()).count();
     let n_points = model.pairs.len() + on_axis;
     let is_of = |number: usize, n: usize| (1..=n).contains(&number);
-    for (index, row) in rows::<Row>(path)?.into_iter().enumerate() {
+    for (index, row) in rows::<PairRow>(path)?.into_iter().enumerate() {
         let state = row.state.checked_sub(1);
         let state = state.and_then(|state| results.states.get_mut(state));
         match state {

@@ -33,7 +33,7 @@ pub(crate) struct Sweep {
     /// The keys that vary.
     pub keys: Vec<String>,
     /// In the order of their values.
-    pub points: Vec<Point>,
+    pub points: Vec<SweepPoint>,
     /// File in which the sweep is recorded: a share of the points has a file of its own.
     #[serde(skip)]
     file: String,
@@ -41,7 +41,7 @@ pub(crate) struct Sweep {
 
 /// A point of the sweep and how its run ended.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Point {
+pub(crate) struct SweepPoint {
     /// A value for each key, as it was given.
     pub values: Vec<String>,
     /// Folder of the point below that of the sweep.
@@ -52,13 +52,13 @@ pub(crate) struct Point {
     /// first, so that its factor serves the others.
     #[serde(skip)]
     pub demand: f64,
-    /// How its run ended; `None` where it has not.
+    /// Exit code of the point's run; `None` where it has not ended.
     pub exit_code: Option<i32>,
     /// Why, where it did not end well.
     pub message: String,
 }
 
-impl Point {
+impl SweepPoint {
     /// Whether a run of this point would end the same way again: done, a limit load, an inaccurate
     /// result, or the end of the contact candidates.
     pub(crate) fn is_finished(&self) -> bool {
@@ -75,7 +75,7 @@ impl Sweep {
     pub(crate) fn new(
         dir: &Path,
         keys: Vec<String>,
-        points: Vec<Point>,
+        points: Vec<SweepPoint>,
         shard: Option<[usize; 2]>,
     ) -> Result<Self> {
         let mut sweep = Sweep {
@@ -89,15 +89,16 @@ impl Sweep {
         };
         let before = Sweep::read(dir)?;
         for point in &mut sweep.points {
-            let same = |old: &&Point| old.identity == point.identity && old.folder == point.folder;
+            let same =
+                |old: &&SweepPoint| old.identity == point.identity && old.folder == point.folder;
             let ended = before.iter().filter(same).filter(|old| old.is_finished());
-            let has_results = |old: &&Point| {
+            let has_results = |old: &&SweepPoint| {
                 let folder = dir.join(&old.folder);
                 folder.join(super::SUMMARY_FILE).exists() && super::stale(&folder).is_none()
             };
             if let Some(old) = ended.into_iter().find(has_results) {
                 let demand = point.demand;
-                *point = Point {
+                *point = SweepPoint {
                     demand,
                     ..old.clone()
                 };
@@ -107,7 +108,7 @@ impl Sweep {
     }
 
     /// The points of all records in a directory; none where there is nothing yet.
-    fn read(dir: &Path) -> Result<Vec<Point>> {
+    fn read(dir: &Path) -> Result<Vec<SweepPoint>> {
         let entries = std::fs::read_dir(dir).into_iter().flatten().flatten();
         let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
         // What begins with a point is in the making.
@@ -415,9 +416,9 @@ mod tests {
 
     #[test]
     fn only_ends_that_would_come_again_are_finished() {
-        let ended = |exit_code| Point {
+        let ended = |exit_code| SweepPoint {
             exit_code,
-            ..Point::default()
+            ..SweepPoint::default()
         };
         assert!(
             [0, 6, 7, 8]

@@ -32,7 +32,7 @@ pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
         let blocks = Blocks::new(bytes).map_err(|what| damaged(path, what))?;
         Ok((path.as_path(), blocks))
     });
-    let state = Files(files.collect::<Result<_>>()?);
+    let state = StateFiles(files.collect::<Result<_>>()?);
     let numbers = |name: &str, items: Items, n: usize| -> Result<Vec<f64>> {
         let bytes = state.bytes(name, items, 8 * n)?;
         let (values, _) = bytes.as_chunks::<8>();
@@ -113,9 +113,9 @@ fn pieces(path: &Path, bytes: &[u8]) -> Result<Vec<(PathBuf, Vec<u8>)>> {
 type Items<'a> = (&'a str, usize);
 
 /// The files of a state.
-struct Files<'a>(Vec<(&'a Path, Blocks<'a>)>);
+struct StateFiles<'a>(Vec<(&'a Path, Blocks<'a>)>);
 
-impl<'a> Files<'a> {
+impl<'a> StateFiles<'a> {
     fn has(&self, name: &str) -> bool {
         self.0.iter().all(|(_, blocks)| blocks.has(name))
     }

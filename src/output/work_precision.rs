@@ -44,21 +44,21 @@ pub fn plot(study: &Study, quantity: &QuantityStudy) -> Result<String> {
     Ok(shown(&text).into_owned())
 }
 
-type Point = (f64, f64);
+type PlottedPoint = (f64, f64);
 
 /// A curve of the plot.
-struct Curve<'s> {
+struct PlottedCurve<'s> {
     name: &'s str,
     /// Whether the curve is a series of meshes.
     is_mesh: bool,
-    points: Vec<Point>,
+    points: Vec<PlottedPoint>,
 }
 
 /// Curves by series: those of meshes by element size (finest first), the others by time.
-fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<Curve<'s>> {
+fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<PlottedCurve<'s>> {
     let mut order: Vec<usize> = (0..study.runs.len()).collect();
     order.sort_by(|&a, &b| study.runs[a].ratio.total_cmp(&study.runs[b].ratio));
-    let mut out: Vec<Curve> = Vec::new();
+    let mut out: Vec<PlottedCurve> = Vec::new();
     for i in order {
         let (run, error) = (&study.runs[i], quantity.errors[i]);
         let Some(error) = error.filter(|e| *e <= CEILING) else {
@@ -67,7 +67,7 @@ fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<Curve<'s>> {
         let point = (run.usage.undisturbed_seconds(), error.max(FLOOR));
         match out.iter_mut().find(|c| c.name == run.series) {
             Some(curve) => curve.points.push(point),
-            None => out.push(Curve {
+            None => out.push(PlottedCurve {
                 name: &run.series,
                 is_mesh: matches!(run.knob, Knob::Resolution | Knob::Element),
                 points: vec![point],
@@ -118,7 +118,7 @@ fn draw(
         .bold_line_style(BLACK.mix(0.12))
         .draw()?;
     // A front of one run is a point that its own curve shows.
-    let front: Vec<Point> = quantity
+    let front: Vec<PlottedPoint> = quantity
         .pareto
         .iter()
         .filter_map(|&i| {

@@ -37,7 +37,8 @@ pub struct HistoryRow {
     /// Relative out-of-balance force at its end.
     #[serde(deserialize_with = "number")]
     pub residual: f64,
-    /// What ended it: `closes: pair 12`, `opens: pair 3`, `target: NAME`, `step`, `yield`.
+    /// Event that ended the increment: `closes: pair 12`, `opens: pair 3`, `target: NAME`, `step`,
+    /// `yield`.
     pub event: String,
     /// What the scene asks for besides ([`crate::scene::Program::history`]), in the order of
     /// [`super::Results::history_columns`].

@@ -102,7 +102,7 @@ pub struct Quantity {
     pub is_detail: bool,
     /// Key of the quantity that makes this column redundant where both are equal.
     pub twin: Option<&'static str>,
-    /// How its error is estimated, if it is.
+    /// Estimate of the quantity's error, if there is one.
     pub estimated: Option<Estimated>,
     /// The quantity at first yield.
     pub at_yield: Option<Field<YieldPoint>>,
@@ -121,10 +121,10 @@ impl Quantity {
     }
 
     /// Value of the quantity at a state or at first yield of a run.
-    fn at(&self, place: &Place) -> Option<f64> {
+    fn at(&self, place: &QuantityPlace) -> Option<f64> {
         match place {
-            Place::Yield(point) => Some((self.at_yield?.get)(point)),
-            Place::State(state) => Some((self.in_state.get)(state)),
+            QuantityPlace::Yield(point) => Some((self.at_yield?.get)(point)),
+            QuantityPlace::State(state) => Some((self.in_state.get)(state)),
         }
     }
 }
@@ -225,7 +225,7 @@ const ENERGY_ERROR: Field<State> = Field {
 };
 
 /// A state, or first yield.
-enum Place<'r> {
+enum QuantityPlace<'r> {
     Yield(&'r YieldPoint),
     State(&'r State),
 }
@@ -239,12 +239,12 @@ pub fn value(results: &Results, path: &str) -> Option<f64> {
         let axis = |axis: &str| ["x", "y", "z"].iter().position(|name| *name == axis);
         return match rest.strip_prefix("location.") {
             Some(name) => Some(point.location[axis(name)?]),
-            None => Quantity::of(rest)?.at(&Place::Yield(point)),
+            None => Quantity::of(rest)?.at(&QuantityPlace::Yield(point)),
         };
     }
     let (name, key) = rest.rsplit_once('.').filter(|_| head == "states")?;
     let states = &results.states;
     let by_number = || states.get(name.parse::<usize>().ok()?);
     let named = states.iter().find(|state| state.name == name);
-    Quantity::of(key)?.at(&Place::State(named.or_else(by_number)?))
+    Quantity::of(key)?.at(&QuantityPlace::State(named.or_else(by_number)?))
 }

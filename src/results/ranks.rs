@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Ranks {
-    /// How many there are.
+    /// Number of ranks.
     pub count: usize,
     /// Times that the first one asked something of the others: to assemble, to factor, to solve for
     /// each load and each state and to evaluate its stresses, nothing in between.

@@ -88,7 +88,7 @@ impl<'t> Source<'t> {
 }
 
 /// A key or a value of the document.
-struct Node {
+struct DocumentNode {
     /// Key path, as overrides take it: `contact.0.gap`.
     path: String,
     /// Place of the node in words.
@@ -97,7 +97,7 @@ struct Node {
 
 /// Where every key and value of a document stands.
 pub(super) struct Places {
-    nodes: Vec<Node>,
+    nodes: Vec<DocumentNode>,
 }
 
 impl Places {
@@ -130,7 +130,7 @@ impl Places {
     }
 
     fn add(&mut self, path: &str, place: String) -> usize {
-        self.nodes.push(Node {
+        self.nodes.push(DocumentNode {
             path: path.to_string(),
             place,
         });

@@ -103,7 +103,7 @@ pub struct Body {
     /// May this body yield?
     #[serde(default)]
     pub plastic: Plastic,
-    /// How its quadratic quadrilaterals, hexahedra and prisms are integrated.
+    /// Integration of the body's quadratic quadrilaterals, hexahedra and prisms.
     #[serde(default, skip_serializing_if = "Integration::is_reduced")]
     pub integration: Integration,
     /// Temperature of the body throughout the run, at which the rows `over_temperature` of its

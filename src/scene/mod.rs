@@ -142,10 +142,10 @@ pub struct Scene {
     /// The file the scene was read from, and what relative paths in it are relative to.
     #[serde(skip)]
     pub file: Option<PathBuf>,
-    /// Where its keys stand in that file or among the overrides, for messages.
+    /// Places of the scene's keys in that file or among the overrides, for messages.
     #[serde(skip)]
     pub places: KeyPlaces,
-    /// What the user should know of how it was read.
+    /// Warnings about how the scene was read.
     #[serde(skip)]
     pub warnings: Vec<String>,
     /// Which results are asked for in the formats of CalculiX, as a deck does.
@@ -154,8 +154,8 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// How its increments are chosen: in plane stress, where flow is not followed along their ways,
-    /// `auto` is `events`.
+    /// Choice of the program's increments: in plane stress, where flow is not followed along their
+    /// ways, `auto` is `events`.
     pub fn stepping(&self) -> Stepping {
         match (self.program.stepping, self.kind) {
             (Stepping::Auto, Kind::PlaneStress) => Stepping::Events,

@@ -35,23 +35,23 @@ pub struct Cut {
 pub const WHOLE: u32 = 64;
 
 /// From the reference coordinates of a child to those of the element.
-struct Map {
+struct ChildMap {
     origin: Place,
     columns: [Place; 3],
 }
 
-impl Map {
+impl ChildMap {
     /// The reference element at `factor` times its size.
-    fn scaled(origin: Place, factor: [f64; 3]) -> Map {
-        Map {
+    fn scaled(origin: Place, factor: [f64; 3]) -> ChildMap {
+        ChildMap {
             origin,
             columns: [0, 1, 2].map(|d| unit(d).map(|c| factor[d] * c)),
         }
     }
 
     /// A simplex by its corners.
-    fn simplex([origin, a, b, c]: [Place; 4]) -> Map {
-        Map {
+    fn simplex([origin, a, b, c]: [Place; 4]) -> ChildMap {
+        ChildMap {
             origin,
             columns: [a, b, c].map(|corner| difference(corner, origin)),
         }
@@ -99,8 +99,8 @@ pub fn cut_of(shape: Shape, nodes: &[Vector]) -> usize {
 const DIAGONALS: [[[usize; 2]; 2]; 3] = [[[0, 1], [2, 3]], [[0, 2], [1, 3]], [[0, 3], [1, 2]]];
 
 /// What lies between the children at the corners, but for tetrahedra.
-fn between_corners(shape: Shape) -> Vec<Map> {
-    let turned = |z: f64| Map::scaled([0.5, 0.5, z], [-0.5, -0.5, 0.5]);
+fn between_corners(shape: Shape) -> Vec<ChildMap> {
+    let turned = |z: f64| ChildMap::scaled([0.5, 0.5, z], [-0.5, -0.5, 0.5]);
     match shape {
         Shape::Tri3 | Shape::Tri6 => vec![turned(0.0)],
         Shape::Prism6 | Shape::Prism15 => vec![turned(-0.5), turned(0.5)],
@@ -109,7 +109,7 @@ fn between_corners(shape: Shape) -> Vec<Map> {
 }
 
 /// The four tetrahedra round a diagonal of the octahedron between the middles of the edges.
-fn octahedron(shape: Shape, diagonal: usize) -> Vec<Map> {
+fn octahedron(shape: Shape, diagonal: usize) -> Vec<ChildMap> {
     let corners = shape.reference().nodes;
     let middle = |[a, b]: [usize; 2]| [0, 1, 2].map(|d| 0.5 * (corners[a][d] + corners[b][d]));
     let [p, q] = DIAGONALS[diagonal].map(middle);
@@ -118,7 +118,7 @@ fn octahedron(shape: Shape, diagonal: usize) -> Vec<Map> {
     let child = |k: usize| {
         let (r, s) = (ring[k], ring[(k + 1) % 4]);
         let volume = dot(difference(q, p), cross(difference(r, p), difference(s, p)));
-        Map::simplex(if volume > 0.0 {
+        ChildMap::simplex(if volume > 0.0 {
             [p, q, r, s]
         } else {
             [p, q, s, r]
@@ -128,7 +128,7 @@ fn octahedron(shape: Shape, diagonal: usize) -> Vec<Map> {
 }
 
 impl Cut {
-    fn new(shape: Shape, inner: Vec<Map>) -> Cut {
+    fn new(shape: Shape, inner: Vec<ChildMap>) -> Cut {
         let row = shape.reference();
         let mut out = Cut {
             places: row.nodes.to_vec(),
@@ -138,7 +138,7 @@ impl Cut {
             on_facet: Vec::new(),
             follows: Vec::new(),
         };
-        let half = |corner: &Place| Map::scaled(corner.map(|c| 0.5 * c), [0.5; 3]);
+        let half = |corner: &Place| ChildMap::scaled(corner.map(|c| 0.5 * c), [0.5; 3]);
         let outer = row.nodes[..row.n_corners].iter().map(half);
         for map in outer.chain(inner) {
             // All coordinates are multiples of a quarter: equal ones have equal bits.

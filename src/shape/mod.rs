@@ -188,7 +188,7 @@ impl Shape {
         self.reference().facets[local]
     }
 
-    /// What a facet is as an element of its own.
+    /// Reference data of a facet as an element of its own.
     pub(crate) fn facet_reference(self, local: usize) -> &'static FacetReference {
         FacetReference::with_nodes(self.dimension() - 1, self.facet(local).len())
     }

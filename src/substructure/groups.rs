@@ -6,7 +6,7 @@
 //! numbers from then on, whatever other groups there are: the cost of many separate joints is the
 //! sum over the joints.
 
-use super::rows::{Entries, Rows};
+use super::rows::{RowEntries, Rows};
 use super::tied::{SplitSlip, Tied, Trace};
 use super::{PairBlock, PairMatrix};
 use crate::classes::Classes;
@@ -19,13 +19,13 @@ use std::sync::Arc;
 
 /// All groups of tied pairs.
 pub(super) struct Groups {
-    groups: Vec<Group>,
+    groups: Vec<TiedGroup>,
     n_pairs: usize,
     n_motions: usize,
 }
 
 /// Tied pairs that feel one another.
-struct Group {
+struct TiedGroup {
     /// The pairs of the group, ascending.
     pairs: Vec<usize>,
     /// The contact freedoms of the pairs, ascending.
@@ -39,7 +39,7 @@ struct Group {
 /// freedom, and whether that is the motion of a rigid surface.
 #[derive(Clone, Copy)]
 pub(super) struct Contact<'a> {
-    pub rows: &'a [Entries],
+    pub rows: &'a [RowEntries],
     pub freedoms: &'a [usize],
     pub part: &'a [usize],
     pub rigid: &'a [bool],
@@ -91,7 +91,7 @@ impl Groups {
             let own_freedoms: Vec<usize> = contact.iter().map(|&i| of.freedoms[i]).collect();
             let traces = traces(motions, &of_group, &own_freedoms);
             let own_row = |&k: &usize| of.rows[k].iter().map(|&(i, b)| (place[i].1, b)).collect();
-            let entries: Vec<Entries> = pairs.iter().map(own_row).collect();
+            let entries: Vec<RowEntries> = pairs.iter().map(own_row).collect();
             // What is rigid leads: it counts as stiff as the stiffest.
             let diagonals = (0..contact.len()).map(|i| stiffness.diagonal(i));
             let stiffest = diagonals.fold(0.0, f64::max);
@@ -105,7 +105,7 @@ impl Groups {
                 pairs: pairs.clone(),
                 matrix: Arc::new(matrix),
             });
-            out.push(Group {
+            out.push(TiedGroup {
                 pairs,
                 contact,
                 motions: of_group,
@@ -213,17 +213,17 @@ impl Groups {
     }
 }
 
-fn take(group: &Group, contact: &[f64]) -> Vec<f64> {
+fn take(group: &TiedGroup, contact: &[f64]) -> Vec<f64> {
     group.contact.iter().map(|&i| contact[i]).collect()
 }
 
-fn put(group: &Group, own: &[f64], contact: &mut [f64]) {
+fn put(group: &TiedGroup, own: &[f64], contact: &mut [f64]) {
     for (&i, &value) in group.contact.iter().zip(own) {
         contact[i] = value;
     }
 }
 
-fn of_pairs(group: &Group, values: &[f64]) -> Vec<f64> {
+fn of_pairs(group: &TiedGroup, values: &[f64]) -> Vec<f64> {
     group.pairs.iter().map(|&k| values[k]).collect()
 }
 
@@ -244,7 +244,7 @@ fn traces(motions: &[RigidMotion], of_group: &[usize], freedoms: &[usize]) -> Ve
 /// The group of each row, numbered in the order of their first rows: rows are in one where freedoms
 /// of theirs are of one part, or where a list of `coupled` contact freedoms has some of both.
 pub(super) fn groups<'a>(
-    rows: &[Entries],
+    rows: &[RowEntries],
     part: &[usize],
     coupled: impl Iterator<Item = &'a [usize]>,
 ) -> Vec<usize> {
@@ -286,7 +286,7 @@ mod tests {
         // Four pairs on six parts: 0 and 2 share part 5; the first nodes of 1 and 3 are coupled
         // though of different parts.
         let part = [0, 1, 5, 3, 5, 2, 4, 6];
-        let rows: Vec<Entries> = (0..4).map(|k| vec![(k, -1.0), (4 + k, 1.0)]).collect();
+        let rows: Vec<RowEntries> = (0..4).map(|k| vec![(k, -1.0), (4 + k, 1.0)]).collect();
         assert_eq!(groups(&rows, &part, std::iter::empty()), [0, 1, 0, 2]);
         let coupled: [&[usize]; 2] = [&[1, 3], &[6]];
         assert_eq!(groups(&rows, &part, coupled.into_iter()), [0, 1, 0, 1]);

@@ -15,7 +15,7 @@ use crate::error::{Error, Result};
 use nalgebra::{DMatrix, DVector};
 
 /// Places and coefficients of a sparse row.
-pub(crate) type Entries = Vec<(usize, f64)>;
+pub(crate) type RowEntries = Vec<(usize, f64)>;
 
 /// A slave leads only where it is stiffer than its masters by this factor: for like bodies the
 /// paper's choice stands.
@@ -26,17 +26,17 @@ const DEPENDENT: f64 = 1e-10;
 /// Contact rows with their followers.
 pub(crate) struct Rows {
     /// `B`, by rows: contact freedoms and coefficients.
-    pub entries: Vec<Entries>,
+    pub entries: Vec<RowEntries>,
     /// Contact freedoms that lead.
     pub lead: Vec<usize>,
     /// Contact freedom of each row that follows.
     pub follow: Vec<usize>,
     /// `G`, by rows: places among the leaders, and weights.
-    pub carried: Vec<Entries>,
+    pub carried: Vec<RowEntries>,
     /// `H`, by rows: rows, and weights.
-    pub of_slip: Vec<Entries>,
+    pub of_slip: Vec<RowEntries>,
     /// `P = [1; G]`, by leaders: the contact freedoms that move with it, and weights.
-    pub moved: Vec<Entries>,
+    pub moved: Vec<RowEntries>,
 }
 
 impl Rows {
@@ -46,27 +46,28 @@ impl Rows {
     /// # Errors
     /// As [`Rows::any`].
     pub(crate) fn of_contact(
-        entries: Vec<Entries>,
+        entries: Vec<RowEntries>,
         n_contact: usize,
         diagonal: impl Fn(usize) -> f64,
     ) -> Result<Self> {
         let mut rows_at = vec![0usize; n_contact];
         entries.iter().flatten().for_each(|&(i, _)| rows_at[i] += 1);
-        let leads = |row: &Entries| {
+        let leads = |row: &RowEntries| {
             let [masters @ .., (slave, _)] = row.as_slice() else {
                 return false;
             };
             let softer = |&(i, b): &(usize, f64)| diagonal(*slave) * b * b > STIFFER * diagonal(i);
             masters.iter().any(softer)
         };
-        let is_pair = |row: &Entries| match row.as_slice() {
+        let is_pair = |row: &RowEntries| match row.as_slice() {
             [(i, _), (j, _)] => rows_at[*i] == 1 && rows_at[*j] == 1,
             _ => false,
         };
         if n_contact == 2 * entries.len() && entries.iter().all(is_pair) {
             return Ok(Self::of_pairs(entries, leads));
         }
-        let own_slave = |row: &Entries| row.last().is_some_and(|(slave, _)| rows_at[*slave] == 1);
+        let own_slave =
+            |row: &RowEntries| row.last().is_some_and(|(slave, _)| rows_at[*slave] == 1);
         if !entries.iter().all(|row| own_slave(row) && !leads(row)) {
             return Self::any(entries, n_contact, diagonal);
         }
@@ -80,8 +81,8 @@ impl Rows {
         let lead: Vec<usize> = (0..n_contact).filter(|&i| !is_follower[i]).collect();
         let mut place = vec![0; n_contact];
         lead.iter().enumerate().for_each(|(k, &i)| place[i] = k);
-        let masters = |row: &Entries| row.split_last().map(|(_, masters)| masters.to_vec());
-        let carried: Vec<Entries> = (entries.iter().filter_map(masters))
+        let masters = |row: &RowEntries| row.split_last().map(|(_, masters)| masters.to_vec());
+        let carried: Vec<RowEntries> = (entries.iter().filter_map(masters))
             .map(|row| row.into_iter().map(|(i, b)| (place[i], -b)).collect())
             .collect();
         Ok(Rows {
@@ -95,13 +96,14 @@ impl Rows {
     }
 
     /// Rows `u_j - u_i` that share no freedom; `leads` states whether `j` leads.
-    fn of_pairs(entries: Vec<Entries>, leads: impl Fn(&Entries) -> bool) -> Self {
-        let ends = |row: &Entries| {
+    fn of_pairs(entries: Vec<RowEntries>, leads: impl Fn(&RowEntries) -> bool) -> Self {
+        let ends = |row: &RowEntries| {
             let [i, j] = [row[0].0, row[1].0];
             if leads(row) { (j, i) } else { (i, j) }
         };
         let (lead, follow): (Vec<usize>, Vec<usize>) = entries.iter().map(ends).unzip();
-        let sign = |(row, follow): (&Entries, &usize)| if row[1].0 == *follow { 1.0 } else { -1.0 };
+        let sign =
+            |(row, follow): (&RowEntries, &usize)| if row[1].0 == *follow { 1.0 } else { -1.0 };
         let signs = entries.iter().zip(&follow).map(sign).enumerate();
         Rows {
             of_slip: signs.map(|entry| vec![entry]).collect(),
@@ -122,7 +124,7 @@ impl Rows {
     /// # Errors
     /// `Input` where the rows depend on each other.
     pub(crate) fn any(
-        entries: Vec<Entries>,
+        entries: Vec<RowEntries>,
         n_contact: usize,
         diagonal: impl Fn(usize) -> f64,
     ) -> Result<Self> {
@@ -161,13 +163,13 @@ impl Rows {
 
     /// Slip `B u` of each row.
     pub(super) fn slip(&self, u: &DVector<f64>) -> DVector<f64> {
-        let of = |row: &Entries| row.iter().map(|&(freedom, b)| b * u[freedom]).sum();
+        let of = |row: &RowEntries| row.iter().map(|&(freedom, b)| b * u[freedom]).sum();
         DVector::from_iterator(self.len(), self.entries.iter().map(of))
     }
 
     /// `H s`: how followers move against what carries them.
     pub(super) fn apart(&self, slip: &[f64]) -> DVector<f64> {
-        let of = |row: &Entries| row.iter().map(|&(k, h)| h * slip[k]).sum();
+        let of = |row: &RowEntries| row.iter().map(|&(k, h)| h * slip[k]).sum();
         DVector::from_iterator(self.len(), self.of_slip.iter().map(of))
     }
 
@@ -184,7 +186,7 @@ impl Rows {
 
     /// `X` becomes `H' X H`, in place where `H` is diagonal.
     pub(super) fn congruence(&self, matrix: DMatrix<f64>) -> DMatrix<f64> {
-        let single = |(j, row): (usize, &Entries)| match row.as_slice() {
+        let single = |(j, row): (usize, &RowEntries)| match row.as_slice() {
             [(k, h)] if *k == j => Some(*h),
             _ => None,
         };
@@ -209,7 +211,7 @@ impl Rows {
 
     /// `P' f`: what the leaders feel of a load on all contact freedoms.
     pub(super) fn on_leaders(&self, contact: &[f64]) -> DVector<f64> {
-        let of = |moved: &Entries| moved.iter().map(|&(freedom, w)| w * contact[freedom]).sum();
+        let of = |moved: &RowEntries| moved.iter().map(|&(freedom, w)| w * contact[freedom]).sum();
         DVector::from_iterator(self.lead.len(), self.moved.iter().map(of))
     }
 
@@ -232,11 +234,11 @@ impl Rows {
         let n = self.lead.len();
         let mut v = DVector::from_fn(n, |leader, _| self.motion_of_leader(trace, part, leader));
         let own = |freedom: usize| part[freedom] == trace.part;
-        let carried: Vec<(usize, &Entries)> = (self.follow.iter().copied().zip(&self.carried))
+        let carried: Vec<(usize, &RowEntries)> = (self.follow.iter().copied().zip(&self.carried))
             .filter(|(f, _)| own(*f))
             .collect();
         let product = |v: &DVector<f64>| {
-            let of = |(_, row): &(usize, &Entries)| row.iter().map(|&(k, w)| w * v[k]).sum();
+            let of = |(_, row): &(usize, &RowEntries)| row.iter().map(|&(k, w)| w * v[k]).sum();
             DVector::from_iterator(carried.len(), carried.iter().map(of))
         };
         let transposed = |r: &DVector<f64>| {
@@ -287,9 +289,9 @@ impl Rows {
     }
 }
 
-/// What moves with each leader: itself and its followers.
-fn moved(lead: &[usize], follow: &[usize], carried: &[Entries]) -> Vec<Entries> {
-    let mut moved: Vec<Entries> = lead.iter().map(|&freedom| vec![(freedom, 1.0)]).collect();
+/// Freedoms that move with each leader: itself and its followers.
+fn moved(lead: &[usize], follow: &[usize], carried: &[RowEntries]) -> Vec<RowEntries> {
+    let mut moved: Vec<RowEntries> = lead.iter().map(|&freedom| vec![(freedom, 1.0)]).collect();
     for (row, &freedom) in carried.iter().zip(follow) {
         for &(leader, weight) in row {
             moved[leader].push((freedom, weight));
@@ -350,7 +352,7 @@ fn dependent() -> Error {
 }
 
 /// The entries that are not zero, by rows.
-fn sparse(matrix: &DMatrix<f64>) -> Vec<Entries> {
+fn sparse(matrix: &DMatrix<f64>) -> Vec<RowEntries> {
     let of_row = |j: usize| {
         let row = matrix.row(j);
         let entries = row.iter().copied().enumerate();

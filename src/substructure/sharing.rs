@@ -19,11 +19,11 @@ const MOST: usize = 4;
 thread_local! {
     /// What is kept on this thread, the last one used at the end; `None` outside of
     /// [`sharing_factors`].
-    static KEPT: RefCell<Option<Vec<Kept>>> = const { RefCell::new(None) };
+    static KEPT: RefCell<Option<Vec<KeptFactor>>> = const { RefCell::new(None) };
 }
 
 /// A factor that nobody uses.
-struct Kept {
+struct KeptFactor {
     home: Home,
     condensed: Arc<dyn Condensed>,
 }
@@ -124,7 +124,7 @@ fn take(key: u128) -> Option<Held> {
     KEPT.with_borrow_mut(|kept| {
         let kept = kept.as_mut()?;
         let place = kept.iter().position(|kept| kept.home.key == key)?;
-        let Kept { home, condensed } = kept.remove(place);
+        let KeptFactor { home, condensed } = kept.remove(place);
         Some(Held {
             condensed,
             home: Some(home),
@@ -216,7 +216,7 @@ impl Drop for Held {
             if let Ok(mut kept) = kept.try_borrow_mut()
                 && let Some(kept) = kept.as_mut()
             {
-                kept.push(Kept { home, condensed });
+                kept.push(KeptFactor { home, condensed });
                 if kept.len() > MOST {
                     kept.remove(0);
                 }

@@ -66,8 +66,7 @@ pub(super) struct SplitSlip {
     pub motions: DVector<f64>,
 }
 
-/// What is left of a motion, as a share of it, when that share is the round-off of taking the rest
-/// away.
+/// Share of a motion that is left when the rest is taken away, below which it is round-off.
 const ROUND_OFF: f64 = 1e-11;
 
 /// The tied structure.
@@ -80,7 +79,7 @@ pub(crate) struct Tied {
     /// The motions on all contact freedoms, without what is rigid in each part
     /// (`n_contact x motions`).
     lifted: DMatrix<f64>,
-    /// What is rigid in them: amplitude of each trace (`traces x motions`).
+    /// Rigid part of the traces: amplitude of each trace (`traces x motions`).
     rigid_share: DMatrix<f64>,
     /// Orthonormal rigid traces of each part.
     rigid: Vec<Trace>,

@@ -10,7 +10,7 @@
 //! Two products with `G`. Summed entry by entry, each entry of `S` would be met once for each pair
 //! of leaders that carry its row and its column: the square of the entries of `G`.
 
-use super::rows::{Entries, Rows};
+use super::rows::{RowEntries, Rows};
 use crate::linalg::{ContactStiffness, blocked};
 use nalgebra::DMatrix;
 
@@ -47,12 +47,12 @@ impl TiedStiffness {
 }
 
 /// `G` by columns: the followers that each leader carries, with their weights.
-fn carried_by(rows: &Rows, leaders: &[usize]) -> Vec<Entries> {
+fn carried_by(rows: &Rows, leaders: &[usize]) -> Vec<RowEntries> {
     let mut column_of = vec![None; rows.lead.len()];
     for (column, &leader) in leaders.iter().enumerate() {
         column_of[leader] = Some(column);
     }
-    let mut columns = vec![Entries::new(); leaders.len()];
+    let mut columns = vec![RowEntries::new(); leaders.len()];
     for (follower, carried) in rows.carried.iter().enumerate() {
         for &(leader, weight) in carried {
             if let Some(column) = column_of[leader] {

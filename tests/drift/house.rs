@@ -98,6 +98,29 @@ pub(super) fn implemented(line: &str) -> Option<&str> {
     (end > 0 && !rest.contains(" for ")).then(|| &rest[..end])
 }
 
+/// The type, trait or alias that a line at the left margin declares.
+fn declared_type(line: &str) -> Option<&str> {
+    let mut words = line.split_whitespace();
+    let is_ahead = |word: &str| word == "unsafe" || word.starts_with("pub") || word.ends_with(')');
+    let kind = words.find(|word| !is_ahead(word))?;
+    let is_type = ["struct", "enum", "union", "trait", "type"].contains(&kind);
+    let name = words.next().filter(|_| is_type && !line.starts_with(' '))?;
+    name.split(|c: char| !(c.is_alphanumeric() || c == '_'))
+        .next()
+}
+
+/// Names that more than one type of a library has, with their number.
+fn shared_names(library: &[Text]) -> Vec<String> {
+    let mut declared: BTreeMap<&str, usize> = BTreeMap::new();
+    for t in library.iter().filter(|t| !is_test(&t.name)) {
+        for name in of_library(&t.text).lines().filter_map(declared_type) {
+            *declared.entry(name).or_default() += 1;
+        }
+    }
+    let shared = declared.into_iter().filter(|(_, n)| *n > 1);
+    shared.map(|(name, n)| format!("{name}: {n}")).collect()
+}
+
 /// Whole doc comments.
 fn doc_comments(text: &str) -> Vec<String> {
     let mut out: Vec<String> = Vec::new();
@@ -169,6 +192,7 @@ fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
     let short: Vec<String> = docs().filter(|doc| is_short(doc)).collect();
     let leaning: Vec<String> = docs().filter(|doc| leans(doc)).collect();
     let (long_here, long_tests) = (long(&library), long(&tests));
+    let shared = shared_names(&library);
     vec![
         (
             "lines of code in src",
@@ -201,6 +225,7 @@ fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
             circles.len(),
             circles,
         ),
+        ("type names that mean several things", shared.len(), shared),
         (
             "doc comments of less than 15 characters",
             short.len(),
@@ -227,7 +252,7 @@ fn figures_of_the_house_are_in_contributing() {
         }
     }
     let page = std::fs::read_to_string(root().join("CONTRIBUTING.md")).unwrap();
-    for (what, ..) in &found {
+    for (what, count, places) in &found {
         let head = format!("| {what} |");
         let row = page.lines().find_map(|line| line.strip_prefix(&head));
         let row = row.unwrap_or_else(|| panic!("CONTRIBUTING.md has no row `{what}`"));
@@ -237,6 +262,13 @@ fn figures_of_the_house_are_in_contributing() {
             .collect::<Result<_, _>>()
             .unwrap_or_else(|error| panic!("{what}: {row}: {error}"));
         assert_eq!(told.len(), 2, "{what}: before and now, not {row}");
+        if what.contains("names") {
+            assert!(
+                *count <= told[1],
+                "{what}: {count}, not {}: {places:#?}",
+                told[1]
+            );
+        }
     }
 }
 
@@ -332,5 +364,13 @@ pub trait T {
     assert!(leans("Its length.") && leans("The same, larger.") && leans("Those"));
     assert!(!leans("Itself a length.") && !leans("Length of those."));
     assert!(is_short("Two.") && !is_short("Number of pairs."));
+    let declared = [
+        "pub(in crate::a) struct One<T>(T);",
+        "unsafe trait Two {",
+        "type Three = u8;",
+    ];
+    let declared: Vec<_> = declared.into_iter().filter_map(declared_type).collect();
+    assert_eq!(declared, ["One", "Two", "Three"]);
+    assert!(declared_type("    type Item = u8;").is_none() && declared_type("}").is_none());
     assert_eq!(lines_of_code("a\n\n// b\n    c // d\n"), 2);
 }

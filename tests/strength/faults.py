@@ -186,8 +186,8 @@ f(40, "analysis/increments/elastic.rs", "let t = before + share * (self.path.t()
   "analysis", "the load of first yield is interpolated from the start of the stretch, not from the last event",
   "verification (yield_load, hertz_line, run), unit analysis")
 f(41, "model/mirror.rs",
-  "let is_loaded = |other: &Side| other.nodes.iter().all(|&n| conditions.loaded[n]);",
-  "let is_loaded = |other: &Side| {\n    let mut loads = other.nodes.iter().map(|&n| conditions.loaded[n]);\n"
+  "let is_loaded = |other: &MirrorSide| other.nodes.iter().all(|&n| conditions.loaded[n]);",
+  "let is_loaded = |other: &MirrorSide| {\n    let mut loads = other.nodes.iter().map(|&n| conditions.loaded[n]);\n"
   "    if " + on(41) + " { loads.any(|l| l) } else { loads.all(|l| l) }\n};",
   "analysis", "a plane counts as one of symmetry although a single node at its rim is pushed along it",
   "unit model::mirror; stability (whether_it_yields)")

@@ -129,7 +129,7 @@ fn goals(program: &Program) -> Vec<f64> {
     program.targets.iter().map(goal).collect()
 }
 
-/// How often the load turns round on its way from zero to the last goal, and once.
+/// Number of times that the load turns round on its way from zero to the last goal, plus one.
 fn ways(goals: &[f64]) -> f64 {
     let (mut at, mut upward, mut count) = (0.0, true, 1.0);
     for &to in goals {

@@ -3,7 +3,7 @@
 use super::measure::pair_states;
 use super::reactions;
 use super::reading::Reading;
-use crate::analysis::stress::element_stresses::Shown;
+use crate::analysis::stress::element_stresses::ShownStresses;
 use crate::analysis::stress::stresses::Stresses;
 use crate::error::Result;
 use crate::model::Model;
@@ -14,7 +14,7 @@ use std::time::Instant;
 
 /// A state as it is reported.
 pub struct Figures {
-    /// What the results show of it.
+    /// State as the results show it.
     pub state: State,
     /// Elements outside the zone with stress beyond yield: the zone was too small for this state.
     pub beyond_yield_outside: Vec<usize>,
@@ -116,7 +116,7 @@ impl Reading<'_, '_> {
     /// all elements show and the forces of their stresses on the nodes.
     fn fields(
         &self,
-        shown: Shown,
+        shown: ShownStresses,
         u: &[f64],
         nodal: Vec<Vector>,
         pairs: &[PairState],
@@ -135,7 +135,7 @@ impl Reading<'_, '_> {
 fn fields(
     model: &Model,
     nodal: Vec<Vector>,
-    shown: Shown,
+    shown: ShownStresses,
     pairs: &[PairState],
 ) -> ([Option<f64>; 2], Fields) {
     let dimension = model.mesh.dimension;

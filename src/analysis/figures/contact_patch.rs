@@ -87,8 +87,8 @@ pub(super) struct Patch<'a> {
 }
 
 impl Patch<'_> {
-    /// Where the surface ends beyond its last place `k`: there, or on the axis, or where the other
-    /// surface does.
+    /// Arc length where the surface ends beyond its last place `k`: there, or on the axis, or where
+    /// the other surface ends.
     pub(super) fn end_arc(&self, k: usize) -> f64 {
         match (self.axis_beside(k), self.contact.extent) {
             (Some(axis), _) => axis.pair.arc,

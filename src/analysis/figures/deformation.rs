@@ -63,7 +63,7 @@ impl Deformation {
         }
     }
 
-    /// What a user is to know of it.
+    /// Warning about the deformation, where the user is to know of it.
     pub(in crate::analysis) fn warning(&self) -> Option<String> {
         let Deformation {
             largest,

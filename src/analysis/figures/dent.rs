@@ -67,7 +67,7 @@ impl Reading<'_, '_> {
         dent
     }
 
-    /// How far each pair's two sides have sunk into their bodies without any load.
+    /// Depths to which the two sides of each pair have sunk into their bodies without any load.
     fn sunk(&mut self) -> Vec<Sunk> {
         let forces = &self.solver.now.initial.forces;
         let n = forces.len();

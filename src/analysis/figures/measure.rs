@@ -26,7 +26,7 @@ pub struct ContactFigures {
     pub half_width: f64,
     /// Area of that patch, of the whole; in the plane its width.
     pub area: f64,
-    /// How well it is read.
+    /// Accuracy of the half width's reading.
     pub half_width_reading: EdgeReading,
     /// Sum of the contact forces of the model.
     pub force: f64,

@@ -35,7 +35,7 @@ use crate::substructure::Trailing;
 const LEFT: f64 = 3.162_277_660_168_379_5e-5;
 
 /// A search direction and its load, and room for what products with it are made of.
-struct Search {
+struct SearchDirection {
     u: Trailing,
     load: Trailing,
     lost: Trailing,
@@ -134,7 +134,7 @@ impl Solver<'_> {
     ) -> bool {
         let mut carried = vec![0.0; self.now.gap.len()];
         let mut z = self.structure.sub.zeros();
-        let mut p = Search {
+        let mut p = SearchDirection {
             u: z.clone(),
             load: z.clone(),
             lost: z.clone(),
@@ -182,7 +182,7 @@ impl Solver<'_> {
 
     /// What the tangent has less than the factored one along a direction: forces in `lost`, and the
     /// work of these.
-    fn softer(&mut self, tangent: &FactoredTangent, p: &mut Search, keep: f64) -> f64 {
+    fn softer(&mut self, tangent: &FactoredTangent, p: &mut SearchDirection, keep: f64) -> f64 {
         self.zone.softening_times(&p.u, &mut p.lost);
         self.zone.kept_softening_times(&p.u, &mut p.other);
         for (lost, other) in p.lost.iter_mut().zip(p.other.iter()) {

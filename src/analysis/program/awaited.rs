@@ -102,7 +102,7 @@ impl<'m> Awaited<'m> {
         }
     }
 
-    /// What vanishes where it has its value, of order 1.
+    /// Function that vanishes where the figure has its value, of order 1.
     pub(super) fn monitor(self, unloads_outside: Rc<Cell<bool>>) -> Box<Monitor<'m>> {
         Box::new(move |solver: &mut Solver| {
             Ok(self.as_meant(solver, &unloads_outside)? / self.value - 1.0)

@@ -24,7 +24,7 @@ pub(super) struct RunRecord {
     pub(super) resumed: usize,
 }
 
-/// What does not change any more, in files of its own.
+/// Parts of a checkpoint that do not change any more, in files of their own.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Parts {
     /// States that were reached, with the rows and points of the path up to the last of them.

@@ -7,7 +7,7 @@
 use super::assembled::Analysis;
 use super::position::{Purpose, Stage};
 use super::run::Run;
-use super::stopwatch::Row;
+use super::stopwatch::TimeRow;
 use crate::analysis::choice::zone_choice;
 use crate::analysis::choice::zone_fit::{Expected, ZoneFit};
 use crate::analysis::increments::drive::Drive;
@@ -79,7 +79,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let seconds = &mut run.position.seconds;
         let found_since = expected.as_ref().map_or(start, |expected| expected.since);
         *seconds = seconds.running_since(found_since);
-        seconds.hand_over((start - found_since).as_secs_f64(), Row::Zone);
+        seconds.hand_over((start - found_since).as_secs_f64(), TimeRow::Zone);
         run.zone.expected = expected.map(|expected| expected.ratios);
         run.follow_sets()?;
         run.begin()?;
@@ -98,11 +98,11 @@ impl<'m, 'o> Run<'m, 'o> {
             Stage::Targets => self.observer.phase("load program"),
             _ => {}
         }
-        self.position.seconds.switch(Row::History);
+        self.position.seconds.switch(TimeRow::History);
         while let Some(event) = self.next()? {
             let increments = usize::from(matches!(event, Event::Increment(_)));
             let goes_on = self.record(event);
-            self.timed(Row::Checkpoints, |run| {
+            self.timed(TimeRow::Checkpoints, |run| {
                 run.write_checkpoint(increments, !goes_on)
             });
             if !goes_on {
@@ -173,15 +173,15 @@ impl<'m, 'o> Run<'m, 'o> {
         let plastic = self.increments_are_plastic();
         if plastic
             && self.position.drive.is_none()
-            && self.timed(Row::Zone, |run| run.follow_load())?
+            && self.timed(TimeRow::Zone, |run| run.follow_load())?
         {
             self.end_search();
             return Ok(None);
         }
         let effect = if plastic {
-            Row::Plasticity
+            TimeRow::Plasticity
         } else {
-            Row::Contact
+            TimeRow::Contact
         };
         let Step { increment, arrival } =
             self.timed(effect, |run| match run.position.drive.take() {
@@ -356,7 +356,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         if !self.zone.choice.elements.is_empty() && (required || self.largest_factor().is_some()) {
             self.observer.phase("yield load");
-            let under_preload = self.timed(Row::YieldLoad, |run| run.find_yield(required))?;
+            let under_preload = self.timed(TimeRow::YieldLoad, |run| run.find_yield(required))?;
             if under_preload {
                 self.results.history.clear();
                 self.position.stage = Stage::Preload { again: true };
@@ -379,7 +379,7 @@ impl<'m, 'o> Run<'m, 'o> {
                 )),
             };
         }
-        self.timed(Row::Zone, |run| run.fit_zone())?;
+        self.timed(TimeRow::Zone, |run| run.fit_zone())?;
         self.observer.phase("load program");
         self.position.stage = Stage::Targets;
         Ok(())

@@ -1,7 +1,7 @@
 //! What a run leaves at its end, wherever that is.
 
 use super::run::Run;
-use super::stopwatch::Row;
+use super::stopwatch::TimeRow;
 use crate::analysis::check::effects::effects;
 use crate::analysis::figures::deformation::softened;
 use crate::analysis::figures::quality;
@@ -15,12 +15,12 @@ use crate::results::{Quality, Results, Sizes, State, Status, Tolerances};
 const DOUBTFUL: f64 = 1e10;
 
 /// States with their quality, that at first yield among them.
-type Judged = Vec<(String, Quality)>;
+type JudgedStates = Vec<(String, Quality)>;
 
 impl Run<'_, '_> {
     /// The results as far as they go.
     pub(super) fn finish(mut self) -> Results {
-        self.position.seconds.switch(Row::States);
+        self.position.seconds.switch(TimeRow::States);
         let model = self.solver.structure.model;
         let mut results = std::mem::take(&mut self.results);
         results.sizes = self.sizes();
@@ -30,7 +30,7 @@ impl Run<'_, '_> {
         results.condition = self.solver.structure.condition;
         let states = results.states.iter().map(|s| (s.name.clone(), s.quality));
         let at_yield = self.at_yield.map(|q| ("yield".to_string(), q));
-        let judged: Judged = states.chain(at_yield).collect();
+        let judged: JudgedStates = states.chain(at_yield).collect();
         let tolerances = quality::tolerances(model);
         self.tell_of_round_off(&mut results, &judged, &tolerances);
         self.tell_of_deformation(&mut results);
@@ -78,7 +78,7 @@ impl Run<'_, '_> {
     fn tell_of_round_off(
         &mut self,
         results: &mut Results,
-        judged: &Judged,
+        judged: &JudgedStates,
         tolerances: &Tolerances,
     ) {
         // An elastic state is not iterated: its forces are off by what round-off leaves.
@@ -119,7 +119,7 @@ impl Run<'_, '_> {
     fn tell_of_inaccuracy(
         &mut self,
         results: &mut Results,
-        judged: &Judged,
+        judged: &JudgedStates,
         tolerances: &Tolerances,
     ) {
         for (name, quality) in judged {
@@ -146,8 +146,8 @@ impl Run<'_, '_> {
         // To give back their memory takes its time, too.
         drop((self.solver, self.zone));
         let seconds = &mut self.position.seconds;
-        seconds.switch(Row::States);
-        for (row, name) in Row::ALL {
+        seconds.switch(TimeRow::States);
+        for (row, name) in TimeRow::ALL {
             results
                 .timings
                 .push((name.to_string(), seconds.seconds(row)));
@@ -156,11 +156,11 @@ impl Run<'_, '_> {
             match effect.name.as_str() {
                 "contact" => {
                     effect.seconds =
-                        seconds.seconds(Row::Contact) + seconds.seconds(Row::YieldLoad);
+                        seconds.seconds(TimeRow::Contact) + seconds.seconds(TimeRow::YieldLoad);
                     effect.memory_bytes = bytes[0];
                 }
                 "plasticity" if effect.on => {
-                    effect.seconds = seconds.seconds(Row::Plasticity);
+                    effect.seconds = seconds.seconds(TimeRow::Plasticity);
                     effect.memory_bytes = bytes[1];
                 }
                 _ => {}

@@ -24,7 +24,7 @@ const HALVINGS: usize = 3;
 
 /// A point: how much of the way lies behind, maximum pressure, half width, and what that may be
 /// off by where the reading of a patch in space wavers more than a line bends.
-type Figures = [f64; 4];
+type PathFigures = [f64; 4];
 
 impl PathSampler {
     /// Takes note of the next row, at which the solver is; the points on the way to it that a
@@ -49,7 +49,7 @@ impl PathSampler {
             return Vec::new();
         }
         let between = |a: f64, b: f64, share: f64| a + share * (b - a);
-        let figures = |share: f64| -> Figures {
+        let figures = |share: f64| -> PathFigures {
             let ends = from.forces.iter().zip(&self.forces);
             let forces: Vec<f64> = ends.map(|(a, b)| between(*a, *b, share)).collect();
             let found = contact_figures(solver.structure.model, &forces, solver.scales.force);
@@ -76,7 +76,7 @@ impl PathSampler {
 }
 
 /// The points between two ends without which a curve through them would be wrong.
-fn bends(ends: [Figures; 2], figures: &impl Fn(f64) -> Figures) -> Vec<Figures> {
+fn bends(ends: [PathFigures; 2], figures: &impl Fn(f64) -> PathFigures) -> Vec<PathFigures> {
     let quarters = [0.25, 0.5, 0.75].map(figures);
     if quarters.iter().all(|point| is_straight(ends, *point)) {
         return Vec::new();
@@ -94,10 +94,10 @@ fn bends(ends: [Figures; 2], figures: &impl Fn(f64) -> Figures) -> Vec<Figures> 
 
 /// Adds the points between two ends that lie off the line between them, down to `halvings`.
 fn halve(
-    ends: [Figures; 2],
-    figures: &impl Fn(f64) -> Figures,
+    ends: [PathFigures; 2],
+    figures: &impl Fn(f64) -> PathFigures,
     halvings: usize,
-    out: &mut Vec<Figures>,
+    out: &mut Vec<PathFigures>,
 ) {
     if halvings == 0 {
         return;
@@ -112,7 +112,7 @@ fn halve(
 }
 
 /// Whether a point lies on the line between two.
-fn is_straight([from, to]: [Figures; 2], point: Figures) -> bool {
+fn is_straight([from, to]: [PathFigures; 2], point: PathFigures) -> bool {
     let share = (point[0] - from[0]) / (to[0] - from[0]);
     [(1, 0.0), (2, point[3])].into_iter().all(|(k, wavers)| {
         let on_line = from[k] + share * (to[k] - from[k]);
@@ -135,7 +135,7 @@ mod tests {
         // A kink on the way, and a curve.
         let kink = |t: f64| [t, (t - 0.3).abs(), 1.0, 0.0];
         let curve = |t: f64| [t, 1.0, t.sqrt(), 0.0];
-        for path in [&kink as &dyn Fn(f64) -> Figures, &curve] {
+        for path in [&kink as &dyn Fn(f64) -> PathFigures, &curve] {
             let ends = [path(0.0), path(1.0)];
             let mut points = vec![ends[0]];
             points.extend(bends(ends, &path));

@@ -104,9 +104,9 @@ pub(super) struct FirstYield {
     pub(super) alpha: Option<f64>,
     /// Load factors between which the virgin structure is known to stay elastic.
     pub(super) elastic_range: [f64; 2],
-    /// Where and under what load it was found.
+    /// Place and load at which first yield was found.
     pub(super) point: Option<YieldPoint>,
-    /// Where the stress is watched on the way to it.
+    /// Places at which the stress is watched on the way to first yield.
     pub(super) watched: Watched,
 }
 

@@ -3,7 +3,7 @@
 use super::checkpoints::CheckpointWriter;
 use super::path::PathSampler;
 use super::position::{Position, Purpose, Start};
-use super::stopwatch::Row;
+use super::stopwatch::TimeRow;
 use crate::analysis::choice::zone_fit::ZoneFit;
 use crate::analysis::figures::gauges::Gauges;
 use crate::analysis::increments::step::Monitor;
@@ -27,7 +27,7 @@ pub(in crate::analysis) struct Run<'m, 'o> {
     pub(super) position: Position,
     /// Where the way to the target at hand starts.
     pub(super) start: Option<Start>,
-    /// What vanishes at the target at hand, where it is no load factor.
+    /// Function that vanishes at the target at hand, where the target is no load factor.
     pub(super) monitor: Option<Box<Monitor<'m>>>,
     /// Whether the target at hand was looked for with a zone outside of which unloading yields.
     pub(super) unloads_outside: Rc<Cell<bool>>,
@@ -76,7 +76,7 @@ impl<'m, 'o> Run<'m, 'o> {
     }
 
     /// Does work that a row of the time table is about.
-    pub(super) fn timed<T>(&mut self, row: Row, work: impl FnOnce(&mut Self) -> T) -> T {
+    pub(super) fn timed<T>(&mut self, row: TimeRow, work: impl FnOnce(&mut Self) -> T) -> T {
         let before = self.position.seconds.switch(row);
         let out = work(self);
         self.position.seconds.switch(before);

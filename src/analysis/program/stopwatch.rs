@@ -10,7 +10,7 @@ use std::time::Instant;
 
 /// A row of the time table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Row {
+pub(super) enum TimeRow {
     /// Factorisations, condensed loads, and changes of the zone.
     Condensation,
     /// The search for the load at first yield.
@@ -32,18 +32,18 @@ pub(super) enum Row {
     Checkpoints,
 }
 
-impl Row {
+impl TimeRow {
     /// All rows with their names, in the order in which they are shown.
-    pub(super) const ALL: [(Row, &str); 9] = [
-        (Row::Condensation, FACTORISATION_ROW),
-        (Row::YieldLoad, "yield load"),
-        (Row::Zone, "choice of the zone"),
-        (Row::Contact, "elastic increments"),
-        (Row::Plasticity, "elastoplastic increments"),
-        (Row::History, "history"),
-        (Row::States, "states"),
-        (Row::Stresses, "stresses"),
-        (Row::Checkpoints, "checkpoints"),
+    pub(super) const ALL: [(TimeRow, &str); 9] = [
+        (TimeRow::Condensation, FACTORISATION_ROW),
+        (TimeRow::YieldLoad, "yield load"),
+        (TimeRow::Zone, "choice of the zone"),
+        (TimeRow::Contact, "elastic increments"),
+        (TimeRow::Plasticity, "elastoplastic increments"),
+        (TimeRow::History, "history"),
+        (TimeRow::States, "states"),
+        (TimeRow::Stresses, "stresses"),
+        (TimeRow::Checkpoints, "checkpoints"),
     ];
 }
 
@@ -51,21 +51,21 @@ impl Row {
 /// far: it goes on from there.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Stopwatch {
-    seconds: [f64; Row::ALL.len()],
+    seconds: [f64; TimeRow::ALL.len()],
     #[serde(skip, default = "first_row")]
-    row: Row,
+    row: TimeRow,
     #[serde(skip, default = "Instant::now")]
     since: Instant,
 }
 
-fn first_row() -> Row {
-    Row::Condensation
+fn first_row() -> TimeRow {
+    TimeRow::Condensation
 }
 
 impl Default for Stopwatch {
     fn default() -> Self {
         Stopwatch {
-            seconds: [0.0; Row::ALL.len()],
+            seconds: [0.0; TimeRow::ALL.len()],
             row: first_row(),
             since: Instant::now(),
         }
@@ -79,7 +79,7 @@ impl Stopwatch {
     }
 
     /// Runs for another row from now on; the row before.
-    pub(super) fn switch(&mut self, to: Row) -> Row {
+    pub(super) fn switch(&mut self, to: TimeRow) -> TimeRow {
         let now = Instant::now();
         self.seconds[self.row as usize] += now.duration_since(self.since).as_secs_f64();
         self.since = now;
@@ -88,13 +88,13 @@ impl Stopwatch {
 
     /// Seconds that were spent for the row at hand and belong to another, which was measured on its
     /// own.
-    pub(super) fn hand_over(&mut self, seconds: f64, to: Row) {
+    pub(super) fn hand_over(&mut self, seconds: f64, to: TimeRow) {
         self.seconds[self.row as usize] -= seconds;
         self.seconds[to as usize] += seconds;
     }
 
     /// Seconds of a row up to the last switch.
-    pub(super) fn seconds(&self, row: Row) -> f64 {
+    pub(super) fn seconds(&self, row: TimeRow) -> f64 {
         self.seconds[row as usize]
     }
 }
@@ -107,21 +107,24 @@ mod tests {
     /// nothing counts twice.
     #[test]
     fn rows_add_up_to_the_whole() {
-        for (place, (row, _)) in Row::ALL.into_iter().enumerate() {
+        for (place, (row, _)) in TimeRow::ALL.into_iter().enumerate() {
             assert_eq!(row as usize, place);
         }
         let begun = Instant::now();
         let mut watch = Stopwatch::default().running_since(begun);
-        let mut before = Row::Condensation;
+        let mut before = TimeRow::Condensation;
         for k in 0..1000 {
-            let next = Row::ALL[k * 7 % Row::ALL.len()].0;
+            let next = TimeRow::ALL[k * 7 % TimeRow::ALL.len()].0;
             assert_eq!(watch.switch(next), before);
-            watch.hand_over(1e-7, Row::Stresses);
+            watch.hand_over(1e-7, TimeRow::Stresses);
             before = next;
         }
         watch.switch(before);
         let whole = watch.since.duration_since(begun).as_secs_f64();
-        let sum: f64 = Row::ALL.iter().map(|(row, _)| watch.seconds(*row)).sum();
+        let sum: f64 = TimeRow::ALL
+            .iter()
+            .map(|(row, _)| watch.seconds(*row))
+            .sum();
         // Durations are whole nanoseconds: what is left is the round-off of some thousand sums.
         assert!(
             (sum - whole).abs() <= 4e3 * f64::EPSILON * (whole + 1e-4),
@@ -132,11 +135,11 @@ mod tests {
     #[test]
     fn what_a_checkpoint_holds_goes_on() {
         let mut watch = Stopwatch::default();
-        watch.switch(Row::States);
+        watch.switch(TimeRow::States);
         let bytes = postcard::to_stdvec(&watch).unwrap();
         let mut again: Stopwatch = postcard::from_bytes(&bytes).unwrap();
         assert_eq!(again.seconds, watch.seconds);
-        assert_eq!(again.switch(Row::Contact), Row::Condensation);
-        assert!(again.seconds(Row::Condensation) >= watch.seconds(Row::Condensation));
+        assert_eq!(again.switch(TimeRow::Contact), TimeRow::Condensation);
+        assert!(again.seconds(TimeRow::Condensation) >= watch.seconds(TimeRow::Condensation));
     }
 }

@@ -11,8 +11,8 @@ use crate::scene::{Direction, DisplacementTarget};
 use std::rc::Rc;
 
 impl<'m> Run<'m, '_> {
-    /// What vanishes at the target at hand, of order 1 where it is measured against `scale`: so the
-    /// accuracy of the search does not depend on units.
+    /// Function that vanishes at the target at hand, of order 1 where it is measured against
+    /// `scale`: so the accuracy of the search does not depend on units.
     ///
     /// # Errors
     /// A target that cannot be measured.

@@ -2,7 +2,7 @@
 
 use super::position::{FirstYield, Start, share_of_way};
 use super::run::{Run, ZONE_ATTEMPTS};
-use super::stopwatch::Row;
+use super::stopwatch::TimeRow;
 use crate::analysis::check::seconds::gaps_are_alike;
 use crate::analysis::choice::zone_choice;
 use crate::analysis::increments::step::Arrival;
@@ -99,10 +99,10 @@ impl<'m> Run<'m, '_> {
     /// on.
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
         let (target, label) = self.target();
-        let mut figures = self.timed(Row::States, |run| {
+        let mut figures = self.timed(TimeRow::States, |run| {
             let figures = run.solver.reading().figures(&label, target.fields)?;
             let seconds = &mut run.position.seconds;
-            seconds.hand_over(figures.stress_seconds, Row::Stresses);
+            seconds.hand_over(figures.stress_seconds, TimeRow::Stresses);
             Ok::<_, Error>(figures)
         })?;
         if target.load_factor.is_some() {

@@ -2,7 +2,7 @@
 //! must.
 
 use super::run::Run;
-use super::stopwatch::Row;
+use super::stopwatch::TimeRow;
 use crate::analysis::choice::zone_choice::{self, Choice};
 use crate::analysis::choice::zone_fit::Spread;
 use crate::analysis::increments::step::crosses;
@@ -146,7 +146,7 @@ impl Run<'_, '_> {
             return Ok(());
         }
         self.zone.forget_recovery();
-        self.timed(Row::Condensation, |run| {
+        self.timed(TimeRow::Condensation, |run| {
             let elements = choice.elements.clone();
             run.solver.set_zone(elements, &choice.guard)
         })?;

@@ -27,19 +27,19 @@ pub(in crate::analysis) struct ElementStresses {
     /// Whether an element of the zone carries more than its initial yield stress.
     pub(in crate::analysis) beyond_yield_inside: bool,
     /// Where fields are asked for.
-    pub(in crate::analysis) shown: Option<Shown>,
+    pub(in crate::analysis) shown: Option<ShownStresses>,
 }
 
 /// What fields show of some elements, one after the other.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub(in crate::analysis) struct Shown {
+pub(in crate::analysis) struct ShownStresses {
     /// Means of the stress.
     pub(in crate::analysis) stress: Vec<f64>,
     /// The largest von Mises stress at a point.
     pub(in crate::analysis) von_mises: Vec<f64>,
     /// The largest equivalent plastic strain at a point.
     pub(in crate::analysis) plastic_strain: Vec<f64>,
-    /// What the polynomials around them say.
+    /// Recovered stresses and energies, by the polynomials around the elements.
     pub(in crate::analysis) recovered: Recovered,
     /// Values at the points, where they are asked for.
     pub(in crate::analysis) points: Option<PointValues>,
@@ -71,7 +71,7 @@ impl ElementStresses {
             forces,
             beyond_yield_inside: beyond_yield.len() < n_beyond,
             beyond_yield_outside: beyond_yield,
-            shown: with_fields.then(|| Shown::new(field, elements)),
+            shown: with_fields.then(|| ShownStresses::new(field, elements)),
         }
     }
 
@@ -85,7 +85,7 @@ impl ElementStresses {
             forces: vec![[0.0; 3]; n_nodes],
             beyond_yield_outside: Vec::new(),
             beyond_yield_inside: false,
-            shown: shown.map(|components| Shown {
+            shown: shown.map(|components| ShownStresses {
                 stress: vec![0.0; components * n_elements],
                 von_mises: vec![0.0; n_elements],
                 plastic_strain: vec![0.0; n_elements],
@@ -136,13 +136,13 @@ impl ElementStresses {
     }
 }
 
-impl Shown {
+impl ShownStresses {
     fn new<const D: usize, const S: usize, const P: usize, const N: usize>(
         field: &StressField<D, S, P, N>,
         elements: &[usize],
     ) -> Self {
         let n = elements.len();
-        let mut out = Shown {
+        let mut out = ShownStresses {
             stress: vec![0.0; S * n],
             von_mises: vec![0.0; n],
             plastic_strain: vec![0.0; n],

@@ -76,7 +76,7 @@ impl Recovered {
         let continuum = field.continuum;
         let mesh = &continuum.mesh;
         let neighbours = Neighbours::new(mesh, 0..mesh.n_elements());
-        let samples = Samples::new(field);
+        let samples = ElementSamples::new(field);
         let mut out = Recovered {
             energies: Vec::with_capacity(elements.len()),
             at_nodes: vec![0.0; S * mesh.n_nodes()],
@@ -150,18 +150,18 @@ struct OfElement<const S: usize, const N: usize> {
 
 /// Stress at a superconvergent point.
 #[derive(Clone, Copy)]
-struct Sample<const D: usize, const S: usize> {
+struct PointStress<const D: usize, const S: usize> {
     position: [f64; D],
     stress: [f64; S],
 }
 
 /// The samples of all elements, element by element.
-struct Samples<const D: usize, const S: usize> {
+struct ElementSamples<const D: usize, const S: usize> {
     first: Vec<u32>,
-    list: Vec<Sample<D, S>>,
+    list: Vec<PointStress<D, S>>,
 }
 
-impl<const D: usize, const S: usize> Samples<D, S> {
+impl<const D: usize, const S: usize> ElementSamples<D, S> {
     fn new<const P: usize, const N: usize>(field: &StressField<D, S, P, N>) -> Self {
         let (continuum, mesh) = (field.continuum, &field.continuum.mesh);
         let mut first = vec![0u32];
@@ -172,7 +172,7 @@ impl<const D: usize, const S: usize> Samples<D, S> {
             };
             first.push(first[e] + own as u32);
         }
-        let none = Sample {
+        let none = PointStress {
             position: [0.0; D],
             stress: [0.0; S],
         };
@@ -189,10 +189,10 @@ impl<const D: usize, const S: usize> Samples<D, S> {
             .enumerate()
             .with_min_len(256)
             .for_each(|(e, samples)| sample(continuum, e, &field.at(e), samples));
-        Samples { first, list }
+        ElementSamples { first, list }
     }
 
-    fn of(&self, element: u32) -> &[Sample<D, S>] {
+    fn of(&self, element: u32) -> &[PointStress<D, S>] {
         let e = element as usize;
         &self.list[self.first[e] as usize..self.first[e + 1] as usize]
     }
@@ -224,12 +224,12 @@ fn sample<const D: usize, const S: usize, const P: usize, const N: usize>(
     continuum: &Continuum,
     e: usize,
     element: &ElementStress<D, S, P, N>,
-    out: &mut [Sample<D, S>],
+    out: &mut [PointStress<D, S>],
 ) {
     let (gradients, stress) = (&element.gradients, &element.stress);
     let position = gradients.positions(&continuum.mesh.element_coordinates(e));
     if let [mean] = out {
-        *mean = Sample {
+        *mean = PointStress {
             position: gradients.mean(&position),
             stress: gradients.mean(stress),
         };
@@ -238,7 +238,7 @@ fn sample<const D: usize, const S: usize, const P: usize, const N: usize>(
     let position = superconvergent(continuum, e, &position);
     let stress = superconvergent(continuum, e, stress);
     for (g, sample) in out.iter_mut().enumerate() {
-        *sample = Sample {
+        *sample = PointStress {
             position: position.each_ref().map(|lanes| lanes[g]),
             stress: stress.each_ref().map(|lanes| lanes[g]),
         };
@@ -251,7 +251,7 @@ fn degree(continuum: &Continuum, e: usize) -> usize {
 }
 
 /// A point of the quadrature: where, its weight, and `sigma_h` there.
-type Point<const D: usize, const S: usize> = ([f64; D], f64, [f64; S]);
+type QuadraturePoint<const D: usize, const S: usize> = ([f64; D], f64, [f64; S]);
 
 /// Calls `visit` for each point at which the stresses are compared. Quadratic elements have their
 /// stress at the Gauss points, where it is superconvergent and its error all but vanishes: between
@@ -260,7 +260,7 @@ fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
     continuum: &Continuum,
     e: usize,
     element: &ElementStress<D, S, P, N>,
-    mut visit: impl FnMut(Point<D, S>),
+    mut visit: impl FnMut(QuadraturePoint<D, S>),
 ) {
     let coordinates = continuum.mesh.element_coordinates::<D, N>(e);
     let stress = &element.stress;
@@ -309,7 +309,7 @@ fn recovered<const D: usize, const S: usize, const P: usize, const N: usize>(
     e: usize,
     element: &ElementStress<D, S, P, N>,
     patch: &[u32],
-    samples: &Samples<D, S>,
+    samples: &ElementSamples<D, S>,
 ) -> OfElement<S, N> {
     let material = &continuum.materials[continuum.mesh.element_body[e] as usize];
     let frame = Frame::about(&continuum.mesh, e);
@@ -361,7 +361,7 @@ fn weight(x: &[f64]) -> f64 {
 fn fit<const DEGREE: usize, const D: usize, const S: usize>(
     frame: &Frame<D>,
     patch: &[u32],
-    samples: &Samples<D, S>,
+    samples: &ElementSamples<D, S>,
 ) -> Option<[Terms; S]> {
     let within = || patch.iter().flat_map(|&member| samples.of(member));
     // As many samples as terms would be interpolated, noise and all.
@@ -369,7 +369,7 @@ fn fit<const DEGREE: usize, const D: usize, const S: usize>(
     if n > 1 && within().count() <= n {
         return None;
     }
-    let weighted = |sample: &Sample<D, S>| {
+    let weighted = |sample: &PointStress<D, S>| {
         let x = frame.relative(sample.position);
         (weight(&x), x)
     };

@@ -47,7 +47,7 @@ impl<const D: usize> Maximum<D> {
                 *value = f(at, true);
                 self.rise(*value, at);
             }
-            let highest = Quadratic::of(&values).highest();
+            let highest = StencilQuadratic::of(&values).highest();
             if highest.iter().any(|x| x.fract() != 0.0) {
                 let at = place(highest);
                 self.rise(f(at, false), at);
@@ -78,12 +78,12 @@ fn on_stencil<const D: usize>(k: usize) -> [f64; D] {
 }
 
 /// `q(x) = g . x + x . H x / 2` on a stencil, up to a constant.
-struct Quadratic<const D: usize> {
+struct StencilQuadratic<const D: usize> {
     gradient: [f64; D],
     hessian: [[f64; D]; D],
 }
 
-impl<const D: usize> Quadratic<D> {
+impl<const D: usize> StencilQuadratic<D> {
     /// The least-squares fit to the values at `{-1, 0, 1}^D`, whose normal equations are diagonal
     /// up to the constant.
     fn of(values: &[f64; MOST_VALUES]) -> Self {
@@ -94,7 +94,7 @@ impl<const D: usize> Quadratic<D> {
         };
         // Sums of the squares of x, of x^2 - 2/3 (twice), of x y over the stencil.
         let (first, square, mixed) = (n / 3 * 2, n / 9, n / 9 * 4);
-        Quadratic {
+        StencilQuadratic {
             gradient: std::array::from_fn(|d| sum(&|x| x[d]) / first as f64),
             hessian: std::array::from_fn(|a| {
                 std::array::from_fn(|b| match a == b {
@@ -221,7 +221,7 @@ mod tests {
     /// The quadratic of least squares goes through values that are quadratic.
     #[test]
     fn a_quadratic_is_its_own_fit() {
-        let given = Quadratic {
+        let given = StencilQuadratic {
             gradient: [0.3, -0.7],
             hessian: [[-2.0, 0.4], [0.4, -1.0]],
         };
@@ -229,7 +229,7 @@ mod tests {
         for (k, value) in values.iter_mut().enumerate().take(9) {
             *value = 5.0 + given.value(on_stencil(k));
         }
-        let fit = Quadratic::of(&values);
+        let fit = StencilQuadratic::of(&values);
         for x in [[0.2, 0.9], [-1.0, 0.5]] {
             assert!((fit.value(x) - given.value(x)).abs() < 1e-14);
         }

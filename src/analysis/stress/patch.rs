@@ -38,7 +38,7 @@ pub struct Patch<const D: usize> {
     reach: f64,
     /// First those within reach of a point of the element.
     samples: Vec<Sample<D>>,
-    /// How many of the samples these are.
+    /// Number of these samples.
     n_near: usize,
     /// The samples that count in the value last asked for, with their weights and places relative
     /// to it.
@@ -56,7 +56,7 @@ pub struct Sample<const D: usize> {
     pub index: u32,
     /// Relative to the patch and scaled.
     pub position: [f64; D],
-    /// How its stress is reflected, where it is an image.
+    /// Reflection of the sample's stress, where the sample is an image.
     pub reflection: Option<Reflection>,
 }
 

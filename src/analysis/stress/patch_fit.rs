@@ -68,7 +68,7 @@ pub struct PatchFit<const D: usize, const DEGREE: usize> {
 }
 
 impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
-    /// How many terms it has.
+    /// Number of terms of the fit.
     pub const N_TERMS: usize = n_terms(D, DEGREE);
     /// The exponents of the variables in the monomials, by degree.
     const EXPONENTS: [[usize; 3]; MOMENTS] = exponents(D);

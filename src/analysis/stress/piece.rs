@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 /// What a rank is sent.
 #[derive(Serialize, Deserialize)]
-struct Piece {
+struct SentPiece {
     continuum: Continuum,
     /// Elements that are evaluated.
     own: Vec<usize>,
@@ -83,7 +83,7 @@ pub(in crate::analysis) fn element_stresses(
 impl Whole<'_> {
     /// The piece of the elements `all` (ascending), of which those in `own` are evaluated, and its
     /// nodes.
-    fn piece(&self, own: &[usize], all: &[usize], free: &[FreeOfLoad]) -> (Piece, Vec<u32>) {
+    fn piece(&self, own: &[usize], all: &[usize], free: &[FreeOfLoad]) -> (SentPiece, Vec<u32>) {
         let (continuum, nodes) = self.model.continuum.part(all);
         let stride = self.history.points.len() / self.in_zone.len().max(1);
         let (mut in_zone, mut history) = (Vec::new(), Vec::new());
@@ -94,7 +94,7 @@ impl Whole<'_> {
             }
         }
         let local = |e: &usize| all.partition_point(|other| other < e);
-        let piece = Piece {
+        let piece = SentPiece {
             continuum,
             own: own.iter().map(local).collect(),
             displacements: (nodes.iter().map(|&n| self.displacements[n as usize])).collect(),
@@ -113,7 +113,7 @@ impl Whole<'_> {
 /// # Errors
 /// `Internal` where it cannot be read.
 pub fn evaluate(piece: &[u8]) -> Result<Vec<u8>> {
-    let piece: Piece = from_bytes(piece)?;
+    let piece: SentPiece = from_bytes(piece)?;
     let Continuum {
         kind,
         formulation,
@@ -130,7 +130,7 @@ fn from_bytes<'a, T: Deserialize<'a>>(bytes: &'a [u8]) -> Result<T> {
         .map_err(|cause| Error::internal("stresses from bytes").because(cause))
 }
 
-impl Piece {
+impl SentPiece {
     fn stresses<const D: usize, const S: usize, const P: usize, const N: usize>(
         &self,
         kernel: Kernel<D, S, P, N>,

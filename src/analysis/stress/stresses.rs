@@ -1,7 +1,7 @@
 //! What the stresses of all elements amount to: the forces that they exert on the nodes, and what
 //! has yielded.
 
-use super::element_stresses::{ElementStresses, Shown};
+use super::element_stresses::{ElementStresses, ShownStresses};
 use crate::analysis::zone::border::{self, Yielded};
 use crate::analysis::zone::points::ZoneOf;
 use crate::balls::Balls;
@@ -22,7 +22,7 @@ pub(in crate::analysis) struct Stresses {
     /// Whether an element of the zone carries more than its initial yield stress.
     pub(in crate::analysis) beyond_yield_inside: bool,
     /// What fields show, where asked for.
-    pub(in crate::analysis) shown: Option<Shown>,
+    pub(in crate::analysis) shown: Option<ShownStresses>,
     /// Gauss points that have yielded, by body.
     pub(in crate::analysis) plastic_points: Vec<usize>,
     /// Volume of the Gauss points that have yielded.

@@ -117,7 +117,7 @@ impl Nodal {
 
 /// A part of a displacement: `coefficient` times what stands at `place` of a [`Nodal`] vector.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct DisplacementPart {
     /// Which displacement of its element or node, node by node in global axes.
     own: u8,
     place: u32,
@@ -128,8 +128,8 @@ struct Part {
 #[derive(Debug, Clone)]
 pub struct NodalPlaces {
     places: [u32; 3],
-    /// What is added to them, where they are sums.
-    parts: Vec<Part>,
+    /// Parts added to these displacements, where they are sums.
+    parts: Vec<DisplacementPart>,
 }
 
 impl NodalPlaces {
@@ -152,11 +152,15 @@ impl NodalPlaces {
         let mut parts = Vec::new();
         freedoms.each_term(node, |slot, v| {
             let components = v.into_iter().take(freedoms.per_node).enumerate();
-            parts.extend(components.filter(|(_, c)| *c != 0.0).map(|(d, c)| Part {
-                own: d as u8,
-                place: of(slot),
-                coefficient: c,
-            }));
+            parts.extend(
+                components
+                    .filter(|(_, c)| *c != 0.0)
+                    .map(|(d, c)| DisplacementPart {
+                        own: d as u8,
+                        place: of(slot),
+                        coefficient: c,
+                    }),
+            );
         });
         NodalPlaces {
             places: [fixed; 3],
@@ -192,7 +196,7 @@ pub struct GatheredElements {
     /// The elements, in the order given.
     pub list: Vec<Packed>,
     places: Vec<u32>,
-    parts: Vec<Part>,
+    parts: Vec<DisplacementPart>,
     /// Number of zone and contact freedoms: places beyond are none of these.
     n_free: u32,
 }
@@ -221,7 +225,7 @@ impl GatheredElements {
             self.places.extend(&of_node.places[..per_node]);
             let first = (per_node * i) as u8;
             let parts = of_node.parts.into_iter();
-            self.parts.extend(parts.map(|part| Part {
+            self.parts.extend(parts.map(|part| DisplacementPart {
                 own: first + part.own,
                 ..part
             }));
@@ -239,7 +243,7 @@ impl GatheredElements {
     pub fn bytes(&self) -> usize {
         self.list.capacity() * size_of::<Packed>()
             + 4 * self.places.capacity()
-            + self.parts.capacity() * size_of::<Part>()
+            + self.parts.capacity() * size_of::<DisplacementPart>()
     }
 
     /// Displacements of the nodes of element `i` in global axes, for the values of a [`Nodal`].
@@ -327,7 +331,7 @@ impl GatheredElements {
         &self.places[packed.first_place..][..usize::from(packed.n_places)]
     }
 
-    fn parts_of(&self, packed: &Packed) -> &[Part] {
+    fn parts_of(&self, packed: &Packed) -> &[DisplacementPart] {
         &self.parts[packed.parts.0 as usize..packed.parts.1 as usize]
     }
 }

@@ -14,7 +14,7 @@ pub struct History {
     /// Plastic history of each.
     #[serde(with = "packed::history")]
     pub points: Vec<PlasticState<6>>,
-    /// What its back stresses remember.
+    /// Strains that the back stresses of each point remember.
     pub back: BackStrains<6>,
 }
 

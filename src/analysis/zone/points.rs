@@ -40,18 +40,18 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     pub(in crate::analysis) stride: usize,
     materials: Vec<(Material, Lame)>,
     committed: Vec<PlasticState<S>>,
-    /// What back stresses that fade remember of it.
+    /// Strains that back stresses that fade remember of the history.
     back: BackStrains<S>,
-    /// What the yield stress of each point lies above its material's; empty where none does.
+    /// Yield stress of each point less its material's; empty where none differs.
     harder: Vec<f64>,
     /// Equal to `committed` except where `yields`.
     trial: Vec<PlasticState<S>>,
-    /// How the last evaluated state was reached, where it `yields`.
+    /// Ends of the strain paths to the last evaluated state, where a point `yields`.
     path_ends: PathEnds<S>,
     /// `D - D_ep` at the last evaluated state; zero except where `yields`.
     pub(in crate::analysis) softening: Vec<Softening<S>>,
-    /// What is not symmetric of it, times the dyad with its normal; empty where no back stress
-    /// fades.
+    /// Part of the softening that is not symmetric, times the dyad with its normal; empty where no
+    /// back stress fades.
     pub(in crate::analysis) turn: Vec<[f64; S]>,
     /// Points that yielded at the last evaluated state.
     pub(in crate::analysis) yields: Vec<bool>,

@@ -30,9 +30,7 @@ impl Reach {
 /// 0.48 under a point (K. Johnson, Contact Mechanics, 1985, sections 4.2 and 3.4).
 ///
 /// The zone of the program's extreme loads is known after first yield, and factored then: the
-/// factor of a larger one costs as much, and each plastic iteration goes through all of it.
-/// Measured on a ball of 105 k freedoms loaded to five times first yield: 27 s, with a zone that
-/// sufficed from the beginning 45 s.
+/// factor of a larger zone costs as much, and each plastic iteration goes through all of the zone.
 const IN_SOLID: f64 = 1.2;
 
 /// What lies within a distance of a box.

@@ -13,9 +13,9 @@ pub(in crate::analysis) struct Yielding {
     active: Ascending,
     /// Points of these elements (places in the zone's arrays) that yielded.
     yielding: Ascending,
-    /// What flow takes off the elastic matrix there.
+    /// Softening: what flow takes off the elastic matrix at these points.
     softening: Vec<Softening<6>>,
-    /// What is not symmetric of it, where any may be.
+    /// Part of the softening that is not symmetric, where there may be any.
     turn: Vec<[f64; 6]>,
 }
 

@@ -52,12 +52,12 @@ fn bodies(sheet: &Sheet) -> Table {
 }
 
 /// A table of named figures with units and sources.
-struct Figures<'s> {
+struct FigureTable<'s> {
     sheet: &'s Sheet,
     table: Table,
 }
 
-impl Figures<'_> {
+impl FigureTable<'_> {
     fn add(&mut self, name: &str, value: f64, unit: &str, source: &str) {
         self.table.row([
             name.to_string(),
@@ -82,7 +82,7 @@ fn figures(sheet: &Sheet) -> Table {
         (Column::Text, "unit"),
         (Column::Text, "source"),
     ];
-    let mut figures = Figures {
+    let mut figures = FigureTable {
         sheet,
         table: Table::new(&columns),
     };
@@ -104,7 +104,7 @@ fn figures(sheet: &Sheet) -> Table {
     figures.table
 }
 
-fn of_contact(figures: &mut Figures) {
+fn of_contact(figures: &mut FigureTable) {
     let sheet = figures.sheet;
     let units = &sheet.units;
     let (length, stress) = (units.length.as_str(), units.stress.as_str());
@@ -190,7 +190,7 @@ fn distinct(sheet: &Sheet) -> Vec<(&'static str, &BodySheet)> {
     }
 }
 
-fn of_body(figures: &mut Figures, whose: &str, body: &BodySheet) {
+fn of_body(figures: &mut FigureTable, whose: &str, body: &BodySheet) {
     let sheet = figures.sheet;
     let of = |figure: &str| format!("{figure}, {whose}");
     let field = match sheet.contact {

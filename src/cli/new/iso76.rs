@@ -126,7 +126,7 @@ pub(super) fn scene(given: &StaticLoad) -> Result<Started> {
              (--hardening-table FILE)",
         )
     })?;
-    let loads = Loads {
+    let loads = ElasticLoads {
         given,
         contact,
         first,
@@ -235,7 +235,7 @@ impl StaticLoad {
 }
 
 /// What elastic bodies say of the loads.
-struct Loads<'g> {
+struct ElasticLoads<'g> {
     given: &'g StaticLoad,
     contact: HertzContact,
     /// Load of first yield.
@@ -244,7 +244,7 @@ struct Loads<'g> {
     poisson: f64,
 }
 
-impl Loads<'_> {
+impl ElasticLoads<'_> {
     /// The loads by Hertz, line by line.
     fn about(&self) -> String {
         let is_plane =
@@ -281,7 +281,7 @@ impl Loads<'_> {
     }
 }
 
-impl Loads<'_> {
+impl ElasticLoads<'_> {
     /// The largest shear stresses below the contact under the load that is load factor 1.
     fn below(&self) -> String {
         let (stress, _) = self.given.rated();

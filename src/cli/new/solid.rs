@@ -13,7 +13,7 @@ const BALL: f64 = 5.0;
 /// Elements over the smaller half axis where nothing is said: a run takes seconds.
 pub(super) const RESOLUTION: usize = 6;
 
-/// What all of them have.
+/// Options that all solids have.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Common {
     /// Largest load [N]; by default three times the load at first yield

@@ -9,11 +9,11 @@ use crate::deck::{self, Options};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::number::{bytes, seconds};
-use crate::output::sweep::{Point, Sweep};
+use crate::output::sweep::{Sweep, SweepPoint};
 use serde_json::json;
 
 /// The prediction of a point.
-struct Cost {
+struct PointCost {
     freedoms: usize,
     seconds: f64,
     bytes: f64,
@@ -63,7 +63,7 @@ pub(super) fn predict(arguments: &SweepArguments, sweep: &Sweep) -> Result<()> {
     }
 }
 
-fn of_point(arguments: &SweepArguments, sweep: &Sweep, point: &Point) -> Result<Cost> {
+fn of_point(arguments: &SweepArguments, sweep: &Sweep, point: &SweepPoint) -> Result<PointCost> {
     let common = &arguments.common;
     let options = Options {
         small_strain: common.small_strain,
@@ -74,7 +74,7 @@ fn of_point(arguments: &SweepArguments, sweep: &Sweep, point: &Point) -> Result<
     let within = |error: Error| error.within(&point.folder);
     let model = Model::new(&scene).map_err(within)?;
     let check = analysis::check(&model, common.solver.into()).map_err(within)?;
-    Ok(Cost {
+    Ok(PointCost {
         freedoms: model.freedoms.n,
         seconds: check.predicted_run_seconds,
         bytes: check.prediction.memory_bytes,
@@ -82,9 +82,9 @@ fn of_point(arguments: &SweepArguments, sweep: &Sweep, point: &Point) -> Result<
     })
 }
 
-fn points(sweep: &Sweep, costs: &[Option<Cost>]) -> Vec<serde_json::Value> {
+fn points(sweep: &Sweep, costs: &[Option<PointCost>]) -> Vec<serde_json::Value> {
     let each = sweep.points.iter().zip(costs);
-    let point = |(point, cost): (&Point, &Option<Cost>)| {
+    let point = |(point, cost): (&SweepPoint, &Option<PointCost>)| {
         json!({
             "folder": point.folder,
             "finished": cost.is_none(),
@@ -96,7 +96,7 @@ fn points(sweep: &Sweep, costs: &[Option<Cost>]) -> Vec<serde_json::Value> {
     each.map(point).collect()
 }
 
-fn table(sweep: &Sweep, costs: &[Option<Cost>]) -> Table {
+fn table(sweep: &Sweep, costs: &[Option<PointCost>]) -> Table {
     let mut table = Table::new(&[
         (Column::Text, "point"),
         (Column::Number, "freedoms"),

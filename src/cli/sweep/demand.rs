@@ -1,6 +1,6 @@
 //! In which order points are run: those that yield furthest first.
 
-use crate::output::sweep::Point;
+use crate::output::sweep::SweepPoint;
 use crate::scene::{Load, Scene};
 use crate::space::length;
 
@@ -31,7 +31,7 @@ fn size(load: &Load) -> f64 {
 }
 
 /// Numbers of the points, the largest demand first, else as they come.
-pub(super) fn order(points: &[Point]) -> Vec<usize> {
+pub(super) fn order(points: &[SweepPoint]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| points[b].demand.total_cmp(&points[a].demand));
     order

@@ -15,7 +15,7 @@ const OF_SETS: [&str; 6] = [
 
 /// What the values of a data line are.
 #[derive(Clone, Copy)]
-enum Values {
+enum LineValues {
     /// A number and coordinates.
     Node,
     /// Numbers and names, all of them.
@@ -32,24 +32,26 @@ enum Values {
     Same,
 }
 
-impl Values {
-    fn of(block: &Block) -> Values {
+impl LineValues {
+    fn of(block: &Block) -> LineValues {
         match block.keyword.name.as_str() {
-            "NODE" => Values::Node,
-            "NSET" | "ELSET" if block.keyword.has("GENERATE") => Values::Range,
-            "ELEMENT" | "NSET" | "ELSET" | "CONTACT PAIR" | "TIE" | "MODEL CHANGE" => Values::All,
+            "NODE" => LineValues::Node,
+            "NSET" | "ELSET" if block.keyword.has("GENERATE") => LineValues::Range,
+            "ELEMENT" | "NSET" | "ELSET" | "CONTACT PAIR" | "TIE" | "MODEL CHANGE" => {
+                LineValues::All
+            }
             "SURFACE" | "BOUNDARY" | "CLOAD" | "DLOAD" | "DSLOAD" | "TEMPERATURE"
-            | "INITIAL CONDITIONS" => Values::First,
-            "EQUATION" => Values::Terms,
-            "TRANSFORM" => Values::Points,
-            _ => Values::Same,
+            | "INITIAL CONDITIONS" => LineValues::First,
+            "EQUATION" => LineValues::Terms,
+            "TRANSFORM" => LineValues::Points,
+            _ => LineValues::Same,
         }
     }
 }
 
 /// Where a block stands.
 #[derive(Clone, Copy)]
-struct Scope<'m> {
+struct BlockScope<'m> {
     /// The instance that what the block makes belongs to; none of the assembly and the model.
     own: Option<usize>,
     /// The instance that numbers and names of its data lines belong to.
@@ -74,7 +76,7 @@ impl Assembled {
                 Item::Block(block) => writer.outside(block)?,
                 Item::Instance(number) => {
                     let instance = &self.instances[*number];
-                    let scope = Scope {
+                    let scope = BlockScope {
                         own: Some(*number),
                         of: Some(*number),
                         placement: Some(&instance.placement).filter(|place| !place.is_none()),
@@ -118,10 +120,10 @@ impl Writer<'_, '_> {
             })?);
         }
         let (own, placement) = (None, None);
-        self.block(block, Scope { own, of, placement })
+        self.block(block, BlockScope { own, of, placement })
     }
 
-    fn block(&mut self, block: &Block, scope: Scope) -> Result<()> {
+    fn block(&mut self, block: &Block, scope: BlockScope) -> Result<()> {
         let keyword = &block.keyword;
         // With a blank, so that no name makes it a comment.
         self.write(format_args!("* {}", keyword.name));
@@ -145,7 +147,7 @@ impl Writer<'_, '_> {
             self.write(format_args!(", {key}=\"{name}\""));
         }
         self.out.end_line(keyword.place);
-        let values = Values::of(block);
+        let values = LineValues::of(block);
         for &line in &block.lines {
             self.line(block, values, line, scope)?;
             self.out.end_line(line.place);
@@ -154,17 +156,23 @@ impl Writer<'_, '_> {
     }
 
     /// Writes a data line for an instance.
-    fn line(&mut self, block: &Block, values: Values, line: Line, scope: Scope) -> Result<()> {
+    fn line(
+        &mut self,
+        block: &Block,
+        values: LineValues,
+        line: Line,
+        scope: BlockScope,
+    ) -> Result<()> {
         let source = self.source;
         let mut row = block.fields(source, line);
         let mut ahead = row;
         ahead.word();
         let is_alone = ahead.is_at_end();
         match (values, scope.placement) {
-            (Values::All, _) => return self.each(row, 1, scope),
-            (Values::Terms, _) if !is_alone => return self.each(row, 3, scope),
-            (Values::First, _) | (Values::Node, None) => self.value(&mut row, scope)?,
-            (Values::Node, Some(placement)) => {
+            (LineValues::All, _) => return self.each(row, 1, scope),
+            (LineValues::Terms, _) if !is_alone => return self.each(row, 3, scope),
+            (LineValues::First, _) | (LineValues::Node, None) => self.value(&mut row, scope)?,
+            (LineValues::Node, Some(placement)) => {
                 self.value(&mut row, scope)?;
                 let mut x = [0.0; 3];
                 for (x, what) in x.iter_mut().zip(["x", "y", "z"]) {
@@ -174,14 +182,14 @@ impl Writer<'_, '_> {
                 self.numbers(", ", &placement.point(x));
                 return Ok(());
             }
-            (Values::Range, _) => {
+            (LineValues::Range, _) => {
                 let first = row.label("the first number")?;
                 let last = row.label("the last number")?.min(self.instances.most());
                 let first = self.number(first, scope.of, &row.place)?;
                 let last = self.number(last, scope.of, &row.place)?;
                 self.write(format_args!("{first}, {last}"));
             }
-            (Values::Points, Some(placement)) => {
+            (LineValues::Points, Some(placement)) => {
                 let mut points = [[0.0; 3]; 2];
                 for x in points.as_flattened_mut() {
                     *x = row.number_or("a coordinate", 0.0)?;
@@ -195,7 +203,7 @@ impl Writer<'_, '_> {
                 self.numbers("", moved.as_flattened());
                 return Ok(());
             }
-            (Values::Terms | Values::Points | Values::Same, _) => {
+            (LineValues::Terms | LineValues::Points | LineValues::Same, _) => {
                 self.out.text().extend_from_slice(source.bytes(line));
                 return Ok(());
             }
@@ -211,7 +219,7 @@ impl Writer<'_, '_> {
     }
 
     /// A line of values of which each `step`-th is a number or name.
-    fn each(&mut self, mut row: Fields, step: usize, scope: Scope) -> Result<()> {
+    fn each(&mut self, mut row: Fields, step: usize, scope: BlockScope) -> Result<()> {
         for index in 0.. {
             match index % step {
                 0 => self.value(&mut row, scope)?,
@@ -229,7 +237,7 @@ impl Writer<'_, '_> {
     }
 
     /// The next value of a line, a number or name.
-    fn value(&mut self, row: &mut Fields, scope: Scope) -> Result<()> {
+    fn value(&mut self, row: &mut Fields, scope: BlockScope) -> Result<()> {
         let mut ahead = *row;
         let written = ahead.written();
         if !written.is_empty() && written.iter().all(u8::is_ascii_digit) {

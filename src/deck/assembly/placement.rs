@@ -9,12 +9,12 @@ use crate::error::Result;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Placement {
     shift: [f64; 3],
-    turn: Option<Turn>,
+    turn: Option<AxisTurn>,
 }
 
 /// A rotation about an axis through a point.
 #[derive(Debug, Clone)]
-struct Turn {
+struct AxisTurn {
     point: [f64; 3],
     matrix: [[f64; 3]; 3],
 }
@@ -40,7 +40,7 @@ impl Placement {
             }
         }
         if let Some(&line) = lines.get(1) {
-            out.turn = Turn::read(block.fields(source, line))?;
+            out.turn = AxisTurn::read(block.fields(source, line))?;
         }
         block.no_more(source, 2)?;
         Ok(out)
@@ -68,9 +68,9 @@ impl Placement {
     }
 }
 
-impl Turn {
+impl AxisTurn {
     /// Two points of the axis and degrees about it, by the right hand; `None` of no degrees.
-    fn read(mut row: Fields) -> Result<Option<Turn>> {
+    fn read(mut row: Fields) -> Result<Option<AxisTurn>> {
         let mut points = [[0.0; 3]; 2];
         for x in points.as_flattened_mut() {
             *x = row.number("a coordinate of the axis of rotation")?;
@@ -99,7 +99,7 @@ impl Turn {
         };
         let matrix = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
         let point = from;
-        Ok(Some(Turn { point, matrix }))
+        Ok(Some(AxisTurn { point, matrix }))
     }
 }
 

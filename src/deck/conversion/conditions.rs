@@ -20,7 +20,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
 /// Members that go through the same, by degree of freedom and what they go through.
-type Groups = BTreeMap<(u8, Vec<u64>), (Vec<u32>, Series, Place)>;
+type MemberGroups = BTreeMap<(u8, Vec<u64>), (Vec<u32>, Series, Place)>;
 
 impl Draft<'_> {
     pub(super) fn conditions(&mut self) -> Result<()> {
@@ -80,8 +80,8 @@ impl Draft<'_> {
     }
 
     /// Gathers members by what they go through.
-    fn groups(map: Map) -> Groups {
-        let mut out = Groups::new();
+    fn groups(map: Map) -> MemberGroups {
+        let mut out = MemberGroups::new();
         for ((member, axis), entry) in map {
             let key = (axis, entry.series.bits());
             let new = || (Vec::new(), entry.series.clone(), entry.place);

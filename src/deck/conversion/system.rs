@@ -5,7 +5,7 @@ use super::super::bodies::unsupported;
 use super::super::constraints::HeldPlane;
 use super::super::data::Equation;
 use super::super::history::{Entry, Key, Map};
-use super::super::linear::{self, Follows, Reduced, Row, Terms};
+use super::super::linear::{self, Follows, LinearRow, Reduced, Terms};
 use super::super::series::Series;
 use super::super::sets::What;
 use super::super::source::Place;
@@ -52,7 +52,7 @@ impl Draft<'_> {
         });
         for plane in joined {
             let followers = plane.nodes.iter().filter(|node| **node != plane.leader.0);
-            rows.extend(followers.map(|&node| Row {
+            rows.extend(followers.map(|&node| LinearRow {
                 terms: Terms::from([((node, plane.leader.1), 1.0), (plane.leader, -1.0)]),
                 first: Some((node, plane.leader.1)),
                 place: plane.place,
@@ -76,7 +76,7 @@ impl Draft<'_> {
     }
 
     /// What is held at zero is in no equation.
-    fn reduced(&self, mut rows: Vec<Row>, boundary: &Map) -> Reduced {
+    fn reduced(&self, mut rows: Vec<LinearRow>, boundary: &Map) -> Reduced {
         let dimension = self.deck.dimension();
         let is_zero = |key: &Key| {
             let out_of_plane = key.1 as usize >= dimension && self.geometry.uses(key.0);
@@ -96,7 +96,7 @@ impl Draft<'_> {
     }
 
     /// The rows of an equation, one for each node of its first set.
-    fn rows_of(&self, equation: &Equation, rows: &mut Vec<Row>) -> Result<()> {
+    fn rows_of(&self, equation: &Equation, rows: &mut Vec<LinearRow>) -> Result<()> {
         let (deck, at) = (self.deck, (equation.place, "EQUATION"));
         let refused = |message: String| deck.error(at.0, at.1, message);
         let mut terms = Vec::new();
@@ -132,7 +132,7 @@ impl Draft<'_> {
             for (keys, coefficient) in &terms {
                 *sum.entry(key_of(keys)).or_insert(0.0) += coefficient;
             }
-            rows.push(Row {
+            rows.push(LinearRow {
                 terms: sum,
                 first: terms.first().map(|(keys, _)| key_of(keys)),
                 place: equation.place,
@@ -190,7 +190,7 @@ impl Draft<'_> {
     }
 
     /// Rows between displacements that are all given must hold.
-    fn check_known(&self, rows: &[Row], boundary: &Map) -> Result<()> {
+    fn check_known(&self, rows: &[LinearRow], boundary: &Map) -> Result<()> {
         for row in rows {
             let sum = series_of(&row.terms, boundary);
             let sizes = row.terms.iter().map(|(key, c)| {
@@ -288,7 +288,7 @@ fn series_of(terms: &Terms, known: &Map) -> Series {
 /// Planes that share nothing with others or with rows, and those that do or are to be among them.
 fn apart(
     planes: Vec<HeldPlane>,
-    rows: &[Row],
+    rows: &[LinearRow],
     is_joined: impl Fn(&HeldPlane) -> bool,
 ) -> (Vec<HeldPlane>, Vec<HeldPlane>) {
     let mut count: BTreeMap<Key, usize> = BTreeMap::new();

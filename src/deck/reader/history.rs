@@ -187,7 +187,7 @@ impl Reader<'_> {
             .filter(|_| self.is_in_step)
     }
 
-    /// What all conditions have in common: their parameters.
+    /// Parameters that all conditions have in common.
     pub(super) fn conditions(&mut self, keyword: &Keyword, kind: Kind) -> Result<Option<String>> {
         let files = &self.source.files;
         keyword.allow(files, &["OP", "AMPLITUDE", "FIXED", "TYPE"])?;

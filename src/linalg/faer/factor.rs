@@ -40,7 +40,7 @@ impl Factor {
         let n = pattern.n();
         let no_memory = || out_of_memory("symbolic analysis", n);
         let place = places(&order.permutation);
-        let (columns, rows, _) = permuted(pattern, &place, Triangle::Upper, None);
+        let (columns, rows, _) = permuted(pattern, &place, StoredTriangle::Upper, None);
         let upper = SymbolicSparseColMatRef::new_unsorted_checked(n, n, &columns, None, &rows);
         let mut tree = vec![0isize; n];
         let mut counts = vec![0usize; n];
@@ -123,7 +123,7 @@ impl Factor {
         let place = places(&self.permutation);
         let values = Some((matrix.data(), diagonal));
         let (columns, rows, values) =
-            permuted(&Pattern::new(matrix), &place, Triangle::Lower, values);
+            permuted(&Pattern::new(matrix), &place, StoredTriangle::Lower, values);
         let pattern = SymbolicSparseColMatRef::new_unsorted_checked(n, n, &columns, None, &rows);
         supernodal::factorize_supernodal_numeric_llt(
             &mut self.values,
@@ -215,7 +215,7 @@ fn places(permutation: &[i64]) -> Vec<u32> {
 
 /// Which triangle of a symmetric matrix is stored.
 #[derive(Clone, Copy, PartialEq)]
-enum Triangle {
+enum StoredTriangle {
     Upper,
     Lower,
 }
@@ -225,7 +225,7 @@ enum Triangle {
 fn permuted(
     pattern: &Pattern,
     place: &[u32],
-    triangle: Triangle,
+    triangle: StoredTriangle,
     values: Option<(&[f64], &[f64])>,
 ) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
     let n = pattern.n();
@@ -233,8 +233,8 @@ fn permuted(
     let target = |i: usize, j: usize| {
         let (a, b) = (place[i] as usize, place[j] as usize);
         match triangle {
-            Triangle::Upper => (a.min(b), a.max(b)),
-            Triangle::Lower => (a.max(b), a.min(b)),
+            StoredTriangle::Upper => (a.min(b), a.max(b)),
+            StoredTriangle::Lower => (a.max(b), a.min(b)),
         }
     };
     let mut starts = vec![0usize; n + 1];

@@ -31,7 +31,7 @@ pub(super) struct Analysis {
     /// Name of the order, for reports.
     pub(super) order_name: &'static str,
     variables: Variables,
-    factor: Factor,
+    factor: FactorHandle,
     host: Host,
     by_rank: Vec<Analysed>,
     /// Entries of the matrix that each rank hands over, about.
@@ -48,14 +48,14 @@ struct Variables {
 }
 
 /// Handle of a factor on all ranks.
-struct Factor {
+struct FactorHandle {
     index: usize,
     matrix: Shared,
 }
 
 /// A factored interior.
 pub(super) struct Exterior {
-    factor: Factor,
+    factor: FactorHandle,
     n_variables: usize,
     /// Interior freedoms, with their numbers among the variables of the factor.
     pub(super) interior: Vec<(usize, usize)>,
@@ -66,19 +66,19 @@ pub(super) struct Exterior {
 static FREE: Mutex<Vec<usize>> = Mutex::new(Vec::new());
 static NEXT: AtomicUsize = AtomicUsize::new(0);
 
-impl Factor {
+impl FactorHandle {
     /// A number that no other factor has.
     fn of(matrix: &Shared) -> Self {
         let mut free = FREE.lock().unwrap_or_else(PoisonError::into_inner);
         let index = free.pop();
-        Factor {
+        FactorHandle {
             index: index.unwrap_or_else(|| NEXT.fetch_add(1, Ordering::Relaxed)),
             matrix: matrix.clone(),
         }
     }
 }
 
-impl Drop for Factor {
+impl Drop for FactorHandle {
     fn drop(&mut self) {
         let task = |_| Task::ForgetFactor(self.index);
         // Ranks that are gone have forgotten it.
@@ -168,7 +168,7 @@ impl Analysis {
             kept: kept.iter().map(|&k| k as c_int + 1).collect(),
             ..Host::default()
         };
-        let factor = Factor::of(matrix);
+        let factor = FactorHandle::of(matrix);
         let task = |rank| {
             let own = matrix.own(rank, |freedom| numbers[freedom]);
             Task::Analyse(factor.index, matrix.index(), own)

@@ -92,7 +92,7 @@ pub fn condense_shared(
     shift: &[f64],
 ) -> Result<Box<dyn Condensed>> {
     check::partition(partition, shift)?;
-    let mut trailing = Trailing::new(matrix, partition)?;
+    let mut trailing = RemainingMatrix::new(matrix, partition)?;
     let cost = trailing.cost()?;
     if let Some(analysis) = &trailing.analysis {
         // The columns are there already.
@@ -145,24 +145,24 @@ pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Predictio
 /// As [`super::predict`].
 pub fn predict_shared(matrix: &Shared, partition: &Partition) -> Result<Prediction> {
     check::partition(partition, &[])?;
-    Trailing::new(matrix, partition)?.cost()
+    RemainingMatrix::new(matrix, partition)?.cost()
 }
 
 /// What is left of the matrix when the interior is eliminated.
-struct Trailing {
+struct RemainingMatrix {
     /// Zone and contact freedoms, ascending; the last freedom where there is none.
     freedoms: Vec<usize>,
     /// Partition of these freedoms, by their places among themselves.
     partition: Partition,
     /// Entries between them.
     own: Vec<Entry>,
-    /// Where there is an interior.
+    /// Analysis of the interior, where there is one.
     analysis: Option<Analysis>,
     /// Bytes of the columns that each rank has.
     columns: Vec<f64>,
 }
 
-impl Trailing {
+impl RemainingMatrix {
     fn new(matrix: &Shared, partition: &Partition) -> Result<Self> {
         let n = partition.n;
         let mut freedoms: Vec<usize> = (partition.zone.iter())
@@ -200,7 +200,7 @@ impl Trailing {
             true => None,
             false => Some(Analysis::new(matrix, &place, &touched, coupling)?),
         };
-        Ok(Trailing {
+        Ok(RemainingMatrix {
             freedoms,
             partition: inner,
             own,

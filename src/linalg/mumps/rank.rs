@@ -61,22 +61,22 @@ pub(super) struct Host {
 
 /// Entries as MUMPS takes them.
 #[derive(Default)]
-struct Entries {
+struct RankEntries {
     rows: Vec<c_int>,
     columns: Vec<c_int>,
     values: Vec<f64>,
 }
 
 #[derive(Default)]
-struct Kept {
+struct KeptOnRank {
     matrices: BTreeMap<usize, Columns>,
     /// The trailing freedoms of each matrix.
     trailing: BTreeMap<usize, Vec<bool>>,
     /// Entries of factors that are not computed yet.
-    entries: BTreeMap<usize, Entries>,
+    entries: BTreeMap<usize, RankEntries>,
 }
 
-static KEPT: Mutex<Kept> = Mutex::new(Kept {
+static KEPT: Mutex<KeptOnRank> = Mutex::new(KeptOnRank {
     matrices: BTreeMap::new(),
     trailing: BTreeMap::new(),
     entries: BTreeMap::new(),
@@ -141,7 +141,7 @@ pub(super) fn perform(task: Task, host: &mut Host) -> Vec<u8> {
             let left = left();
             let mut n = 0;
             kept.each_interior(index, |_, _, _| n += 1);
-            let mut entries = Entries {
+            let mut entries = RankEntries {
                 rows: Vec::with_capacity(n),
                 columns: Vec::with_capacity(n),
                 values: Vec::with_capacity(n),
@@ -201,7 +201,7 @@ fn left() -> [Option<f64>; 2] {
 
 fn analyse(
     factor: usize,
-    entries: &mut Entries,
+    entries: &mut RankEntries,
     host: &mut Host,
     [left_by_limits, left_by_machine]: [Option<f64>; 2],
 ) -> Analysed {
@@ -236,7 +236,7 @@ fn analyse(
     }
 }
 
-fn compute(factor: usize, entries: &mut Entries, host: &mut Host) -> Factored {
+fn compute(factor: usize, entries: &mut RankEntries, host: &mut Host) -> Factored {
     let mut info = [0; 4];
     let schur = match host.schur.is_empty() {
         true => null_mut(),
@@ -265,7 +265,7 @@ fn machine_name() -> String {
     name.unwrap_or_default().trim().to_string()
 }
 
-impl Kept {
+impl KeptOnRank {
     fn take(&mut self, index: usize, columns: Columns) -> Made {
         let matrix = &columns.matrix;
         let own = |j: usize| matrix.get(j, j).copied().unwrap_or(0.0);

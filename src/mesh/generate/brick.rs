@@ -9,7 +9,7 @@ use std::ops::Range;
 
 /// A side of a structured body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Face {
+pub(super) enum BrickSide {
     /// The side where the first index is 0.
     Left,
     /// The side where the first index ends.
@@ -24,38 +24,38 @@ pub(super) enum Face {
     Top,
 }
 
-impl Face {
+impl BrickSide {
     /// All sides, each with its name.
-    pub(super) const ALL: [(&'static str, Face); 6] = [
-        ("left", Face::Left),
-        ("right", Face::Right),
-        ("front", Face::Front),
-        ("back", Face::Back),
-        ("bottom", Face::Bottom),
-        ("top", Face::Top),
+    pub(super) const ALL: [(&'static str, BrickSide); 6] = [
+        ("left", BrickSide::Left),
+        ("right", BrickSide::Right),
+        ("front", BrickSide::Front),
+        ("back", BrickSide::Back),
+        ("bottom", BrickSide::Bottom),
+        ("top", BrickSide::Top),
     ];
 
     /// Axis across the side, and whether the side lies at the end of it.
     fn place(self) -> (usize, bool) {
         match self {
-            Face::Left => (0, false),
-            Face::Right => (0, true),
-            Face::Front => (1, false),
-            Face::Back => (1, true),
-            Face::Bottom => (2, false),
-            Face::Top => (2, true),
+            BrickSide::Left => (0, false),
+            BrickSide::Right => (0, true),
+            BrickSide::Front => (1, false),
+            BrickSide::Back => (1, true),
+            BrickSide::Bottom => (2, false),
+            BrickSide::Top => (2, true),
         }
     }
 
     /// The facet of a hexahedron that lies on it.
     fn facet(self) -> usize {
         match self {
-            Face::Left => 5,
-            Face::Right => 3,
-            Face::Front => 2,
-            Face::Back => 4,
-            Face::Bottom => 0,
-            Face::Top => 1,
+            BrickSide::Left => 5,
+            BrickSide::Right => 3,
+            BrickSide::Front => 2,
+            BrickSide::Back => 4,
+            BrickSide::Bottom => 0,
+            BrickSide::Top => 1,
         }
     }
 }
@@ -144,7 +144,7 @@ impl Brick {
         &self,
         mesh: &mut Mesh,
         name: &str,
-        face: Face,
+        face: BrickSide,
         ranges: [Range<usize>; 2],
         takes: impl Fn(usize, usize) -> bool,
     ) {
@@ -175,7 +175,7 @@ impl Brick {
     }
 
     /// Names a whole side.
-    pub(super) fn side(&self, mesh: &mut Mesh, name: &str, face: Face) {
+    pub(super) fn side(&self, mesh: &mut Mesh, name: &str, face: BrickSide) {
         let (axis, _) = face.place();
         let others: Vec<usize> = (0..3).filter(|d| *d != axis).collect();
         let ranges = [0..self.cells[others[0]], 0..self.cells[others[1]]];

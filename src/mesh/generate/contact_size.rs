@@ -102,13 +102,13 @@ impl Hertz {
         }
     }
 
-    fn at_yield(&self, nu: f64, yield_stress: f64) -> FirstYield {
+    fn at_yield(&self, nu: f64, yield_stress: f64) -> YieldInContact {
         let y = yield_stress;
         let (half_width, load) = match self {
             Hertz::Line(line) => (line.yield_half_width(nu, y), line.yield_load(nu, y)),
             Hertz::Point(point) => (point.yield_contact_radius(nu, y), point.yield_load(nu, y)),
         };
-        FirstYield {
+        YieldInContact {
             half_width,
             load,
             yield_stress,
@@ -127,7 +127,7 @@ impl Hertz {
     ///
     /// # Source
     /// K. Johnson, Contact Mechanics (1985), eq. (6.36).
-    fn expected(&self, load: f64, first: Option<FirstYield>) -> f64 {
+    fn expected(&self, load: f64, first: Option<YieldInContact>) -> f64 {
         let (Hertz::Point(_), Some(first)) = (self, first.filter(|first| load > first.load)) else {
             return self.widest(load, first);
         };
@@ -152,7 +152,7 @@ impl Hertz {
     /// The widest contact under a load, where the weaker body yields at `first`: the mean pressure
     /// only rises with the load (from 1.1 to 3 times the yield stress under a ball), so that the
     /// area rises no faster.
-    fn widest(&self, load: f64, first: Option<FirstYield>) -> f64 {
+    fn widest(&self, load: f64, first: Option<YieldInContact>) -> f64 {
         let elastic = ROOM * self.half_width(load);
         let Some(first) = first.filter(|first| load > first.load) else {
             return elastic;
@@ -167,7 +167,7 @@ impl Hertz {
 
 /// First yield of a body in contact.
 #[derive(Clone, Copy)]
-struct FirstYield {
+struct YieldInContact {
     half_width: f64,
     load: f64,
     yield_stress: f64,
@@ -176,7 +176,7 @@ struct FirstYield {
 
 /// First yield of the weaker of the two bodies; `None` where neither has a
 /// yield stress. A body that is kept elastic still has the yield stress that the mesh is made for.
-fn first_yield(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<Option<FirstYield>> {
+fn first_yield(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<Option<YieldInContact>> {
     weaker(scene, p, |_| true)
 }
 
@@ -184,7 +184,7 @@ fn weaker(
     scene: &Scene,
     p: &CylinderOnHalfPlane,
     counts: impl Fn(Plastic) -> bool,
-) -> Result<Option<FirstYield>> {
+) -> Result<Option<YieldInContact>> {
     let hertz = Hertz::of(scene, p)?;
     let of = |name: &String| {
         let body = scene.bodies.get(name).filter(|b| counts(b.plastic))?;
@@ -248,7 +248,7 @@ pub(crate) fn warning(scene: &Scene) -> Option<String> {
 struct Largest {
     hertz: Hertz,
     /// First yield of the weaker body that may yield.
-    first: Option<FirstYield>,
+    first: Option<YieldInContact>,
     /// Largest contact force.
     force: f64,
     /// Half width that a target asks for.

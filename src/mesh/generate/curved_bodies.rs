@@ -1,6 +1,6 @@
 //! Two bodies of any curvature pressed together: Hertz' model in space.
 
-use super::brick::{Brick, Face};
+use super::brick::{Brick, BrickSide};
 use super::grading::{self, Growth};
 use super::limits;
 use crate::analytical::HertzEllipse;
@@ -19,8 +19,7 @@ const ROUND_OFF: f64 = 1e-9;
 pub struct EllipseSize {
     /// Half axes along x and y at first yield.
     pub semi_axes: [f64; 2],
-    /// How far the contact may reach, in these half axes; less than the even part of the mesh is no
-    /// matter.
+    /// Reach of the contact, in these half axes; less than the even part of the mesh is no matter.
     pub reach: f64,
 }
 
@@ -38,7 +37,7 @@ pub struct EllipseSize {
 /// # Errors
 /// Input errors name the key, its value and what to give instead.
 pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
-    let layout = Layout::new(p, contact)?;
+    let layout = CurvedLayout::new(p, contact)?;
     let [x, y, depth] = &layout.lines;
     let cells = [x.len() / 2, y.len() / 2, depth.len() / 2];
     let last = depth.len() - 1;
@@ -60,8 +59,8 @@ pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
     let is_inside = |i: usize, j: usize| inside[0].contains(&i) && inside[1].contains(&j);
     let whole = [0..cells[0], 0..cells[1]];
     for (body, touching, cut, cut_name) in [
-        (&upper, Face::Bottom, Face::Top, "top"),
-        (&lower, Face::Top, Face::Bottom, "bottom"),
+        (&upper, BrickSide::Bottom, BrickSide::Top, "top"),
+        (&lower, BrickSide::Top, BrickSide::Bottom, "bottom"),
     ] {
         body.surface(&mut mesh, "contact", touching, inside.clone(), |_, _| true);
         let outside = |i, j| !is_inside(i, j);
@@ -69,10 +68,10 @@ pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
         body.side(&mut mesh, cut_name, cut);
         let left = if p.halved()[0] { "symmetry_x" } else { "left" };
         let front = if p.halved()[1] { "symmetry_y" } else { "front" };
-        body.side(&mut mesh, left, Face::Left);
-        body.side(&mut mesh, "right", Face::Right);
-        body.side(&mut mesh, front, Face::Front);
-        body.side(&mut mesh, "back", Face::Back);
+        body.side(&mut mesh, left, BrickSide::Left);
+        body.side(&mut mesh, "right", BrickSide::Right);
+        body.side(&mut mesh, front, BrickSide::Front);
+        body.side(&mut mesh, "back", BrickSide::Back);
     }
     // The corner or middle of the surfaces is the origin.
     let origin = [layout.origin[0], layout.origin[1]];
@@ -84,14 +83,14 @@ pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
 }
 
 /// Grid lines of both bodies.
-struct Layout {
+struct CurvedLayout {
     /// Along x and y by half steps; distance from the contact surface by half steps.
     lines: [Vec<f64>; 3],
     /// Half steps from the beginning to 0.
     origin: [usize; 2],
     /// Cells that may touch, along x and y.
     candidates: [std::ops::Range<usize>; 2],
-    /// Where these end.
+    /// Coordinates where these cells end, along x and y.
     edge: [f64; 2],
     /// Relative radii.
     radii: [f64; 2],
@@ -99,7 +98,7 @@ struct Layout {
     size: f64,
 }
 
-impl Layout {
+impl CurvedLayout {
     /// Height of the upper surface: quadratic out to the last candidate at `c`; beyond, along each
     /// axis, `c^2 + 2 c^2 (1 - exp(-(x - c)/c))` takes the place of `x^2`.
     fn height(&self, x: f64, y: f64) -> f64 {
@@ -115,7 +114,7 @@ impl Layout {
         along(0, x) + along(1, y)
     }
 
-    fn new(p: &CurvedBodies, contact: EllipseSize) -> Result<Layout> {
+    fn new(p: &CurvedBodies, contact: EllipseSize) -> Result<CurvedLayout> {
         let key = |name: &str| format!("{KEY}.{name}");
         let EllipseSize { semi_axes, reach } = contact;
         for semi_axis in semi_axes {
@@ -196,7 +195,7 @@ impl Layout {
             }
         }
         let mut lines = lines.into_iter();
-        Ok(Layout {
+        Ok(CurvedLayout {
             lines: std::array::from_fn(|_| lines.next().unwrap_or_default()),
             origin,
             candidates,

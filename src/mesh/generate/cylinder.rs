@@ -62,8 +62,8 @@ impl ContactSize {
 /// Input errors name the key, its value and what to give instead; among them a block wider than 0.9
 /// radii.
 pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> Result<Mesh> {
-    let layout = Layout::new(p, contact)?;
-    let Layout {
+    let layout = CylinderLayout::new(p, contact)?;
+    let CylinderLayout {
         n_contact,
         size,
         x,
@@ -131,7 +131,7 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> 
 }
 
 /// Grid lines of both bodies.
-struct Layout {
+struct CylinderLayout {
     /// Elements along x that may touch.
     n_contact: usize,
     /// Size `W` of each body.
@@ -142,7 +142,7 @@ struct Layout {
     depth: Vec<f64>,
 }
 
-impl Layout {
+impl CylinderLayout {
     /// Height of the cylinder's surface: the circle, without the cancellation of
     /// `R - sqrt(R^2 - x^2)`, out to the last candidate at `c`; beyond, with the slope there,
     /// `y_c + slope c (1 - exp(-(x - c)/c))`.
@@ -158,7 +158,7 @@ impl Layout {
         }
     }
 
-    fn new(p: &CylinderOnHalfPlane, contact: ContactSize) -> Result<Layout> {
+    fn new(p: &CylinderOnHalfPlane, contact: ContactSize) -> Result<CylinderLayout> {
         let ContactSize {
             half_width,
             reach,
@@ -240,7 +240,7 @@ impl Layout {
             let first = first(&corners);
             grading::then_grown(&key(name), corners, first, size, growth)
         };
-        Ok(Layout {
+        Ok(CylinderLayout {
             n_contact,
             size,
             x: line("fine_width", near_x)?,

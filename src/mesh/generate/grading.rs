@@ -63,8 +63,8 @@ impl Growth {
         }
     }
 
-    /// How many elements it takes from `start` to `length`, the first of size `first`. A float,
-    /// because a wrong input can ask for more than any integer holds.
+    /// Number of elements that it takes from `start` to `length`, the first of size `first`. A
+    /// float, because a wrong input can ask for more than any integer holds.
     pub fn count(&self, first: f64, start: f64, length: f64) -> f64 {
         if self.far == self.near || length <= start {
             return grown_count(first, length - start, self.near);

@@ -1,7 +1,7 @@
 //! Blocks, ring sectors and disc sectors, put together.
 
 use super::angle::direction;
-use super::brick::{Brick, Face};
+use super::brick::{Brick, BrickSide};
 use super::grid::{BodyBuilder, Side, empty_mesh};
 use super::o_grid::{self, disc_grid};
 use super::polar::{Sector, is_full_circle, ring_grid};
@@ -195,7 +195,7 @@ fn make_brick(mesh: &mut Mesh, part: &Part, brick: &BrickPart) -> Result<()> {
     };
     let body = Brick::add(mesh, &part.body, element, brick.elements, point)
         .map_err(|e| e.within(format!("mesh.parts (body `{}`)", part.body)))?;
-    for (name, face) in Face::ALL {
+    for (name, face) in BrickSide::ALL {
         body.side(mesh, name, face);
     }
     Ok(())

@@ -10,7 +10,7 @@ use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Shape};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-/// What messages call it.
+/// Name of the generator in messages.
 const KEY: &str = "roller between raceways";
 /// Ratio of neighbouring element sizes away from the contacts.
 const GROWTH: f64 = 1.15;
@@ -19,7 +19,8 @@ const CORE: f64 = 0.5;
 /// How deep elements are even below a contact, over how far they are along it.
 const DEPTH: f64 = 0.8;
 
-/// What it is made to the measure of. The roller's centre is the origin, the inner ring below it.
+/// Measures of a roller between two raceways. The roller's centre is the origin, the inner ring
+/// below it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Raceways {
     /// Radius of the roller.
@@ -37,7 +38,7 @@ pub(crate) struct Raceways {
 }
 
 /// A ring: its raceway, and where it lies beyond that.
-struct Ring {
+struct RacewayRing {
     name: &'static str,
     radius: f64,
     /// Height of its centre.
@@ -75,14 +76,14 @@ impl Raceways {
         self.add_roller(&mut mesh, shape, &along)?;
         let [below, above] = self.centers();
         for ring in [
-            Ring {
+            RacewayRing {
                 name: "inner",
                 radius: self.inner,
                 center: below,
                 out: -1.0,
                 back: "bore",
             },
-            Ring {
+            RacewayRing {
                 name: "outer",
                 radius: self.outer,
                 center: above,
@@ -164,7 +165,13 @@ impl Raceways {
         body.surface("outer", top.side(Side::Top), None)
     }
 
-    fn add_ring(&self, mesh: &mut Mesh, shape: Shape, along: &[f64], ring: &Ring) -> Result<()> {
+    fn add_ring(
+        &self,
+        mesh: &mut Mesh,
+        shape: Shape,
+        along: &[f64],
+        ring: &RacewayRing,
+    ) -> Result<()> {
         let angle = |arc: &f64| (self.roller * (arc / self.roller).sin() / ring.radius).asin();
         let mut angles: Vec<f64> = along.iter().map(angle).collect();
         let facing = angles.len() - 1;

@@ -194,12 +194,12 @@ fn add_node_sets(content: &Content, cursor: &Cursor, kept: &[u32], mesh: &mut Me
 }
 
 /// The corners of a facet, ascending; `DROPPED` where it has fewer than four.
-type Corners = [u32; 4];
+type FacetKey = [u32; 4];
 
 /// Facets by their corners; at most two elements share one.
-type Facets = HashMap<Corners, Vec<Facet>>;
+type Facets = HashMap<FacetKey, Vec<Facet>>;
 
-fn sorted(corners: impl Iterator<Item = u32>) -> Corners {
+fn sorted(corners: impl Iterator<Item = u32>) -> FacetKey {
     let mut out = [DROPPED; 4];
     for (out, corner) in out.iter_mut().zip(corners) {
         *out = corner;

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 /// The tables of a scene but for `kind`, `symmetry` and `mesh`, which come with the arrays.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-struct Tables {
+struct SceneTables {
     title: Option<String>,
     units: Option<Units>,
     materials: BTreeMap<String, Material>,
@@ -51,7 +51,7 @@ impl ModelBuilder {
     /// By line and column: no TOML, an unknown key, a value of another type; a material or body
     /// that is there already.
     pub fn tables(&mut self, text: &str) -> Result<&mut Self> {
-        let tables: Tables =
+        let tables: SceneTables =
             toml::from_str(text).map_err(|e| Error::input(format!("scene text: {e}")))?;
         let mut out = self.clone();
         for (name, material) in tables.materials {

@@ -8,7 +8,7 @@ use crate::space::{Vector, along, difference, direction, dot};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The two ends of an edge, ascending.
-type Edge = [usize; 2];
+type EdgeEnds = [usize; 2];
 
 /// Finds [`ContactSurface::goes_on`] of each contact.
 pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
@@ -19,10 +19,10 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
         .flat_map(|surface| surface.facets.iter().copied())
         .collect();
     let paired = super::may_touch(pairs, contacts);
-    let outer: Vec<Vec<Edge>> = contacts.iter().map(outer_edges).collect();
+    let outer: Vec<Vec<EdgeEnds>> = contacts.iter().map(outer_edges).collect();
     let at_edges = outer.iter().flatten().flatten();
     let nodes: BTreeSet<usize> = at_edges.flat_map(|&k| pairs[k].nodes()).collect();
-    let boundary = Boundary::at(mesh, &nodes);
+    let boundary = EdgeBoundary::at(mesh, &nodes);
     for (contact, edges) in contacts.iter_mut().zip(outer) {
         let mut goes_on = BTreeSet::new();
         for edge in edges {
@@ -50,8 +50,8 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
 }
 
 /// Edges, by their pairs, of one face of a contact only.
-fn outer_edges(contact: &ContactSurface) -> Vec<Edge> {
-    let mut faces_at: BTreeMap<Edge, usize> = BTreeMap::new();
+fn outer_edges(contact: &ContactSurface) -> Vec<EdgeEnds> {
+    let mut faces_at: BTreeMap<EdgeEnds, usize> = BTreeMap::new();
     for face in &contact.faces {
         for (k, &pair) in face.iter().enumerate() {
             let next = face[(k + 1) % face.len()];
@@ -65,7 +65,7 @@ fn outer_edges(contact: &ContactSurface) -> Vec<Edge> {
 }
 
 /// How a body's boundary goes on beyond an edge of its candidates.
-struct Beyond {
+struct BeyondEdge {
     /// Angle in degrees by which it turns away from the other body; negative towards it.
     turn: f64,
     /// Whether the boundary beyond belongs to the candidates of another contact, or another part of
@@ -74,12 +74,12 @@ struct Beyond {
 }
 
 /// The boundary facets at the edges between some nodes.
-struct Boundary<'m> {
+struct EdgeBoundary<'m> {
     mesh: &'m Mesh,
-    at: BTreeMap<Edge, Vec<Facet>>,
+    at: BTreeMap<EdgeEnds, Vec<Facet>>,
 }
 
-impl<'m> Boundary<'m> {
+impl<'m> EdgeBoundary<'m> {
     fn at(mesh: &'m Mesh, nodes: &BTreeSet<usize>) -> Self {
         // A facet that two elements share is inside; both have its nodes.
         let mut owners: BTreeMap<Vec<usize>, Vec<Facet>> = BTreeMap::new();
@@ -96,7 +96,7 @@ impl<'m> Boundary<'m> {
                 owners.entry(corners).or_default().push(facet);
             }
         }
-        let mut at: BTreeMap<Edge, Vec<Facet>> = BTreeMap::new();
+        let mut at: BTreeMap<EdgeEnds, Vec<Facet>> = BTreeMap::new();
         for facets in owners.values() {
             let [only] = facets[..] else { continue };
             let outline = outline(mesh, only);
@@ -107,17 +107,17 @@ impl<'m> Boundary<'m> {
                 }
             }
         }
-        Boundary { mesh, at }
+        EdgeBoundary { mesh, at }
     }
 
     /// How the boundary goes on beyond the edge of a paired candidate; `None` where it has not two
     /// facets there.
     fn beyond(
         &self,
-        [a, b]: Edge,
+        [a, b]: EdgeEnds,
         candidates: &BTreeSet<Facet>,
         paired: &BTreeSet<usize>,
-    ) -> Option<Beyond> {
+    ) -> Option<BeyondEdge> {
         let [one, two] = self.at.get(&[a.min(b), a.max(b)])?[..] else {
             return None;
         };
@@ -130,7 +130,7 @@ impl<'m> Boundary<'m> {
         } else {
             (two, one)
         };
-        Some(Beyond {
+        Some(BeyondEdge {
             turn: self.turn(inside, outside),
             is_followed: is_paired(inside) && is_paired(outside),
         })

@@ -1,6 +1,6 @@
 //! Pairs of nodes that face each other.
 
-use super::{Entries, Found, Pair};
+use super::{ContactInput, Found, Pair};
 use crate::balls::Balls;
 use crate::element::facet_points;
 use crate::error::{Error, Result};
@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 ///
 /// # Errors
 /// Surfaces that are not one curve; pairs that share a node, overlap, or are no pairs.
-pub(super) fn pairs(entries: &Entries, given: Option<&[NodePair]>) -> Result<Option<Found>> {
+pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Result<Option<Found>> {
     let (mesh, contact) = (entries.mesh, &entries.contact);
     // The paper's: the normal is the second body's.
     let slave = match contact.slave {
@@ -168,7 +168,7 @@ fn facets_match(mesh: &Mesh, [master, slave]: [&Surface; 2], pairs: &[Pair]) -> 
 /// Integrals of each node's shape function over the facets of a surface all of whose nodes are
 /// among `faces`.
 pub(super) fn nodal_areas(
-    entries: &Entries,
+    entries: &ContactInput,
     surface: &Surface,
     faces: &BTreeSet<usize>,
 ) -> BTreeMap<usize, f64> {

@@ -24,7 +24,7 @@ mod roundness;
 mod spheres;
 
 use super::covered::{Covered, CoveredFacet};
-use super::{ContactSurface, Entries, Found, NO_AREA, Pair};
+use super::{ContactInput, ContactSurface, Found, NO_AREA, Pair};
 use crate::balls::Balls;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{longest_facet, nodes, normals};
@@ -32,7 +32,7 @@ use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::SlaveSide;
 use crate::space::{Vector, difference, direction, dot, length};
 use dual::{Integrals, OfFacet, integrate};
-use face::Face;
+use face::MortarFace;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -51,9 +51,9 @@ const NOTHING: f64 = 1e-13;
 
 /// The facets of both surfaces, and where they truly are.
 struct Sides<'a> {
-    entries: &'a Entries<'a>,
-    slaves: Vec<Face>,
-    masters: Vec<Face>,
+    entries: &'a ContactInput<'a>,
+    slaves: Vec<MortarFace>,
+    masters: Vec<MortarFace>,
     /// The masters, to find those near a line.
     near: Balls,
     /// Exact shapes of slave and master, where known.
@@ -87,7 +87,7 @@ impl Coupled<'_> {
 ///
 /// # Errors
 /// Surfaces that are not one curve, do not face each other, share nodes or overlap.
-pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found> {
+pub(super) fn pairs(entries: &ContactInput, notes: &mut Vec<String>) -> Result<Found> {
     let found = coupled(entries, entries.contact.slave)?;
     found.check()?;
     // Facets of a curved surface overlap the other one on one side and gape on the other: where the
@@ -121,7 +121,7 @@ pub(super) fn pairs(entries: &Entries, notes: &mut Vec<String>) -> Result<Found>
 ///
 /// # Errors
 /// As [`pairs`], but surfaces may overlap, by `distance` at most.
-pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, Vec<usize>)> {
+pub(super) fn tied(entries: &ContactInput, distance: Option<f64>) -> Result<(Found, Vec<usize>)> {
     let found = coupled(entries, entries.contact.slave)?;
     found.sides.check_apart(&found.pairs)?;
     let most = distance.unwrap_or(NEAR * found.facet_length + found.sides.depth_of_facets());
@@ -164,7 +164,7 @@ pub(super) fn tied(entries: &Entries, distance: Option<f64>) -> Result<(Found, V
 ///
 /// # Errors
 /// Surfaces that are not one curve or do not face each other.
-fn coupled<'a>(entries: &'a Entries<'a>, slave: SlaveSide) -> Result<Coupled<'a>> {
+fn coupled<'a>(entries: &'a ContactInput<'a>, slave: SlaveSide) -> Result<Coupled<'a>> {
     let (mesh, contact) = (entries.mesh, &entries.contact);
     let curves = entries
         .surfaces
@@ -178,11 +178,11 @@ fn coupled<'a>(entries: &'a Entries<'a>, slave: SlaveSide) -> Result<Coupled<'a>
     let [slave_surface, master_surface] = [entries.surfaces[slave], entries.surfaces[1 - slave]];
     let slave_nodes = nodes(mesh, slave_surface)?;
     nodes(mesh, master_surface)?;
-    let faces = |surface: &Surface| -> Vec<Face> {
+    let faces = |surface: &Surface| -> Vec<MortarFace> {
         surface
             .facets
             .iter()
-            .map(|&facet| Face::new(mesh, facet))
+            .map(|&facet| MortarFace::new(mesh, facet))
             .collect()
     };
     let shaped = Surface {
@@ -197,7 +197,7 @@ fn coupled<'a>(entries: &'a Entries<'a>, slave: SlaveSide) -> Result<Coupled<'a>
     let sides = Sides {
         entries,
         slaves: faces(slave_surface),
-        near: Balls::new(masters.iter().map(Face::ball).collect()),
+        near: Balls::new(masters.iter().map(MortarFace::ball).collect()),
         masters,
         curves,
         normals: slave_nodes.iter().copied().zip(normals).collect(),
@@ -268,16 +268,16 @@ const LONGER_KINKED: f64 = 1.0;
 /// The surface with the smaller facets where the two may face each other, the second if alike; the
 /// other one where its facets are linear and longer by more than [`LONGER`], or [`LONGER_KINKED`].
 fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
-    let faces = surfaces.map(|surface| -> Vec<Face> {
+    let faces = surfaces.map(|surface| -> Vec<MortarFace> {
         surface
             .facets
             .iter()
-            .map(|&facet| Face::new(mesh, facet))
+            .map(|&facet| MortarFace::new(mesh, facet))
             .collect()
     });
-    let median = |own: &[Face], other: &[Face]| {
-        let near = Balls::new(other.iter().map(Face::ball).collect());
-        let faced = |face: &&Face| {
+    let median = |own: &[MortarFace], other: &[MortarFace]| {
+        let near = Balls::new(other.iter().map(MortarFace::ball).collect());
+        let faced = |face: &&MortarFace| {
             let near = near.near(face.center, face.normal, face.radius);
             near.into_iter().any(|k| face.may_face(&other[k]))
         };
@@ -287,7 +287,7 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
     };
     let [first, second] = [median(&faces[0], &faces[1]), median(&faces[1], &faces[0])];
     let finer = usize::from(first >= second * (1.0 - 1e-6));
-    let is_linear = |face: &Face| face.nodes.len() == face.reference.n_corners;
+    let is_linear = |face: &MortarFace| face.nodes.len() == face.reference.n_corners;
     let ratio = if finer == 0 {
         second / first
     } else {
@@ -412,9 +412,9 @@ impl Sides<'_> {
     }
 }
 
-/// How far facets may be off a surface through their nodes.
-fn depth(faces: &[Face]) -> f64 {
-    let mut at: BTreeMap<usize, &Face> = BTreeMap::new();
+/// Distance by which facets may be off a surface through their nodes.
+fn depth(faces: &[MortarFace]) -> f64 {
+    let mut at: BTreeMap<usize, &MortarFace> = BTreeMap::new();
     let mut largest = 0.0f64;
     for face in faces {
         for &node in &face.nodes {

@@ -4,7 +4,7 @@
 //! sliding: both stay as they are where the bodies move.
 
 use super::matching::nodal_areas;
-use super::{Entries, Found, Pair};
+use super::{ContactInput, Found, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::surface::{longest_facet, nodes, normals};
 use crate::model::rigid::RigidBody;
@@ -21,7 +21,7 @@ const ROUND_OFF: f64 = 1e-9;
 ///
 /// # Errors
 /// Surfaces that are not one curve, that face each other nowhere, or that overlap.
-pub(super) fn pairs(entries: &Entries, slave: usize, body: &RigidBody) -> Result<Found> {
+pub(super) fn pairs(entries: &ContactInput, slave: usize, body: &RigidBody) -> Result<Found> {
     let (mesh, surface) = (entries.mesh, entries.surfaces[slave]);
     let slaves = nodes(mesh, surface)?;
     let facet_length = longest_facet(mesh, surface);
@@ -82,7 +82,7 @@ pub(super) fn pairs(entries: &Entries, slave: usize, body: &RigidBody) -> Result
 
 /// Refuses a rigid surface that starts inside the body.
 fn check_apart(
-    entries: &Entries,
+    entries: &ContactInput,
     pairs: &[Pair],
     body: &RigidBody,
     facet_length: f64,

@@ -6,7 +6,7 @@
 //! surfaces seem to overlap by what lies between them; but what overlaps lies inside both bodies,
 //! there it lies inside one, then inside the other.
 
-use super::{Entries, Pair};
+use super::{ContactInput, Pair};
 use crate::balls::Balls;
 use crate::deck::face_number;
 use crate::error::{Error, Result};
@@ -22,7 +22,8 @@ const AGREE: f64 = 0.5;
 const DEEP: f64 = 0.9;
 /// Most faces that are looked at, the deepest ones.
 const MOST: usize = 8;
-/// How far from either end of an overlap it is asked whether the place is inside, as a share of it.
+/// Distance from either end of an overlap, as a share of it, at which it is asked whether the place
+/// is inside.
 const NEAR_ENDS: f64 = 0.125;
 /// Share of an element's size that a place may lie outside of its faces and count as inside.
 const OUTSIDE: f64 = 1e-3;
@@ -81,7 +82,7 @@ fn is_met(corners: &[Vector], x: Vector, line: Vector) -> bool {
     }
 }
 
-impl Entries<'_> {
+impl ContactInput<'_> {
     /// Refuses a facet of one surface that looks the same way as what lies opposite it on the
     /// other, where nothing else of its own surface lies between and looks at that.
     pub(super) fn check_sides(&self) -> Result<()> {
@@ -225,7 +226,7 @@ fn outward(mesh: &Mesh, facet: Facet) -> (Vector, Vector) {
     (middle, direction(reference.area(&at, &points)))
 }
 
-/// How far its element reaches behind a facet.
+/// Distance that its element reaches behind a facet.
 fn depth(mesh: &Mesh, facet: Facet) -> f64 {
     let (middle, normal) = outward(mesh, facet);
     let behind = mesh.nodes(facet.element).iter().map(|&node| {

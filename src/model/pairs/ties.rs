@@ -1,7 +1,7 @@
 //! Surfaces that are tied: which of their nodes follow which, by the rows of [`super::mortar`].
 
 use super::stated::Stated;
-use super::{ContactSurface, Entries, Pair, list, mortar};
+use super::{ContactInput, ContactSurface, Pair, list, mortar};
 use crate::error::{Error, Result};
 use crate::mesh::{Facet, Mesh, Surface};
 use crate::model::names::Entry;
@@ -15,7 +15,8 @@ pub(in crate::model) struct Tied {
     pub what: String,
     /// The surface whose nodes follow.
     pub slaves: String,
-    /// What each of its nodes follows; the area is the integral of the dual function.
+    /// Rows by which each of its nodes follows others; the area is the integral of the dual
+    /// function.
     pub rows: Vec<Pair>,
 }
 
@@ -71,7 +72,7 @@ fn rows(
         ..Contact::default()
     };
     let stated = Stated::default();
-    let entries = Entries {
+    let entries = ContactInput {
         index,
         contact: sides,
         stated: &stated,

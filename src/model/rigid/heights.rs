@@ -141,13 +141,13 @@ impl Heights {
         let [xs, ys] = &self.places;
         let is_image = self.is_mirrored && u < 0.0;
         let turned = if is_image { -1.0 } else { 1.0 };
-        let along = Line::of(xs, turned * u, self.is_mirrored)?;
+        let along = GridLine::of(xs, turned * u, self.is_mirrored)?;
         let row = |j: usize| along.values(|i| self.values[j * xs.len() + i]);
         if ys.len() == 1 {
             let [h, of_u, uu] = row(0);
             return Some([h, turned * of_u, 0.0, uu, 0.0, 0.0]);
         }
-        let across = Line::of(ys, v, false)?;
+        let across = GridLine::of(ys, v, false)?;
         let [h, of_v, vv] = across.values(|j| row(j)[0]);
         let [of_u, uv, _] = across.values(|j| row(j)[1]);
         let [uu, ..] = across.values(|j| row(j)[2]);
@@ -163,12 +163,12 @@ fn solve([a, c, d]: [f64; 3], b: [f64; 2]) -> [f64; 2] {
 
 /// Where a place stands on a line of the grid: value and first two derivatives there are sums over
 /// these points.
-struct Line {
+struct GridLine {
     first: usize,
     weights: [[f64; 4]; 3],
 }
 
-impl Line {
+impl GridLine {
     /// `None` beyond the ends.
     fn of(x: &[f64], at: f64, is_mirrored: bool) -> Option<Self> {
         let n = x.len();
@@ -204,7 +204,7 @@ impl Line {
                 }
             }
         }
-        Some(Line { first, weights })
+        Some(GridLine { first, weights })
     }
 
     fn values(&self, of: impl Fn(usize) -> f64) -> [f64; 3] {

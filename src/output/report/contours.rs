@@ -3,7 +3,7 @@
 use super::path::Spot;
 
 /// A point on a line: a corner of a triangle (twice), or the place between two where a value lies.
-type Key = [u32; 2];
+type LinePoint = [u32; 2];
 
 /// Triangles of the plane with a value at each corner; between them values are linear.
 pub(super) struct Sheet<'t> {
@@ -25,7 +25,7 @@ impl Sheet<'_> {
     pub(super) fn above(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let is_above = |k: u32| self.values[k as usize] >= level || level == f64::NEG_INFINITY;
         let cut = |a: u32, b: u32| [a.min(b), a.max(b)];
-        let mut segments: Vec<(Key, Key)> = Vec::new();
+        let mut segments: Vec<(LinePoint, LinePoint)> = Vec::new();
         for corners in self.triangles {
             let (mut enters, mut leaves) = (None, None);
             for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j])) {
@@ -46,7 +46,7 @@ impl Sheet<'_> {
             }
         }
         let rings = joined(segments);
-        let place = |&[a, b]: &Key| {
+        let place = |&[a, b]: &LinePoint| {
             let [p, q] = [a, b].map(|k| self.places[k as usize]);
             let [v, w] = [a, b].map(|k| self.values[k as usize]);
             let share = if a == b { 0.0 } else { (level - v) / (w - v) };

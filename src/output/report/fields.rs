@@ -64,14 +64,14 @@ pub(super) struct View {
     pub words: String,
     /// Triangles of the plane, mirror images included.
     pub patchwork: Patchwork,
-    /// What of it is shown.
+    /// Window of the plane that is shown.
     pub window: Window,
     /// Labels of its axes.
     pub labels: [String; 2],
 }
 
 /// A picture of a state.
-pub(super) struct Shown {
+pub(super) struct StatePicture {
     /// Index of the state.
     pub state: usize,
     /// Index of the view.
@@ -94,7 +94,7 @@ const NEUTRAL: RGBColor = RGBColor(0x9a, 0xa5, 0xb1);
 
 /// Values of a quantity in a state on a view, and the share of the elements round that have
 /// yielded.
-struct Values<'v> {
+struct ViewValues<'v> {
     state: usize,
     view: usize,
     quantity: Quantity,
@@ -112,19 +112,19 @@ pub(super) fn draw(
     views: &[View],
     states: &[(usize, &Fields)],
     quantities: &[Quantity],
-) -> Result<Vec<Shown>> {
+) -> Result<Vec<StatePicture>> {
     let tasks: Vec<_> = states
         .iter()
         .flat_map(|state| (0..views.len()).map(move |view| (state, view)))
         .flat_map(|(state, view)| quantities.iter().map(move |&q| (state, view, q)))
         .collect();
-    let values: Vec<Values> = tasks
+    let values: Vec<ViewValues> = tasks
         .into_par_iter()
         .map(|(&(state, fields), view, quantity)| {
             let patchwork = &views[view].patchwork;
             let places = patchwork.places(mesh, Some(&fields.displacement));
             let values = patchwork.of_elements(mesh, |e| quantity.of(mesh, fields, e));
-            Values {
+            ViewValues {
                 state,
                 view,
                 quantity,
@@ -133,7 +133,7 @@ pub(super) fn draw(
             }
         })
         .collect();
-    let range = |values: &Values| {
+    let range = |values: &ViewValues| {
         let window = views[values.view].window;
         let shown = values.sheet.places.iter().zip(&values.sheet.values);
         let shown = shown.filter(|(place, value)| value.is_finite() && window.sees(&[**place]));
@@ -157,7 +157,7 @@ pub(super) fn draw(
             && size(*own) < FAINT * size(common);
         let range = if has_own_scale { *own } else { common };
         let drawing = draw_one(labels, &views[shown.view], shown, range)?;
-        Ok(Shown {
+        Ok(StatePicture {
             state: shown.state,
             view: shown.view,
             quantity: shown.quantity,
@@ -168,7 +168,7 @@ pub(super) fn draw(
     drawn.collect()
 }
 
-fn draw_one(labels: &Labels, view: &View, shown: &Values, range: [f64; 2]) -> Result<Drawing> {
+fn draw_one(labels: &Labels, view: &View, shown: &ViewValues, range: [f64; 2]) -> Result<Drawing> {
     let quantity = shown.quantity;
     let sheet = &shown.sheet;
     let bands = Bands::new(range, quantity.scale(), quantity.unit(labels));

@@ -56,7 +56,7 @@ use crate::text::shown;
 use chart::{Chart, Curve, Pen};
 use contact_frame::ContactFrame;
 use drawing::Drawing;
-use page::{Figure, Figures};
+use page::{Figure, PageFigures};
 #[cfg(feature = "cli")]
 use plotters::prelude::SeriesLabelPosition;
 use rayon::prelude::*;
@@ -140,7 +140,7 @@ pub(super) fn files(
         .collect::<Result<_>>()?;
     let pictures = states::draw(model, results, labels, frame.as_ref())?;
     let of = |list: &[Captioned]| list.iter().map(Captioned::figure).collect();
-    let figures = Figures {
+    let figures = PageFigures {
         scene: of(&scene),
         meshed: of(&meshed),
         charts: of(&charts),

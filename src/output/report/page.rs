@@ -31,7 +31,7 @@ pub(super) struct Figure {
 
 /// The figures of a report, by section.
 #[derive(Default)]
-pub(super) struct Figures {
+pub(super) struct PageFigures {
     /// The scene drawn.
     pub scene: Vec<Figure>,
     /// Drawings of the scene with the mesh, shown on demand.
@@ -52,7 +52,7 @@ pub(super) fn page(
     model: &Model,
     results: &Results,
     labels: &Labels,
-    figures: &Figures,
+    figures: &PageFigures,
 ) -> String {
     let title = title(header);
     let sections = [
@@ -334,7 +334,7 @@ fn charts(list: &[Figure]) -> Markup {
     figures(list, "figures")
 }
 
-fn pictures(all: &Figures) -> Markup {
+fn pictures(all: &PageFigures) -> Markup {
     if all.states.is_empty() {
         return PreEscaped(String::new());
     }

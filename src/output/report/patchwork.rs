@@ -12,7 +12,7 @@ pub(super) type Mix = Vec<(usize, f64)>;
 
 /// A point of a patchwork.
 #[derive(Clone)]
-struct Point {
+struct PatchworkPoint {
     mix: Mix,
     body: u32,
     /// -1 along the axes in which it is a mirror image, else 1.
@@ -23,7 +23,7 @@ struct Point {
 pub(super) struct Patchwork {
     /// The plane's axes in space.
     axes: [Vector; 2],
-    points: Vec<Point>,
+    points: Vec<PatchworkPoint>,
     known: BTreeMap<(u32, [usize; 2]), u32>,
     triangles: Vec<[u32; 3]>,
     border: Vec<[u32; 2]>,
@@ -83,7 +83,7 @@ impl Patchwork {
     pub(super) fn point(&mut self, body: u32, key: [usize; 2], mix: impl FnOnce() -> Mix) -> u32 {
         let points = &mut self.points;
         *self.known.entry((body, key)).or_insert_with(|| {
-            points.push(Point {
+            points.push(PatchworkPoint {
                 mix: mix(),
                 body,
                 sign: [1.0; 2],
@@ -143,7 +143,7 @@ impl Patchwork {
     /// Where the points are, displaced or not.
     pub(super) fn places(&self, mesh: &Mesh, displacement: Option<&[f64]>) -> Vec<[f64; 2]> {
         let at = |source: usize| place(mesh, displacement, source);
-        let place = |point: &Point| {
+        let place = |point: &PatchworkPoint| {
             let sum = |sum, &(source, weight): &(usize, f64)| along(sum, weight, at(source));
             let x = point.mix.iter().fold([0.0; 3], sum);
             [0, 1].map(|d| point.sign[d] * dot(self.axes[d], x))
@@ -184,7 +184,7 @@ impl Patchwork {
 
     /// Values of nodes at the points, of points that are nodes.
     pub(super) fn of_nodes(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
-        let mixed = |point: &Point| {
+        let mixed = |point: &PatchworkPoint| {
             point
                 .mix
                 .iter()

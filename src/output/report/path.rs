@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 /// A place in a drawing: right and down.
 pub(super) type Spot = [f64; 2];
 
-/// How far a path may be off what it stands for, in units of a drawing.
+/// Distance by which a path may be off the curve that it stands for, in units of a drawing.
 const OFF: f64 = 0.8;
 
 /// The data of a path round closed lines, as far as they lie in a rectangle.

@@ -38,7 +38,7 @@ const ARROW: f64 = 38.0;
 const AXIS: f64 = 24.0;
 
 /// A face that is seen.
-struct Face {
+struct SeenFace {
     nodes: Vec<usize>,
     body: usize,
     is_contact: bool,
@@ -53,7 +53,7 @@ pub(super) struct Perspective<'m> {
     camera: Camera,
     /// Where nodes are in the drawing, in pixels.
     spots: BTreeMap<usize, [f64; 2]>,
-    faces: Vec<Face>,
+    faces: Vec<SeenFace>,
     /// How high each body lies: those of one rank reach into each other's heights.
     ranks: Vec<usize>,
     /// Sides of seen faces to be drawn: those of contact surfaces, and edges.
@@ -175,7 +175,7 @@ impl<'m> Perspective<'m> {
             }
             if is_seen {
                 let (at, depth) = self.camera.project(middle);
-                self.faces.push(Face {
+                self.faces.push(SeenFace {
                     nodes,
                     body: mesh.element_body[facet.element] as usize,
                     is_contact,
@@ -222,7 +222,7 @@ impl<'m> Perspective<'m> {
     /// The faces as paths.
     fn painted(&self, meshed: bool) -> (String, f64) {
         type Key = (usize, bool, u8, [i64; 3]);
-        let mut areas: BTreeMap<Key, Vec<&Face>> = BTreeMap::new();
+        let mut areas: BTreeMap<Key, Vec<&SeenFace>> = BTreeMap::new();
         for face in &self.faces {
             let depth = face.depth * self.scale / self.distance;
             let cell = [face.middle[0], face.middle[1], depth];
@@ -230,7 +230,7 @@ impl<'m> Perspective<'m> {
             let key = (face.body, face.is_contact, face.shade, cell);
             areas.entry(key).or_default().push(face);
         }
-        let mut areas: Vec<(f64, Key, Vec<&Face>)> = areas
+        let mut areas: Vec<(f64, Key, Vec<&SeenFace>)> = areas
             .into_iter()
             .map(|(key, faces)| {
                 let sum: f64 = faces.iter().map(|face| face.depth).sum();
@@ -239,7 +239,7 @@ impl<'m> Perspective<'m> {
             .collect();
         // The eye is above: what lies on something hides it.
         areas.sort_by(|a, b| {
-            let rank = |area: &(f64, Key, Vec<&Face>)| self.ranks[area.1.0];
+            let rank = |area: &(f64, Key, Vec<&SeenFace>)| self.ranks[area.1.0];
             rank(a).cmp(&rank(b)).then(b.0.total_cmp(&a.0))
         });
         let fine = f64::from(FINE);

@@ -23,7 +23,7 @@ const MOST_NEAR: f64 = 0.6;
 const REACH: f64 = 2.6;
 
 /// Draws one view without or with the mesh, and states the share of its area whose mesh is seen.
-type View<'v> = (
+type DrawView<'v> = (
     &'static str,
     &'static str,
     Box<dyn Fn(bool) -> Result<(Drawing, f64)> + 'v>,
@@ -74,7 +74,7 @@ pub(super) fn draw(
 const WHOLE: [&str; 2] = ["scene", "The whole model"];
 const NEAR: [&str; 2] = ["contact_region", "Near the contact"];
 
-fn plane<'v>(model: &'v Model, results: &Results, labels: &'v Labels) -> Vec<View<'v>> {
+fn plane<'v>(model: &'v Model, results: &Results, labels: &'v Labels) -> Vec<DrawView<'v>> {
     let Some(whole) = window::whole(model, [false; 2]) else {
         return Vec::new();
     };
@@ -85,14 +85,14 @@ fn plane<'v>(model: &'v Model, results: &Results, labels: &'v Labels) -> Vec<Vie
         .into_iter()
         .filter_map(|(words, window)| Some((words, window?)));
     views
-        .map(|([name, title], window)| -> View {
+        .map(|([name, title], window)| -> DrawView {
             let draw = move |mesh| sketch::draw(model, labels, window, mesh);
             (name, title, Box::new(draw))
         })
         .collect()
 }
 
-fn solid<'v>(model: &'v Model, frame: Option<&ContactFrame>) -> Vec<View<'v>> {
+fn solid<'v>(model: &'v Model, frame: Option<&ContactFrame>) -> Vec<DrawView<'v>> {
     let (up, across) = frame.map_or((unit(2), [unit(0), unit(1)]), |f| (f.up, f.axes));
     let stand = Stand::new(model, up, across);
     let [low, high] = window::extent(model);

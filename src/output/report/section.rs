@@ -58,7 +58,7 @@ impl Cut {
         let highest = height.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let shift = if highest > 2.0 * off { -off } else { off };
         height.iter_mut().for_each(|h| *h += shift);
-        let mut pieces = Pieces {
+        let mut pieces = CutPieces {
             mesh,
             height,
             faces: BTreeMap::new(),
@@ -78,7 +78,7 @@ impl Cut {
 }
 
 /// The pieces in the making.
-struct Pieces<'m> {
+struct CutPieces<'m> {
     mesh: &'m Mesh,
     /// Height of each node above the plane.
     height: Vec<f64>,
@@ -90,7 +90,7 @@ struct Pieces<'m> {
 /// A corner of a tetrahedron: its number, what it is a mean of, its height.
 type Corner = (usize, Mix, f64);
 
-impl Pieces<'_> {
+impl CutPieces<'_> {
     /// The cut through the tetrahedra between the sides of the faces, their middles and the middle
     /// of the element: elements of any shape fit together.
     fn element(&mut self, element: usize) {

@@ -3,7 +3,7 @@
 use super::Captioned;
 use super::contact_frame::{ContactFrame, global};
 use super::contact_map::ContactMap;
-use super::fields::{self, Quantity, Shown, View, chosen};
+use super::fields::{self, Quantity, StatePicture, View, chosen};
 use super::magnified;
 use super::patchwork::{Patchwork, seen};
 use super::section::Cut;
@@ -213,7 +213,7 @@ fn load(state: &State, labels: &Labels) -> String {
     load.trim_end().to_string()
 }
 
-fn captioned(picture: Shown, state: &State, views: &[View], labels: &Labels) -> Captioned {
+fn captioned(picture: StatePicture, state: &State, views: &[View], labels: &Labels) -> Captioned {
     let view = &views[picture.view];
     let (name, words) = match picture.quantity {
         Quantity::VonMises => ("von_mises", "Von Mises stress"),

@@ -57,7 +57,7 @@ fn swatch(color: RGBColor, name: &str) -> Markup {
     html! { i.swatch style={ "background:" (hex(color)) } {} (name) }
 }
 
-/// What the scene is made of, beside its drawing.
+/// Table of what the scene is made of, next to its drawing.
 pub(super) fn scene(model: &Model, labels: &Labels, drawn: &[Figure], meshed: &[Figure]) -> Markup {
     html! {
         (figures(drawn, "figures"))

@@ -45,7 +45,7 @@ pub(super) struct EdgeFace {
 
 /// The shares of a face's corners in a place: what two neighbours have more than all.
 #[derive(Clone, Copy)]
-struct Shares {
+struct CornerShares {
     /// The first of the two.
     at: usize,
     of_first: f64,
@@ -64,7 +64,7 @@ impl AtCorners {
         AtCorners { values, mean }
     }
 
-    fn at(&self, shares: &Shares) -> f64 {
+    fn at(&self, shares: &CornerShares) -> f64 {
         let [a, b] = [shares.of_first, shares.of_second];
         let next = (shares.at + 1) % self.values.len();
         (1.0 - a - b) * self.mean + a * self.values[shares.at] + b * self.values[next]
@@ -72,9 +72,9 @@ impl AtCorners {
 }
 
 /// A small piece of a face.
-struct Piece {
+struct FacePiece {
     area: f64,
-    shares: Shares,
+    shares: CornerShares,
     /// Share of the corners that are not believed.
     share: f64,
     /// Value of the quadratic.
@@ -86,7 +86,7 @@ struct Piece {
 impl EdgeFace {
     /// The shares of the corners at a place: linear in the triangles between two of them and the
     /// middle, at which all have the same.
-    fn shares(&self, x: [f64; 2]) -> Shares {
+    fn shares(&self, x: [f64; 2]) -> CornerShares {
         let n = self.corners.len();
         let middle = [0, 1].map(|d| self.corners.iter().map(|c| c[d]).sum::<f64>() / n as f64);
         let from = |y: [f64; 2]| [y[0] - middle[0], y[1] - middle[1]];
@@ -95,16 +95,16 @@ impl EdgeFace {
         let of_two = |at: usize| {
             let (a, b) = (from(self.corners[at]), from(self.corners[(at + 1) % n]));
             let whole = turned(a, b);
-            Shares {
+            CornerShares {
                 at,
                 of_first: turned(x, b) / whole,
                 of_second: turned(a, x) / whole,
             }
         };
-        let inside = |shares: &Shares| shares.of_first.min(shares.of_second);
+        let inside = |shares: &CornerShares| shares.of_first.min(shares.of_second);
         let all = (0..n).map(of_two);
         all.max_by(|a, b| inside(a).total_cmp(&inside(b)))
-            .unwrap_or(Shares {
+            .unwrap_or(CornerShares {
                 at: 0,
                 of_first: 0.0,
                 of_second: 0.0,
@@ -134,7 +134,7 @@ impl EdgeFace {
         }
     }
 
-    fn pieces(&self) -> Vec<Piece> {
+    fn pieces(&self) -> Vec<FacePiece> {
         let mut out = Vec::new();
         let layers = AtCorners::new(self.layers.clone());
         let is_ours = |l: &f64| if *l > 0.0 { 1.0 } else { 0.0 };
@@ -143,7 +143,7 @@ impl EdgeFace {
             let [a, b] = [q, r].map(|x| [x[0] - p[0], x[1] - p[1]]);
             let x = [0, 1].map(|d| (p[d] + q[d] + r[d]) / 3.0);
             let shares = self.shares(x);
-            out.push(Piece {
+            out.push(FacePiece {
                 area: 0.5 * (a[0] * b[1] - a[1] * b[0]).abs(),
                 share: ours.at(&shares),
                 fitted: self.fit.value(x),
@@ -155,18 +155,18 @@ impl EdgeFace {
     }
 
     /// Force of the pairs that are not believed.
-    fn given(&self, pieces: &[Piece]) -> f64 {
+    fn given(&self, pieces: &[FacePiece]) -> f64 {
         let ours = self.layers.iter().zip(&self.pressures);
         let ours = ours.map(|(l, p)| if *l > 0.0 { *p } else { 0.0 });
         let ours = AtCorners::new(ours.collect());
-        let force = |piece: &Piece| piece.area * ours.at(&piece.shares);
+        let force = |piece: &FacePiece| piece.area * ours.at(&piece.shares);
         pieces.iter().map(force).sum()
     }
 
     /// Force of the level on these pairs.
-    fn force(&self, pieces: &[Piece], constant: f64) -> f64 {
+    fn force(&self, pieces: &[FacePiece], constant: f64) -> f64 {
         let over = AtCorners::new(self.over(constant));
-        let force = |piece: &Piece| {
+        let force = |piece: &FacePiece| {
             let over = over.at(&piece.shares);
             let square = piece.fitted + constant * piece.cubed - over.powi(3);
             piece.area * piece.share * square.max(0.0).sqrt()
@@ -184,7 +184,7 @@ pub(super) struct Edge {
 impl Edge {
     /// The edge whose pairs carry their force.
     pub(super) fn balanced(faces: Vec<EdgeFace>) -> Self {
-        let pieces: Vec<Vec<Piece>> = faces.iter().map(EdgeFace::pieces).collect();
+        let pieces: Vec<Vec<FacePiece>> = faces.iter().map(EdgeFace::pieces).collect();
         let all = || faces.iter().zip(&pieces);
         let given: f64 = all().map(|(face, pieces)| face.given(pieces)).sum();
         let pressures = faces.iter().flat_map(|face| &face.pressures);

@@ -8,8 +8,8 @@ const FITTED: usize = 9;
 /// Pivot of the scaled normal equations below which they do not determine a fit.
 const LEAST_PIVOT: f64 = 1e-4;
 /// A quadratic, of which a plane is one.
-type Quadratic = PatchFit<2, 2>;
-type Plane = PatchFit<2, 1>;
+type FittedQuadratic = PatchFit<2, 2>;
+type FittedPlane = PatchFit<2, 1>;
 
 /// A value at a place.
 #[derive(Clone, Copy)]
@@ -75,8 +75,8 @@ impl Fit {
                 (weight * weight, place(known), known.value)
             });
             let coefficients = match degree {
-                1 => Plane::through(points, LEAST_PIVOT),
-                _ => Quadratic::through(points, LEAST_PIVOT),
+                1 => FittedPlane::through(points, LEAST_PIVOT),
+                _ => FittedQuadratic::through(points, LEAST_PIVOT),
             }?;
             Some(Fit {
                 origin,
@@ -89,7 +89,7 @@ impl Fit {
 
     pub(super) fn value(&self, at: [f64; 2]) -> f64 {
         let place = [0, 1].map(|d| (at[d] - self.origin[d]) / self.scale);
-        Quadratic::value(&self.coefficients, 1.0, &place)
+        FittedQuadratic::value(&self.coefficients, 1.0, &place)
     }
 
     /// The sum of both second derivatives.

@@ -133,7 +133,7 @@ impl Shape<'_> {
         }))
     }
 
-    /// How many images of a pair's area, its own included, lie round it.
+    /// Number of images of a pair's area, itself included, that lie round the pair.
     fn copies_of(&self, k: usize) -> f64 {
         let x = self.model.mesh.point(self.model.pairs[k].slave);
         let near = 2e-6 * self.model.pairs[k].area.sqrt();

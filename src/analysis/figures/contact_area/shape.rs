@@ -16,7 +16,7 @@ const CLOSED: f64 = 1e-6;
 /// A patch with how it was read.
 pub(in crate::analysis::figures) struct ReadPatch {
     pub(in crate::analysis::figures) patch: ContactPatch,
-    /// What its smaller half axis may be off by, from another reading.
+    /// Error of the smaller half axis, from another reading.
     pub(in crate::analysis::figures) reading: f64,
     /// Closed pairs over that half axis over which fewer lie.
     pub(in crate::analysis::figures) pairs: usize,

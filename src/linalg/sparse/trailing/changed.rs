@@ -26,7 +26,7 @@ pub(crate) struct Changed {
     work: Vec<f64>,
     /// Numbers in these.
     size: usize,
-    /// Where each panel begins in them.
+    /// Start of each panel in the values.
     starts: Vec<usize>,
     /// Panel of each column.
     panel_of: Vec<u32>,

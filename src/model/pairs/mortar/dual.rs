@@ -4,7 +4,7 @@
 //! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`: where little is covered that loses
 //! half of the digits that the inverse of `int phi_j phi_l` would.
 
-use super::face::{Face, Plane, Point};
+use super::face::{MortarFace, Plane, Point};
 use super::{CoveredFacet, NOTHING, Sides, overlap};
 use crate::error::{Error, Result};
 use crate::shape::MAX_FACET_NODES;
@@ -18,7 +18,7 @@ const SLIVER: f64 = 1e-7;
 const PARTLY: f64 = 1e-9;
 /// Share of a facet that may be covered twice: more than polygons are off facets with curved edges.
 const TWICE: f64 = 0.05;
-/// What each end of an edge counts at the middle of it: that of [`crate::model::ContactBasis`].
+/// Weight of each end of an edge at its middle: that of [`crate::model::ContactBasis`].
 const ALPHA: f64 = crate::model::ContactBasis::ALPHA;
 
 /// Integrals of the functions of a slave node.
@@ -87,7 +87,7 @@ impl Integrals {
 }
 
 /// A point of the covered part.
-struct Sample {
+struct CoveredPoint {
     root_weight: f64,
     /// `phi` of the slave's nodes.
     slave: [f64; MAX_FACET_NODES],
@@ -101,7 +101,7 @@ struct Sample {
 pub(super) struct OfFacet {
     /// The integrals of each of its nodes; none where it faces no master.
     pub nodes: Vec<(usize, Integrals)>,
-    /// What masters cover of it, where that is not all.
+    /// Part of the facet that masters cover, where that is not all of it.
     pub covered: Option<CoveredFacet>,
 }
 
@@ -109,7 +109,7 @@ pub(super) struct OfFacet {
 ///
 /// # Errors
 /// A facet that masters cover twice.
-pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<OfFacet> {
+pub(super) fn integrate(sides: &Sides, face: &MortarFace) -> Result<OfFacet> {
     let plane = Plane::new(face.center, face.normal, face.is_solid());
     let pieces = face.pieces(&plane);
     let mut samples = Vec::new();
@@ -169,16 +169,17 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<OfFacet> {
     }
     let q = qr.q();
     // Coefficients on `phi` of functions at the samples: `R^-1 Q' sqrt(w) f`.
-    let coefficients =
-        |columns: usize, range: std::ops::Range<usize>, of: &dyn Fn(&Sample, usize) -> f64| {
-            let values = DMatrix::from_fn(range.len(), columns, |g, k| {
-                let sample = &samples[range.start + g];
-                sample.root_weight * of(sample, k)
-            });
-            let mut out = q.rows(range.start, range.len()).tr_mul(&values);
-            r.solve_upper_triangular_mut(&mut out);
-            out
-        };
+    let coefficients = |columns: usize,
+                        range: std::ops::Range<usize>,
+                        of: &dyn Fn(&CoveredPoint, usize) -> f64| {
+        let values = DMatrix::from_fn(range.len(), columns, |g, k| {
+            let sample = &samples[range.start + g];
+            sample.root_weight * of(sample, k)
+        });
+        let mut out = q.rows(range.start, range.len()).tr_mul(&values);
+        r.solve_upper_triangular_mut(&mut out);
+        out
+    };
     let all = 0..samples.len();
     let gap = coefficients(3, all.clone(), &|s, d| s.gap[d]);
     let normal = coefficients(3, all, &|s, d| s.normal[d]);
@@ -221,7 +222,7 @@ pub(super) fn integrate(sides: &Sides, face: &Face) -> Result<OfFacet> {
 }
 
 /// Polygons in the plane of a facet, cut to its pieces, in space.
-fn by_pieces(face: &Face, plane: &Plane, polygons: &[Vec<Point>]) -> CoveredFacet {
+fn by_pieces(face: &MortarFace, plane: &Plane, polygons: &[Vec<Point>]) -> CoveredFacet {
     let mut out = Vec::new();
     for polygon in polygons.iter().filter(|polygon| !polygon.is_empty()) {
         let parts = face.by_pieces(plane, polygon);
@@ -240,7 +241,7 @@ fn by_pieces(face: &Face, plane: &Plane, polygons: &[Vec<Point>]) -> CoveredFace
 }
 
 /// `int phi` of each node over a whole facet, and its area.
-fn whole(sides: &Sides, face: &Face) -> ([f64; MAX_FACET_NODES], f64) {
+fn whole(sides: &Sides, face: &MortarFace) -> ([f64; MAX_FACET_NODES], f64) {
     let mut out = [0.0; MAX_FACET_NODES];
     let mut area = 0.0;
     for point in crate::element::facet_points(sides.entries.space, face.reference, &face.x) {
@@ -253,7 +254,7 @@ fn whole(sides: &Sides, face: &Face) -> ([f64; MAX_FACET_NODES], f64) {
 }
 
 /// The trace basis of a slave facet, of its shape functions.
-fn trace(face: &Face, values: [f64; MAX_FACET_NODES]) -> [f64; MAX_FACET_NODES] {
+fn trace(face: &MortarFace, values: [f64; MAX_FACET_NODES]) -> [f64; MAX_FACET_NODES] {
     if !face.is_transformed() {
         return values;
     }
@@ -271,11 +272,11 @@ fn trace(face: &Face, values: [f64; MAX_FACET_NODES]) -> [f64; MAX_FACET_NODES] 
 /// What is integrated at a point of a slave's plane.
 fn sample(
     sides: &Sides,
-    [face, master]: [&Face; 2],
+    [face, master]: [&MortarFace; 2],
     plane: &Plane,
     point: Point,
     weight: f64,
-) -> Option<Sample> {
+) -> Option<CoveredPoint> {
     let [here, there] = [face.locate(plane, point)?, master.locate(plane, point)?];
     let at = (face.reference.functions)(here);
     let area = face.reference.area(&at, &face.x);
@@ -291,7 +292,7 @@ fn sample(
             along(sum, value, normal)
         });
     let [own, other] = [(0, x), (1, y)].map(|(side, x)| sides.truly(side, x, plane.normal));
-    Some(Sample {
+    Some(CoveredPoint {
         root_weight: (weight * measure).sqrt(),
         slave: trace(face, values),
         master: of_master,

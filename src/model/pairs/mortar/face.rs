@@ -12,7 +12,7 @@ const OPPOSED: f64 = 0.2;
 const STEPS: usize = 30;
 
 /// A facet of a surface with its outward normal.
-pub(super) struct Face {
+pub(super) struct MortarFace {
     pub reference: &'static FacetReference,
     pub nodes: Vec<usize>,
     pub x: Vec<Vector>,
@@ -61,7 +61,7 @@ impl Plane {
     }
 }
 
-impl Face {
+impl MortarFace {
     pub(super) fn new(mesh: &Mesh, facet: Facet) -> Self {
         let reference = mesh.facet_reference(facet);
         let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
@@ -73,7 +73,7 @@ impl Face {
             .iter()
             .map(|&x| length(difference(x, center)))
             .fold(0.0, f64::max);
-        Face {
+        MortarFace {
             reference,
             nodes,
             x,
@@ -98,7 +98,7 @@ impl Face {
     }
 
     /// Whether another face may lie opposite.
-    pub(super) fn may_face(&self, other: &Face) -> bool {
+    pub(super) fn may_face(&self, other: &MortarFace) -> bool {
         if dot(self.normal, other.normal) > -OPPOSED {
             return false;
         }

@@ -4,7 +4,7 @@
 //! sphere of least algebraic error or from the axis that facets are parallel to. Nodes that were
 //! put on such a surface lie on what is found to round-off.
 
-use super::face::Face;
+use super::face::MortarFace;
 use super::roundness::{BENT, LARGEST_TURN, OFF};
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
@@ -21,7 +21,7 @@ const ACROSS: f64 = 0.1;
 /// The surface that the nodes of another lie on.
 pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     let facets = surface.facets.iter();
-    let faces: Vec<Face> = facets.map(|&facet| Face::new(mesh, facet)).collect();
+    let faces: Vec<MortarFace> = facets.map(|&facet| MortarFace::new(mesh, facet)).collect();
     let mut nodes: BTreeMap<usize, Vector> = BTreeMap::new();
     let mut normal_at: BTreeMap<usize, Vector> = BTreeMap::new();
     let straightest = LARGEST_TURN.to_radians().cos();
@@ -42,7 +42,7 @@ pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     let sphere = || sphere(&points).filter(fits);
     let cylinder = || cylinder(&points, &faces).filter(fits);
     let curve = sphere().or_else(cylinder)?;
-    let out = |face: &Face| {
+    let out = |face: &MortarFace| {
         let from = curve.spine(face.center).map_or([0.0; 3], |spine| spine.0);
         dot(difference(face.center, from), face.normal)
     };
@@ -52,8 +52,8 @@ pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
 }
 
 /// Whether points are off a surface by a small share of what facets between them are.
-fn is_on(curve: &Curve, points: &[Vector], faces: &[Face]) -> bool {
-    let depth = |face: &Face| {
+fn is_on(curve: &Curve, points: &[Vector], faces: &[MortarFace]) -> bool {
+    let depth = |face: &MortarFace| {
         let Some((from, radius, _)) = curve.spine(face.center) else {
             return 0.0;
         };
@@ -135,7 +135,7 @@ fn sphere(points: &[Vector]) -> Option<Curve> {
     })
 }
 
-fn cylinder(points: &[Vector], faces: &[Face]) -> Option<Curve> {
+fn cylinder(points: &[Vector], faces: &[MortarFace]) -> Option<Curve> {
     let mut moments = Matrix3::zeros();
     for face in faces {
         let n = SVector::from(face.normal);
