@@ -274,15 +274,20 @@ fn the_estimate_of_a_file_is_bounded_and_told_before() {
             [25, 10],
             false,
             &[0.25, 0.5][..],
-            "0.25 and 0.5 times as large; about 84 times",
+            "0.250 and 0.500 times as large; about 75 times",
         ),
         (
             [25, 11],
             false,
             &[0.5],
-            "0.5 times as large; about 11 times",
+            "0.500 times as large; about 11 times",
         ),
-        ([5, 10], true, &[0.5], "0.5 times as large; about 67 times"),
+        (
+            [5, 10],
+            true,
+            &[0.5],
+            "0.500 times as large; about 67 times",
+        ),
         ([5, 11], true, &[], "energy norm of the stress error"),
     ] {
         let scene = block(cells, solid);

@@ -140,9 +140,10 @@ fn made_and_run(folder: &Path, arguments: &[&str]) -> Value {
     );
     // The estimate, which runs other meshes, is wanted of one scene.
     let mut run = vec!["run", "-q", "--no-report", "--json", scene];
-    if arguments[0] != "roller-between-raceways" {
-        run.push("--no-estimate");
-    }
+    run.extend(match arguments[0] {
+        "roller-between-raceways" => ["--estimate", "full"],
+        _ => ["--estimate", "none"],
+    });
     let run = brinell(&run);
     assert!(
         run.status.success(),

@@ -27,7 +27,8 @@ const HEAD: &str = "# Stated errors beside true ones\n\n`cargo run --release --e
                     put together; `judging` and `unseen` were looked at when the default was \
                     chosen between bounds of 1 and 0.35 of the run (at 0.35 the share within \
                     fell below 95 % in 12 of the 18 families tried, to 80 % in two). What \
-                    judges the default are the families of [claims_default](claims_default.md).\n\nValues extrapolated \
+                    judges the default are the families of \
+                    [claims_default](claims_default.md).\n\nValues extrapolated \
                     over the three meshes are not offered as results: of 659 that showed an order \
                     which is believed, the extrapolated one was nearer to the truth than the \
                     mesh's own in 68 %, and an error for it, from its distance to other \
@@ -49,8 +50,9 @@ const SOLIDS: &str = "# Stated errors of solids beside true ones\n\n`cargo run -
                       than a layer of Gauss points, and a load that the scene gives has no row: \
                       for what other models showed.\n";
 
-const HELD_OUT: &str = "# Stated errors by default beside true ones\n\n`cargo run --release --example \
-                        claims -- default` writes this page. The default estimate takes no more \
+const HELD_OUT: &str = "# Stated errors by default beside true ones\n\n`cargo run --release \
+                        --example claims -- default` writes this page. The default estimate \
+                        takes no more \
                         than the run (`--estimate quick`); meshes from files are judged by the \
                         energy norm of the recovered stress error alone. These families were \
                         written when it was finished, are of kinds that no other family has, and \

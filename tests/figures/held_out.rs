@@ -68,7 +68,8 @@ pub fn families(folder: &Path) -> Vec<Family> {
 const DENT: &str = "targets = [{ yield = true }, { name = \"dented\", residual_depth = 2e-4 }, \
                     { name = \"off\", load_factor = 0.0 }]";
 const LOADS: &str = "targets = [{ yield = true }, { name = \"half\", load_factor = 150.0 }, \
-                     { name = \"full\", load_factor = 300.0 }, { name = \"off\", load_factor = 0.0 }]";
+                     { name = \"full\", load_factor = 300.0 }, \
+                     { name = \"off\", load_factor = 0.0 }]";
 
 /// A rigid circle of radius 10 on a block that hardens by a table.
 fn indented(kind: &str, targets: &str, n: usize) -> Scene {
@@ -263,7 +264,8 @@ fix = ["y"]
 on = "core"
 temperature = 1.0
 [program]
-targets = [{{ yield = true }}, {{ name = "hot", load_factor = 150.0 }}, {{ name = "cold", load_factor = 0.0 }}]
+targets = [{{ yield = true }}, {{ name = "hot", load_factor = 150.0 }},
+    {{ name = "cold", load_factor = 0.0 }}]
 "#
     ))
 }

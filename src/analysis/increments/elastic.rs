@@ -1,5 +1,6 @@
 //! Elastic drives: contact alone changes, from event to event, on the dense matrix only.
 
+use super::acceptance::{contact_step, rests_at};
 use super::step::{Arrival, MONITOR_ACCURACY, Monitor, Step, crosses, describe, is_hit};
 use super::yield_load::yield_share;
 use crate::analysis::stress::recovery::{Recovery, Samples};
@@ -164,9 +165,9 @@ impl ElasticDrive {
         if is_hit(monitored) {
             return Ok(ControlFlow::Break(Step::arrived(Arrival::Monitor)));
         }
-        if solver.rests_at(end) {
+        if rests_at(solver, end) {
             let (from, solves) = (solver.at.alpha, solver.cost.counts.trailing_solves);
-            let step = solver.contact_step(from, "target", solves, Some(Arrival::End))?;
+            let step = contact_step(solver, from, "target", solves, Some(Arrival::End))?;
             return Ok(ControlFlow::Break(step));
         }
         Ok(ControlFlow::Continue(ElasticDrive {
@@ -182,7 +183,7 @@ impl ElasticDrive {
     ///
     /// # Errors
     /// A load that drives a body away from every contact; those of the monitor and of
-    /// [`Solver::accepted`].
+    /// [`super::outgrown::accepted`].
     pub fn step(
         &mut self,
         solver: &mut Solver,
@@ -211,7 +212,7 @@ impl ElasticDrive {
                 solver.refresh();
                 if let Some(peak) = peak {
                     let arrival = Some(Arrival::Yield(peak));
-                    return solver.contact_step(alpha, "yield", solves, arrival);
+                    return contact_step(solver, alpha, "yield", solves, arrival);
                 }
             }
             self.samples = Some(to);
@@ -223,17 +224,17 @@ impl ElasticDrive {
                 let accuracy = MONITOR_ACCURACY;
                 self.path
                     .land(solver, before, [was, is], accuracy, monitor)?;
-                return solver.contact_step(alpha, "target", solves, Some(Arrival::Monitor));
+                return contact_step(solver, alpha, "target", solves, Some(Arrival::Monitor));
             }
         }
         match outcome {
             PathEnd::Target => {
                 solver.at = end.clone();
-                solver.contact_step(alpha, "target", solves, Some(Arrival::End))
+                contact_step(solver, alpha, "target", solves, Some(Arrival::End))
             }
             PathEnd::Event(changes) => {
                 self.at_event = true;
-                solver.contact_step(alpha, &describe(&changes), solves, None)
+                contact_step(solver, alpha, &describe(&changes), solves, None)
             }
         }
     }

@@ -1,5 +1,6 @@
 //! The last increment again, so that it ends where a monitored quantity is zero.
 
+use super::acceptance::accept;
 use super::step::{IncrementReport, MONITOR_ACCURACY, Monitor, SMALLEST_CUT};
 use super::stepping::Stepper;
 use crate::analysis::structure::equilibrium::Equilibrium;
@@ -39,7 +40,7 @@ impl Stepper<'_, '_> {
                 reported.residual = increment.residual;
                 reported.iterations += increment.iterations;
                 let at_once = self.solver.at == from.at;
-                self.solver.accept(&goal, increment, reported);
+                accept(self.solver, &goal, increment, reported);
                 if arrived {
                     if at_once && self.kept_statuses(from) {
                         known.push((t, self.solver.now.clone()));

@@ -44,4 +44,4 @@ mod stepping;
 mod stretch;
 mod tangent;
 mod tangent_by_factor;
-mod yield_load;
+pub(super) mod yield_load;

@@ -10,84 +10,80 @@ use crate::scene::Kind;
 /// or just closed.
 const VANISHING: f64 = 1e-7;
 
-impl Solver<'_> {
-    /// The step that an accepted increment is; the one before it ended at load factor `from`.
-    ///
-    /// # Errors
-    /// A load that drives a body away from every contact; [`ErrorKind::Outgrown`] where contact has
-    /// reached an end of the candidates beyond which the bodies go on.
-    pub(in crate::analysis) fn accepted(
-        &mut self,
-        from: f64,
-        report: IncrementReport,
-        arrival: Option<Arrival>,
-    ) -> Result<Step> {
-        self.refuse_driven_bodies()?;
-        if arrival.is_some() {
-            self.settle_springs()?;
-        }
-        match self.outgrown_at() {
-            Some(pair) => Err(self.outgrown(pair, from)),
-            None => Ok(Step {
-                increment: Some(report),
-                arrival,
-            }),
-        }
+/// The step that an accepted increment is; the one before it ended at load factor `from`.
+///
+/// # Errors
+/// A load that drives a body away from every contact; [`ErrorKind::Outgrown`] where contact has
+/// reached an end of the candidates beyond which the bodies go on.
+pub(in crate::analysis) fn accepted(
+    solver: &mut Solver,
+    from: f64,
+    report: IncrementReport,
+    arrival: Option<Arrival>,
+) -> Result<Step> {
+    solver.refuse_driven_bodies()?;
+    if arrival.is_some() {
+        solver.settle_springs()?;
     }
+    match outgrown_at(solver) {
+        Some(pair) => Err(outgrown(solver, pair, from)),
+        None => Ok(Step {
+            increment: Some(report),
+            arrival,
+        }),
+    }
+}
 
-    /// The pair at an open end of a contact that carries force.
-    fn outgrown_at(&self) -> Option<usize> {
-        let force = &self.now.force;
-        let carries = |k: usize| {
-            let contact = &self.structure.model.contacts[self.structure.model.pairs[k].contact];
-            let largest = force[contact.range.clone()]
-                .iter()
-                .fold(0.0f64, |m, r| m.max(*r));
-            force[k] > VANISHING * largest.max(VANISHING * self.scales.force)
-        };
-        let contacts = self.structure.model.contacts.iter();
-        let ends = contacts.flat_map(|c| &c.goes_on);
-        ends.copied().find(|&k| carries(k))
-    }
+/// The pair at an open end of a contact that carries force.
+fn outgrown_at(solver: &Solver) -> Option<usize> {
+    let force = &solver.now.force;
+    let carries = |k: usize| {
+        let contact = &solver.structure.model.contacts[solver.structure.model.pairs[k].contact];
+        let largest = force[contact.range.clone()]
+            .iter()
+            .fold(0.0f64, |m, r| m.max(*r));
+        force[k] > VANISHING * largest.max(VANISHING * solver.scales.force)
+    };
+    let contacts = solver.structure.model.contacts.iter();
+    let ends = contacts.flat_map(|c| &c.goes_on);
+    ends.copied().find(|&k| carries(k))
+}
 
-    fn outgrown(&self, pair: usize, reached: f64) -> Error {
-        let model = self.structure.model;
-        let place: Vec<String> = (model.mesh.point(model.pairs[pair].slave).iter())
-            .take(model.mesh.dimension)
-            .map(|x| format!("{x:.6}"))
-            .collect();
-        let place = place.join(", ");
-        let names = &model.contacts[model.pairs[pair].contact].names;
-        let targets = model.scene.program.targets.iter();
-        let largest = targets
-            .filter_map(|t| t.load_factor)
-            .fold(0.0f64, |m, f| m.max(f.abs()));
-        let ratio = largest / reached.abs();
-        // Mean pressure only rises with the load, so that the area of contact rises no faster.
-        let wider = match model.kind {
-            Kind::Axisymmetric | Kind::Solid => ratio.sqrt(),
-            _ => ratio,
-        };
-        let how_far = if wider > 1.0 && wider.is_finite() {
-            format!(
-                " For load factor {largest} they may have to reach up to {wider:.2} times as far."
-            )
-        } else {
-            String::new()
-        };
-        let remedy = if model.scene.mesh.cylinder_on_half_plane.is_some() {
-            "give a larger mesh.cylinder_on_half_plane.contact_width"
-        } else {
-            "make the surfaces longer"
-        };
-        Error::new(
-            ErrorKind::Outgrown,
-            format!(
-                "the contact of `{}` on `{}` reaches the end of its candidates at ({place}) from \
-                 load factor {:.6} on: both bodies go on there, but what lies beyond was not \
-                 allowed to touch; {remedy}.{how_far}",
-                names[0], names[1], reached,
-            ),
-        )
-    }
+fn outgrown(solver: &Solver, pair: usize, reached: f64) -> Error {
+    let model = solver.structure.model;
+    let place: Vec<String> = (model.mesh.point(model.pairs[pair].slave).iter())
+        .take(model.mesh.dimension)
+        .map(|x| format!("{x:.6}"))
+        .collect();
+    let place = place.join(", ");
+    let names = &model.contacts[model.pairs[pair].contact].names;
+    let targets = model.scene.program.targets.iter();
+    let largest = targets
+        .filter_map(|t| t.load_factor)
+        .fold(0.0f64, |m, f| m.max(f.abs()));
+    let ratio = largest / reached.abs();
+    // Mean pressure only rises with the load, so that the area of contact rises no faster.
+    let wider = match model.kind {
+        Kind::Axisymmetric | Kind::Solid => ratio.sqrt(),
+        _ => ratio,
+    };
+    let how_far = if wider > 1.0 && wider.is_finite() {
+        format!(" For load factor {largest} they may have to reach up to {wider:.2} times as far.")
+    } else {
+        String::new()
+    };
+    let remedy = if model.scene.mesh.cylinder_on_half_plane.is_some() {
+        "give a larger mesh.cylinder_on_half_plane.contact_width"
+    } else {
+        "make the surfaces longer"
+    };
+    Error::new(
+        ErrorKind::Outgrown,
+        format!(
+            "the contact of `{}` on `{}` reaches the end of its candidates at ({place}) from \
+             load factor {:.6} on: both bodies go on there, but what lies beyond was not \
+             allowed to touch; {remedy}.{how_far}",
+            names[0], names[1], reached,
+        ),
+    )
 }

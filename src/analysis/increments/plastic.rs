@@ -1,5 +1,7 @@
 //! Elastoplastic drives: increments that end at the next change of contact, or fixed ones.
 
+use super::acceptance::{accept, arrive, contact_step, rests_at, turns_back};
+use super::outgrown::accepted;
 use super::step::{Arrival, IncrementReport, Monitor, Rules, SMALLEST_CUT, Step, crosses, is_hit};
 use super::stepping::Stepper;
 use super::stretch::ElasticStretch;
@@ -46,7 +48,7 @@ impl PlasticDrive {
     /// taken already.
     ///
     /// # Errors
-    /// Those of the monitor and of [`Solver::accepted`].
+    /// Those of the monitor and of [`super::outgrown::accepted`].
     pub fn begin(
         solver: &mut Solver,
         end: &LoadPoint,
@@ -59,7 +61,7 @@ impl PlasticDrive {
             // Nothing acts yet: residuals are measured against what the end of the piece applies.
             solver.scales.force = solver.structure.external(end).largest();
         }
-        if solver.turns_back(end) {
+        if turns_back(solver, end) {
             solver.assume_elastic();
             // The first elastoplastic increment after elastic ones that watch for first yield.
             let begins = solver.predictor.last_step.iter().all(|step| *step == 0.0);
@@ -73,9 +75,9 @@ impl PlasticDrive {
         if is_hit(monitored) {
             return Ok(ControlFlow::Break(Step::arrived(Arrival::Monitor)));
         }
-        if solver.rests_at(end) {
+        if rests_at(solver, end) {
             let (from, solves) = (solver.at.alpha, solver.cost.counts.trailing_solves);
-            let step = solver.contact_step(from, "target", solves, Some(Arrival::End))?;
+            let step = contact_step(solver, from, "target", solves, Some(Arrival::End))?;
             return Ok(ControlFlow::Break(step));
         }
         Ok(ControlFlow::Continue(PlasticDrive {
@@ -91,7 +93,7 @@ impl PlasticDrive {
     ///
     /// # Errors
     /// [`crate::ErrorKind::Collapse`] with the load factor that was held; statuses that cycle;
-    /// those of the monitor and of [`Solver::accepted`].
+    /// those of the monitor and of [`super::outgrown::accepted`].
     pub fn step(
         &mut self,
         solver: &mut Solver,
@@ -110,8 +112,8 @@ impl PlasticDrive {
             }
             if solver.at.distance(end) < ARRIVED * self.whole || solver.is_round_off(end) {
                 let (from, solves) = (solver.at.alpha, solver.cost.counts.trailing_solves);
-                solver.arrive(end);
-                return solver.contact_step(from, "target", solves, Some(Arrival::End));
+                arrive(solver, end);
+                return contact_step(solver, from, "target", solves, Some(Arrival::End));
             }
         }
         if follows {
@@ -187,9 +189,9 @@ impl PlasticDrive {
         };
         let full = increment.t >= left;
         let mut at_end = increment.t >= 1.0;
-        solver.accept(end, increment, &mut report);
+        accept(solver, end, increment, &mut report);
         if !at_end && solver.at.distance(end) <= ARRIVED * self.whole {
-            solver.arrive(end);
+            arrive(solver, end);
             at_end = true;
         }
         let mut arrival = at_end.then_some(Arrival::End);
@@ -212,6 +214,6 @@ impl PlasticDrive {
             report.event = event.to_string();
         }
         self.taken += usize::from(full);
-        solver.accepted(from, report, arrival)
+        accepted(solver, from, report, arrival)
     }
 }

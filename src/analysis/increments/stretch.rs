@@ -8,6 +8,7 @@
 //! where both ends lie within the yield surface all between does.
 
 use super::elastic::ElasticPath;
+use super::outgrown::accepted;
 use super::step::{Arrival, IncrementReport, MONITOR_ACCURACY, Monitor, Step, crosses, describe};
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
@@ -87,7 +88,7 @@ impl ElasticStretch {
     /// the current state; without a stretch this is the last event of it.
     ///
     /// # Errors
-    /// Those of the monitor and of [`Solver::accepted`].
+    /// Those of the monitor and of [`super::outgrown::accepted`].
     pub fn step(
         mut self,
         solver: &mut Solver,
@@ -119,13 +120,13 @@ impl ElasticStretch {
                 let accuracy = MONITOR_ACCURACY * length;
                 self.path
                     .land(solver, before, [was, is], accuracy, monitor)?;
-                let step = solver.accepted(from.alpha, report, Some(Arrival::Monitor))?;
+                let step = accepted(solver, from.alpha, report, Some(Arrival::Monitor))?;
                 return Ok((Some(step), None));
             }
         }
         let PathEnd::Event(changes) = outcome else {
             solver.at = end.clone();
-            let step = solver.accepted(from.alpha, report, Some(Arrival::End))?;
+            let step = accepted(solver, from.alpha, report, Some(Arrival::End))?;
             return Ok((Some(step), None));
         };
         report.event = describe(&changes);
@@ -139,7 +140,7 @@ impl ElasticStretch {
         if self.path.turn(solver).is_err() {
             // No rates beyond this event: elastoplastic increments find out why.
             set_statuses(solver, &self.open, self.border);
-            let step = solver.accepted(from.alpha, report, None)?;
+            let step = accepted(solver, from.alpha, report, None)?;
             return Ok((Some(step), None));
         }
         self.open = solver.tableau.open().to_vec();
@@ -147,7 +148,7 @@ impl ElasticStretch {
             // A new piece began: its loads are others.
             self.loads = None;
         }
-        let step = solver.accepted(from.alpha, report, None)?;
+        let step = accepted(solver, from.alpha, report, None)?;
         Ok((Some(step), Some(self)))
     }
 

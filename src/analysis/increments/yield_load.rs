@@ -56,44 +56,41 @@ pub fn yield_share(
     (share, found)
 }
 
-impl Solver<'_> {
-    /// The recovered stress peak of the current (elastic) state.
-    pub fn peak(&mut self, recovery: &mut Recovery) -> Option<Peak> {
-        let samples = recovery.sample_here(self);
-        recovery.peak(self.structure.model, &samples)
-    }
+/// The recovered stress peak of the current (elastic) state.
+pub fn peak_here(solver: &mut Solver, recovery: &mut Recovery) -> Option<Peak> {
+    let samples = recovery.sample_here(solver);
+    recovery.peak(solver.structure.model, &samples)
+}
 
-    /// The yield load by the paper's secant (3.14) up to a load beyond yield, and between the last
-    /// two by bracketing. The state at yield becomes the current one.
-    ///
-    /// # Errors
-    /// Where the stress does not grow with the load.
-    pub fn secant_yield_load(&mut self, recovery: &mut Recovery) -> Result<(f64, Peak)> {
-        let mut peak = None;
-        let mut excess = |alpha: f64| -> Result<f64> {
-            let point = self.structure.point(alpha);
-            self.solve_contact_at(&point)?;
-            peak = self.peak(recovery);
-            Ok(peak.map_or(-1.0, |p| p.ratio - 1.0))
+/// The yield load by the paper's secant (3.14) up to a load beyond yield, and between the last
+/// two by bracketing. The state at yield becomes the current one.
+///
+/// # Errors
+/// Where the stress does not grow with the load.
+pub fn secant_yield_load(solver: &mut Solver, recovery: &mut Recovery) -> Result<(f64, Peak)> {
+    let mut peak = None;
+    let mut excess = |alpha: f64| -> Result<f64> {
+        let point = solver.structure.point(alpha);
+        solver.solve_contact_at(&point)?;
+        peak = peak_here(solver, recovery);
+        Ok(peak.map_or(-1.0, |p| p.ratio - 1.0))
+    };
+    let not_found =
+        || Error::analysis("the yield load was not found: the stress does not grow with the load");
+    let (mut below, mut above) = ((0.0, -1.0), (1.0, excess(1.0)?));
+    while above.1 < 0.0 {
+        let secant = above.0 - above.1 / (above.1 - below.1) * (above.0 - below.0);
+        let alpha = if secant.is_finite() {
+            secant.max(2.0 * above.0)
+        } else {
+            2.0 * above.0
         };
-        let not_found = || {
-            Error::analysis("the yield load was not found: the stress does not grow with the load")
-        };
-        let (mut below, mut above) = ((0.0, -1.0), (1.0, excess(1.0)?));
-        while above.1 < 0.0 {
-            let secant = above.0 - above.1 / (above.1 - below.1) * (above.0 - below.0);
-            let alpha = if secant.is_finite() {
-                secant.max(2.0 * above.0)
-            } else {
-                2.0 * above.0
-            };
-            if alpha > LARGEST {
-                return Err(not_found());
-            }
-            below = above;
-            above = (alpha, excess(alpha)?);
+        if alpha > LARGEST {
+            return Err(not_found());
         }
-        let alpha = root::try_between([below, above], SECANT_ACCURACY, &mut excess)?;
-        peak.map(|peak| (alpha, peak)).ok_or_else(not_found)
+        below = above;
+        above = (alpha, excess(alpha)?);
     }
+    let alpha = root::try_between([below, above], SECANT_ACCURACY, &mut excess)?;
+    peak.map(|peak| (alpha, peak)).ok_or_else(not_found)
 }

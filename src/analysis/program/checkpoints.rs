@@ -4,7 +4,7 @@
 use super::path::PathSampler;
 use super::position::{Position, Start};
 use crate::analysis::choice::zone_fit::ZoneFit;
-use crate::analysis::structure::record::SolverRecord;
+use crate::analysis::structure::record::{self, SolverRecord};
 use crate::analysis::structure::solver::Solver;
 use crate::checkpoint::{PartId, Store};
 use crate::error::Result;
@@ -109,12 +109,12 @@ impl CheckpointWriter {
         let factorizations = solver.cost.counts.factorizations;
         let fingerprint = match self.fingerprint {
             Some((known, fingerprint)) if known == factorizations => fingerprint,
-            _ => solver.fingerprint(),
+            _ => record::fingerprint(solver),
         };
         self.fingerprint = Some((factorizations, fingerprint));
         let record = RunRecord {
             position: position.clone(),
-            solver: solver.record(&zone.choice.guard, fingerprint),
+            solver: SolverRecord::of(solver, &zone.choice.guard, fingerprint),
             parts: parts.clone(),
             history: results.history[parts.n_rows..].to_vec(),
             path: path_from(parts.n_rows, n_rows),

@@ -16,6 +16,7 @@ use crate::analysis::increments::plastic::PlasticDrive;
 use crate::analysis::increments::step::{Arrival, IncrementReport, Rules, Step, stopped};
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
+use crate::analysis::structure::starting;
 use crate::error::{Error, Result};
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Results, State};
@@ -321,7 +322,7 @@ impl<'m, 'o> Run<'m, 'o> {
     /// Puts the structure where the program begins: nothing acts, and what an earlier run left in
     /// the material is there.
     fn begin(&mut self) -> Result<()> {
-        self.solver.begin()?;
+        starting::begin(&mut self.solver)?;
         self.position.first_yield.is_behind |= self.model().start.is_some();
         self.begin_preload();
         Ok(())

@@ -5,6 +5,7 @@ use super::stopwatch::TimeRow;
 use crate::analysis::check::effects::effects;
 use crate::analysis::figures::deformation::softened;
 use crate::analysis::figures::quality;
+use crate::analysis::structure::starting::end_state;
 use crate::model::Model;
 use crate::number::significant;
 use crate::results::{Quality, Results, Sizes, State, Status, Tolerances};
@@ -50,7 +51,7 @@ impl Run<'_, '_> {
         results.quality = qualities.fold(Quality::default(), |w, q| w.merge_worst(q));
         results.cycles = self.position.cycles.outcome(model);
         results.ranks = self.solver.structure.system.stiffness.ranks();
-        results.end_state = self.solver.end_state();
+        results.end_state = end_state(&self.solver);
         self.add_effects(&mut results);
         results
     }

@@ -5,6 +5,7 @@ use super::run::{DOUBLINGS, Run, ZONE_ATTEMPTS};
 use crate::analysis::choice::zone_choice::{self, Choice};
 use crate::analysis::increments::elastic::ElasticDrive;
 use crate::analysis::increments::step::{Arrival, stopped};
+use crate::analysis::increments::yield_load::{peak_here, secant_yield_load};
 use crate::analysis::stress::recovery::Peak;
 use crate::analysis::structure::state::State;
 use crate::error::{Error, Result};
@@ -45,7 +46,7 @@ impl Run<'_, '_> {
                         .zone
                         .recovery(&self.solver, self.position.first_yield.watched);
                     let recovery = recovery.ok_or_else(|| Error::internal("no recovery"))?;
-                    let (alpha, peak) = self.solver.secant_yield_load(recovery)?;
+                    let (alpha, peak) = secant_yield_load(&mut self.solver, recovery)?;
                     Search::Found(alpha, peak)
                 }
                 YieldMethod::Secant => Search::Nothing,
@@ -151,7 +152,7 @@ impl Run<'_, '_> {
             .zone
             .recovery(&self.solver, self.position.first_yield.watched);
         let estimate = match (solved, recovery) {
-            (Ok(()), Some(recovery)) => self.solver.peak(recovery).map(|p| p.ratio),
+            (Ok(()), Some(recovery)) => peak_here(&mut self.solver, recovery).map(|p| p.ratio),
             _ => None,
         };
         self.solver.restore_elastic(&before);

@@ -11,6 +11,7 @@ use super::position::{Position, Stage, Start};
 use super::run::Run;
 use crate::analysis::choice::zone_choice::Choice;
 use crate::analysis::choice::zone_fit::{Expected, ZoneFit};
+use crate::analysis::structure::record::knows;
 use crate::analysis::structure::solver::Solver;
 use crate::checkpoint::Store;
 use crate::error::{Error, Result};
@@ -55,7 +56,7 @@ impl<'m, 'o> Run<'m, 'o> {
     /// The run that the last checkpoint is of.
     ///
     /// # Errors
-    /// Those of [`Store::read`] and [`Solver::recall`].
+    /// Those of [`Store::read`] and [`SolverRecord::recall`](crate::analysis::structure::record::SolverRecord::recall).
     pub(super) fn resume(
         analysis: &'m Analysis,
         observer: &'o mut dyn Observer,
@@ -69,7 +70,7 @@ impl<'m, 'o> Run<'m, 'o> {
         observer.phase("factorisation");
         let begin = Instant::now();
         let (system, backend) = (&analysis.system, analysis.backend);
-        let (solver, same) = Solver::recall(model, system, backend, &record.solver)?;
+        let (solver, same) = record.solver.recall(model, system, backend)?;
         let mut results = results_of(&mut record, &store)?;
         results.timings.clone_from(&analysis.timings);
         results.warnings.clone_from(&model.warnings);
@@ -151,5 +152,5 @@ fn fits(position: &Position, results: &Results, start: Option<&Start>, solver: &
     position.target <= n_targets
         && results.states.len() == if is_last { position.target } else { 0 }
         && (position.target < n_targets || (start.is_none() && position.search.is_none()))
-        && start.is_none_or(|start| solver.knows(&start.state))
+        && start.is_none_or(|start| knows(solver, &start.state))
 }

@@ -5,6 +5,7 @@ use super::assembled::Analysis;
 use super::position::Purpose;
 use super::position::Start;
 use super::run::Run;
+use crate::analysis::structure::record::knows;
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, ErrorKind};
 use crate::linalg::Backend;
@@ -350,7 +351,7 @@ fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
     assert_eq!(start.first_yield.alpha, known.alpha);
     assert!(start.first_yield.is_behind);
     assert_eq!(start.rows, run.results.history.len());
-    assert!(run.solver.knows(&start.state));
+    assert!(knows(&run.solver, &start.state));
     assert_eq!(start.state.at, run.solver.at);
     assert_eq!(start.state.history, run.solver.zone.history());
     assert_eq!(start.state.open, run.solver.tableau.open());

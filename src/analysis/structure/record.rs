@@ -20,7 +20,7 @@ pub(in crate::analysis) struct SolverRecord {
     factored: Ascending,
     /// Places among the elements of the zone of those that only watch.
     guard: Ascending,
-    /// See [`Solver::fingerprint`].
+    /// See [`fingerprint`].
     fingerprint: u128,
     state: State,
     pivots: TableauRecord,
@@ -43,114 +43,113 @@ impl SolverRecord {
         }
         (elements, guard)
     }
-}
 
-impl<'m> Solver<'m> {
-    /// The record of this structure; `guard` as it was given with the zone, [`Solver::fingerprint`]
+    /// The record of a structure; `guard` as it was given with the zone, [`fingerprint`]
     /// as it was computed.
-    pub(in crate::analysis) fn record(&self, guard: &[bool], fingerprint: u128) -> SolverRecord {
+    pub(in crate::analysis) fn of(solver: &Solver, guard: &[bool], fingerprint: u128) -> Self {
         SolverRecord {
-            factored: Ascending::new(self.structure.factored.iter().copied()),
+            factored: Ascending::new(solver.structure.factored.iter().copied()),
             guard: Ascending::new((0..guard.len()).filter(|&place| guard[place])),
             fingerprint,
-            state: self.state(),
-            pivots: self.tableau.record().clone(),
-            yielding: self.zone.yielding(),
-            predictor: self.predictor.clone(),
-            load_forces: self.structure.loads.forces.clone(),
-            unit: self.structure.unit,
-            condition: self.structure.condition,
-            cost: self.cost,
-            scales: self.scales,
+            state: solver.state(),
+            pivots: solver.tableau.record().clone(),
+            yielding: solver.zone.yielding(),
+            predictor: solver.predictor.clone(),
+            load_forces: solver.structure.loads.forces.clone(),
+            unit: solver.structure.unit,
+            condition: solver.structure.condition,
+            cost: solver.cost,
+            scales: solver.scales,
         }
     }
 
-    /// The structure that a record is of, and whether its factor is the same to the last bit.
+    /// The structure that this is the record of, and whether its factor is the same to the last bit.
     ///
     /// # Errors
     /// Those of [`Solver::new`]; `Input` where the record does not fit the model.
-    pub(in crate::analysis) fn recall(
+    pub(in crate::analysis) fn recall<'m>(
+        &self,
         model: &'m Model,
         system: &'m System,
         backend: Backend,
-        record: &SolverRecord,
-    ) -> Result<(Self, bool)> {
-        let (elements, guard) = record.choice();
+    ) -> Result<(Solver<'m>, bool)> {
+        let (elements, guard) = self.choice();
         let n_elements = model.mesh.n_elements();
         let within = elements.iter().all(|&e| e < n_elements);
-        if !within || !record.factored.within(n_elements) {
+        if !within || !self.factored.within(n_elements) {
             return Err(unfit());
         }
-        let factored = record.factored.to_vec();
+        let factored = self.factored.to_vec();
         let mut solver = Solver::new(model, system, backend, &factored, elements, &guard)?;
-        let same = solver.fingerprint() == record.fingerprint;
-        solver.structure.zone_number = record.state.zone;
+        let same = fingerprint(&solver) == self.fingerprint;
+        solver.structure.zone_number = self.state.zone;
         let n = model.pairs.len();
-        let fits = solver.knows(&record.state)
-            && (record.predictor.pace.iter())
-                .all(|pace| pace.initial.is_like(&record.state.equilibrium.initial))
-            && solver.set_springs(&record.state.springs)
-            && solver.tableau.replay(&record.pivots)
-            && solver.tableau.open() == record.state.open
-            && record.load_forces.len() == solver.structure.loads.forces.len()
-            && record.load_forces.iter().all(|forces| forces.len() == n)
-            && record.predictor.last_step.len() == model.loads.len() + 1
-            && record.predictor.flow.fits(model.loads.len());
+        let fits = knows(&solver, &self.state)
+            && (self.predictor.pace.iter())
+                .all(|pace| pace.initial.is_like(&self.state.equilibrium.initial))
+            && solver.set_springs(&self.state.springs)
+            && solver.tableau.replay(&self.pivots)
+            && solver.tableau.open() == self.state.open
+            && self.load_forces.len() == solver.structure.loads.forces.len()
+            && self.load_forces.iter().all(|forces| forces.len() == n)
+            && self.predictor.last_step.len() == model.loads.len() + 1
+            && self.predictor.flow.fits(model.loads.len());
         if !fits {
             return Err(unfit());
         }
-        solver.restore(&record.state);
-        if !solver.zone.set_yielding(&record.yielding) {
+        solver.restore(&self.state);
+        if !solver.zone.set_yielding(&self.yielding) {
             return Err(unfit());
         }
-        solver.zone.set_factors(&record.state.at.factors);
-        solver.predictor = record.predictor.clone();
+        solver.zone.set_factors(&self.state.at.factors);
+        solver.predictor = self.predictor.clone();
         let structure = &mut solver.structure;
-        structure.loads.forces.clone_from(&record.load_forces);
-        structure.unit = record.unit;
-        structure.condition = record.condition;
-        solver.cost = record.cost;
-        solver.scales = record.scales;
+        structure.loads.forces.clone_from(&self.load_forces);
+        structure.unit = self.unit;
+        structure.condition = self.condition;
+        solver.cost = self.cost;
+        solver.scales = self.scales;
         Ok((solver, same))
     }
+}
 
-    /// Whether a state may be one of this structure, with the zone at hand or another.
-    pub(in crate::analysis) fn knows(&self, state: &State) -> bool {
-        let model = self.structure.model;
-        let n_zone = self.structure.sub.zeros().zone.len();
-        let n_points = self.zone.n_points(&state.elements);
-        state.fits(
-            [model.pairs.len(), model.rows.n_contact()],
-            model.loads.len(),
-        ) && state.history.is_of(n_points)
-            && state
-                .elements
-                .iter()
-                .all(|&e| e < self.structure.model.mesh.n_elements())
-            && (state.zone != self.structure.zone_number
-                || (state.elements == self.structure.elements
-                    && state.equilibrium.u.zone.len() == n_zone))
-    }
-
-    /// Hash of what the factorisation left of the model, whichever zone is chosen: contact matrix
-    /// and reduced loads.
-    pub(in crate::analysis) fn fingerprint(&self) -> u128 {
-        let mut hash = Xxh3::new();
-        let mut add = |values: &[f64]| {
-            for value in values {
-                hash.update(&value.to_bits().to_le_bytes());
-            }
-        };
-        for block in self.structure.sub.pair_matrix().blocks() {
-            add(block.matrix.as_slice());
-        }
-        self.structure
-            .loads
-            .reduced
+/// Whether a state may be one of this structure, with the zone at hand or another.
+pub(in crate::analysis) fn knows(solver: &Solver, state: &State) -> bool {
+    let model = solver.structure.model;
+    let n_zone = solver.structure.sub.zeros().zone.len();
+    let n_points = solver.zone.n_points(&state.elements);
+    state.fits(
+        [model.pairs.len(), model.rows.n_contact()],
+        model.loads.len(),
+    ) && state.history.is_of(n_points)
+        && state
+            .elements
             .iter()
-            .for_each(|load| add(load));
-        hash.digest128()
+            .all(|&e| e < solver.structure.model.mesh.n_elements())
+        && (state.zone != solver.structure.zone_number
+            || (state.elements == solver.structure.elements
+                && state.equilibrium.u.zone.len() == n_zone))
+}
+
+/// Hash of what the factorisation left of the model, whichever zone is chosen: contact matrix
+/// and reduced loads.
+pub(in crate::analysis) fn fingerprint(solver: &Solver) -> u128 {
+    let mut hash = Xxh3::new();
+    let mut add = |values: &[f64]| {
+        for value in values {
+            hash.update(&value.to_bits().to_le_bytes());
+        }
+    };
+    for block in solver.structure.sub.pair_matrix().blocks() {
+        add(block.matrix.as_slice());
     }
+    solver
+        .structure
+        .loads
+        .reduced
+        .iter()
+        .for_each(|load| add(load));
+    hash.digest128()
 }
 
 fn unfit() -> Error {

@@ -124,32 +124,30 @@ fn check_origin(model: &Model, state: &EndState) -> Result<()> {
     Ok(())
 }
 
-impl Solver<'_> {
-    /// Goes to where nothing acts, in the state that the run starts from.
-    ///
-    /// # Errors
-    /// A body that residual stresses alone push away from every contact.
-    pub(in crate::analysis) fn begin(&mut self) -> Result<()> {
-        self.unload();
-        let structure = &self.structure;
-        let Some(start) = &structure.model.start else {
-            return Ok(());
-        };
-        let history = History::from(start);
-        self.zone.restore_of(&start.elements, &history);
-        let initial = self.zone.initial_load(structure.sub.zeros());
-        self.now.initial = structure.eliminate_initial(initial, &mut self.cost);
-        let nothing = self.at.clone();
-        self.solve_contact_at(&nothing)
-    }
+/// Goes to where nothing acts, in the state that the run starts from.
+///
+/// # Errors
+/// A body that residual stresses alone push away from every contact.
+pub(in crate::analysis) fn begin(solver: &mut Solver) -> Result<()> {
+    solver.unload();
+    let structure = &solver.structure;
+    let Some(start) = &structure.model.start else {
+        return Ok(());
+    };
+    let history = History::from(start);
+    solver.zone.restore_of(&start.elements, &history);
+    let initial = solver.zone.initial_load(structure.sub.zeros());
+    solver.now.initial = structure.eliminate_initial(initial, &mut solver.cost);
+    let nothing = solver.at.clone();
+    solver.solve_contact_at(&nothing)
+}
 
-    /// What is left in the material; `None` where no body may yield.
-    pub(in crate::analysis) fn end_state(&self) -> Option<EndState> {
-        let structure = &self.structure;
-        let able = structure.model.may_yield.contains(&true);
-        able.then(|| EndState {
-            left_by: Some(left_by(structure.model)),
-            ..self.zone.history().end_state(&structure.elements)
-        })
-    }
+/// What is left in the material; `None` where no body may yield.
+pub(in crate::analysis) fn end_state(solver: &Solver) -> Option<EndState> {
+    let structure = &solver.structure;
+    let able = structure.model.may_yield.contains(&true);
+    able.then(|| EndState {
+        left_by: Some(left_by(structure.model)),
+        ..solver.zone.history().end_state(&structure.elements)
+    })
 }

@@ -4,6 +4,7 @@
 use super::{Displacements, tolerances};
 use crate::analysis::increments::elastic::ElasticDrive;
 use crate::analysis::increments::step::Arrival;
+use crate::analysis::structure::record::{SolverRecord, fingerprint};
 use crate::analysis::structure::solver::Solver;
 use crate::assembly::{System, assemble};
 use crate::contact::Tableau;
@@ -190,8 +191,8 @@ fn the_condition_of_an_earlier_factorisation_is_not_forgotten() {
         (solver.structure.sub.condition(), solver.structure.condition),
         (least, worst)
     );
-    let record = solver.record(&[false], solver.fingerprint());
-    let (resumed, same) = Solver::recall(&model, &system, backend, &record).expect("resumed");
+    let record = SolverRecord::of(&solver, &[false], fingerprint(&solver));
+    let (resumed, same) = record.recall(&model, &system, backend).expect("resumed");
     assert!(same);
     assert_eq!(
         (
