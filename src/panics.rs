@@ -28,7 +28,7 @@ static HOOK: Once = Once::new();
 /// printed.
 ///
 /// # Errors
-/// Those of `act`, and its panic.
+/// Errors of `act`, and its panic.
 pub fn contained<T>(act: impl FnOnce() -> Result<T>) -> Result<T> {
     // The hook cannot be changed while this thread unwinds; the next call will do it.
     if !std::thread::panicking() {

@@ -39,14 +39,14 @@ use crate::memory;
 use crate::model::{Model, Work};
 use groups::Groups;
 use nalgebra::DMatrix;
-use sharing::{Condensation, Held};
+use sharing::{Condensation, HeldFactor};
 use singular::name_freedom;
 
 /// The condensed structure.
 pub struct Substructure {
     /// Which freedoms are zone and contact.
     pub partition: Partition,
-    condensed: Held,
+    condensed: HeldFactor,
     /// Whether the factor was made for it.
     is_new: bool,
     n_pairs: usize,
@@ -99,7 +99,7 @@ impl Substructure {
     /// more of them), for others the structure is condensed anew. Returns whether it was.
     ///
     /// # Errors
-    /// Those of [`Substructure::new`].
+    /// Errors of [`Substructure::new`].
     pub(crate) fn set_zone(
         &mut self,
         model: &Model,
@@ -124,7 +124,8 @@ impl Substructure {
             n: 1,
             ..Partition::default()
         };
-        self.condensed = Held::alone(linalg::condense(Backend::Dense, &one, &partition, &[])?);
+        self.condensed =
+            HeldFactor::alone(linalg::condense(Backend::Dense, &one, &partition, &[])?);
         Ok(())
     }
 

@@ -214,7 +214,7 @@ typedef struct brinell_increment {
   double max_equivalent_plastic_strain;
   // Share of the load program that lies behind.
   double fraction;
-  // What ended it, such as "closes: pair 12". Valid during the call only.
+  // Event that ended the increment, such as "closes: pair 12". Valid during the call only.
   const char *event;
 } brinell_increment;
 

@@ -104,7 +104,7 @@ pub struct Forecast {
 /// Forecasts a run; nothing is factored.
 ///
 /// # Errors
-/// Those of the model, and limits of the backend.
+/// Errors of the model, and limits of the backend.
 pub fn forecast(scene: &Scene, backend: Backend) -> Result<Forecast> {
     let check = check(&Model::new(scene)?, backend)?;
     Ok(Forecast {

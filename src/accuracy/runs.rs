@@ -67,7 +67,7 @@ impl Runs {
     /// The run of a scene, and whether it was made for this.
     ///
     /// # Errors
-    /// Those of the run; one that ended before its program did is one.
+    /// Errors of the run; one that ended before its program did is one.
     pub(super) fn of(
         &mut self,
         scene: &Scene,
@@ -92,7 +92,7 @@ impl Runs {
 /// Runs a scene without fields.
 ///
 /// # Errors
-/// Those of the run; one that ended before its program did is one.
+/// Errors of the run; one that ended before its program did is one.
 pub(super) fn run(
     scene: &Scene,
     backend: Backend,

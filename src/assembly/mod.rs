@@ -31,7 +31,7 @@ pub struct System {
 /// rank, the others all of it here.
 ///
 /// # Errors
-/// Those of the ranks; none of a valid model on one.
+/// Errors of the ranks; none of a valid model on one.
 pub fn assemble(model: &Model, backend: Backend) -> Result<System> {
     let stiffness: Symmetric = match backend {
         #[cfg(feature = "mumps")]

@@ -23,7 +23,7 @@ struct Share<'a> {
 /// Assembles the stiffness of a model on all ranks.
 ///
 /// # Errors
-/// Those of the ranks.
+/// Errors of the ranks.
 pub fn assemble(model: &Model) -> Result<Shared> {
     let mut shares = RankShares::new(model, World::join()?.size);
     Shared::new(model.freedoms.n, |rank| shares.take(rank), columns)

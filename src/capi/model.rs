@@ -3,7 +3,7 @@
 use super::border::{exclusive, free, guarded, hand_out, shared, slice, text};
 use super::options::brinell_options;
 use super::results::brinell_results;
-use super::run::{Task, brinell_callback, execute};
+use super::run::{RunTask, brinell_callback, execute};
 use crate::error::{Error, Result};
 use crate::mesh::{Curve, Shape};
 use crate::model::ModelBuilder;
@@ -262,7 +262,7 @@ pub unsafe extern "C" fn brinell_model_run(
         execute(
             || {
                 let model = shared(model, "the model")?;
-                Ok(Task::Model(Box::new(model.builder.clone().build()?)))
+                Ok(RunTask::Model(Box::new(model.builder.clone().build()?)))
             },
             options,
             callback,

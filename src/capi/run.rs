@@ -126,7 +126,7 @@ pub unsafe extern "C" fn brinell_run(
         execute(
             || {
                 let scene = shared(scene, "the scene")?.scene.clone();
-                Ok(Task::Scene(Box::new(scene)))
+                Ok(RunTask::Scene(Box::new(scene)))
             },
             options,
             callback,
@@ -137,7 +137,7 @@ pub unsafe extern "C" fn brinell_run(
 }
 
 /// What is run: a scene or a model.
-pub(super) enum Task {
+pub(super) enum RunTask {
     /// A scene, to the accuracy it demands if it does.
     Scene(Box<Scene>),
     /// A model on the mesh that it has.
@@ -149,7 +149,7 @@ pub(super) enum Task {
 /// # Safety
 /// As [`brinell_run`].
 pub(super) unsafe fn execute(
-    task: impl FnOnce() -> Result<Task>,
+    task: impl FnOnce() -> Result<RunTask>,
     options: *const brinell_options,
     callback: brinell_callback,
     user: *mut c_void,
@@ -164,12 +164,12 @@ pub(super) unsafe fn execute(
             let start = Instant::now();
             let caller = &mut Caller { callback, user };
             let (analysis, results) = match task()? {
-                Task::Scene(scene) if scene.accuracy.is_some() => {
+                RunTask::Scene(scene) if scene.accuracy.is_some() => {
                     let found = accuracy::reach(&scene, backend, Extent::Program, None, caller)?;
                     (found.analysis, found.results)
                 }
-                Task::Scene(scene) => as_it_stands(Model::new(&scene)?, backend, caller)?,
-                Task::Model(model) => as_it_stands(*model, backend, caller)?,
+                RunTask::Scene(scene) => as_it_stands(Model::new(&scene)?, backend, caller)?,
+                RunTask::Model(model) => as_it_stands(*model, backend, caller)?,
             };
             let model = analysis.model();
             let header = RunHeader::new(model, backend, start.elapsed().as_secs_f64());

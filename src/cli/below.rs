@@ -15,7 +15,7 @@ const ON_LINE: f64 = 1e-9;
 /// by body: place along y (solids: z), recovered stresses, von Mises stress, largest shear.
 ///
 /// # Errors
-/// Those of [`output::read`]; `Input` where no node lies on the line or no state has fields; `Io`
+/// Errors of [`output::read`]; `Input` where no node lies on the line or no state has fields; `Io`
 /// where the file is there already.
 pub(super) fn write(dir: &Path, file: &Path) -> Result<()> {
     let within = |text: &str| Error::input(format!("{}: {text}", dir.display()));

@@ -132,7 +132,7 @@ impl HertzArguments {
                 "--length and --depth are of a line contact, and these bodies touch in a point",
             ));
         }
-        Ok(Sheet::new(sheet::Asked {
+        Ok(Sheet::new(sheet::AskedContact {
             contact,
             relative,
             modulus,

@@ -43,7 +43,7 @@ pub(super) fn results(
         report.paragraph(&format!("INCOMPLETE: {}", incomplete.why));
     }
     report.reference(&results.reference);
-    if let Some(far) = accuracy::far_boundary(scene).filter(|_| !results.reference.is_empty()) {
+    if let Some(far) = far_boundary::in_words(scene).filter(|_| !results.reference.is_empty()) {
         report.lines(&format!("  {far}"));
     }
     if let Some(accuracy) = &results.accuracy {
@@ -487,5 +487,6 @@ impl Report {
 }
 
 mod accuracy;
+mod far_boundary;
 #[cfg(test)]
 mod tests;

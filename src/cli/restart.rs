@@ -45,7 +45,7 @@ impl RestartArguments {
     /// Runs with checkpoints.
     ///
     /// # Errors
-    /// Those of [`Analysis::run_with_checkpoints`] and [`Analysis::resume`].
+    /// Errors of [`Analysis::run_with_checkpoints`] and [`Analysis::resume`].
     pub fn run(
         &self,
         analysis: &mut Analysis,

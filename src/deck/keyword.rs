@@ -262,7 +262,7 @@ impl Keyword {
     /// Reads a keyword line with its continuations: it goes on where it ends with a comma.
     ///
     /// # Errors
-    /// Those of [`Source::next`].
+    /// Errors of [`Source::next`].
     pub(super) fn read(source: &mut Source, line: Line) -> Result<Keyword> {
         let mut text = String::from_utf8_lossy(source.bytes(line)).into_owned();
         while text.ends_with(',') && text.len() < LONGEST {

@@ -23,7 +23,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Scene> {
 /// ([`Scene::load_with`]). How a deck was taken is in the scene's warnings.
 ///
 /// # Errors
-/// Those of [`Scene::load_with`], [`Deck::read`] and [`Deck::convert`].
+/// Errors of [`Scene::load_with`], [`Deck::read`] and [`Deck::convert`].
 pub fn load_with(path: impl AsRef<Path>, overrides: &[String], options: Options) -> Result<Scene> {
     let path = path.as_ref();
     if !is_deck(path) {
@@ -40,7 +40,7 @@ impl super::Conversion {
     /// the places of the deck.
     ///
     /// # Errors
-    /// Those of [`Scene::parse_with`], at the lines of the deck.
+    /// Errors of [`Scene::parse_with`], at the lines of the deck.
     pub fn finish(&self, name: &str, overrides: &[String]) -> Result<Scene> {
         let text = self.scene.to_toml()?;
         let parsed = Scene::parse_placed(&text, name, overrides, &self.places);

@@ -137,7 +137,7 @@ impl<'t> Source<'t> {
     /// The next line; `None` at the end of the deck.
     ///
     /// # Errors
-    /// Those of [`Source::include`].
+    /// Errors of [`Source::include`].
     pub(super) fn next(&mut self) -> Result<Option<Line>> {
         if let Some(line) = self.ahead.take() {
             return Ok(Some(line));
@@ -191,7 +191,7 @@ impl<'t> Source<'t> {
     /// The next data line; `None` where a keyword comes next, or the end.
     ///
     /// # Errors
-    /// Those of [`Source::next`].
+    /// Errors of [`Source::next`].
     pub(super) fn next_data(&mut self) -> Result<Option<Line>> {
         match self.next()? {
             Some(line) if self.bytes(line).first() == Some(&b'*') => {

@@ -23,7 +23,7 @@ const MOST: usize = 5;
 /// `partition` holds the zone as it is chosen.
 ///
 /// # Errors
-/// Those of [`Condensed::recover_all`].
+/// Errors of [`Condensed::recover_all`].
 pub fn condition(
     condensed: &dyn Condensed,
     matrix: &Symmetric,

@@ -43,7 +43,7 @@ pub struct Refinement {
 /// `f - A u` in twice the precision ([`twofold_residual`]), `solve` solves with a factor of `A`.
 ///
 /// # Errors
-/// Those of `solve`.
+/// Errors of `solve`.
 pub fn refine(
     u: &mut [f64],
     residual: impl Fn(&[f64]) -> Vec<f64>,

@@ -255,7 +255,7 @@ impl Recovered {
 /// of others that go with it.
 ///
 /// # Errors
-/// Those of [`Condensed::recover_all`].
+/// Errors of [`Condensed::recover_all`].
 pub fn recover_refined(
     condensed: &dyn Condensed,
     matrix: &Symmetric,

@@ -66,7 +66,7 @@ impl Symmetric {
     /// The infinity norm: the largest sum of absolute values of a row.
     ///
     /// # Errors
-    /// Those of the ranks.
+    /// Errors of the ranks.
     pub fn norm(&self) -> Result<f64> {
         match self {
             Symmetric::Whole(matrix) => Ok(norm(matrix)),
@@ -90,7 +90,7 @@ impl Symmetric {
     /// The largest `|K| |u|` of a row.
     ///
     /// # Errors
-    /// Those of the ranks.
+    /// Errors of the ranks.
     pub(crate) fn largest_terms(&self, u: &[f64]) -> Result<f64> {
         Ok(largest(&self.rows(&vec![0.0; u.len()], u)?.terms))
     }
@@ -117,7 +117,7 @@ impl Symmetric {
     /// where the matrix is.
     ///
     /// # Errors
-    /// Those of the ranks.
+    /// Errors of the ranks.
     pub(crate) fn evaluate(
         &self,
         mut message: impl FnMut(usize) -> Vec<u8>,

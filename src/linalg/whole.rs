@@ -9,7 +9,7 @@ use nalgebra::{Cholesky, DVector, Dyn};
 /// `partition` holds the zone as it is chosen. Costs a full solve.
 ///
 /// # Errors
-/// Those of [`Condensed::recover_all`].
+/// Errors of [`Condensed::recover_all`].
 pub fn solve_whole(
     condensed: &dyn Condensed,
     partition: &Partition,

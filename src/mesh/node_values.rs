@@ -9,7 +9,7 @@ use std::path::Path;
 /// largest change of its temperature.
 ///
 /// # Errors
-/// Those of reading the file.
+/// Errors of reading the file.
 pub(crate) fn read(path: &Path) -> Result<Vec<(u64, f64)>> {
     match is_deck(path) {
         true => Deck::read(path)?.node_temperatures(),

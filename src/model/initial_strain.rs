@@ -23,7 +23,7 @@ const COMPONENTS: usize = 6;
 /// The loads of what bodies bring along. What is zero everywhere is no load.
 ///
 /// # Errors
-/// Those of [`depth::surface_of`].
+/// Errors of [`depth::surface_of`].
 pub(super) fn resolve(
     scene: &Scene,
     mesh: &Mesh,

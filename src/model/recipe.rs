@@ -33,7 +33,7 @@ impl Model {
     /// The model again.
     ///
     /// # Errors
-    /// Those of [`Model::new`]: what was read from a file may be damaged.
+    /// Errors of [`Model::new`]: what was read from a file may be damaged.
     pub(crate) fn from_recipe(recipe: Recipe<'_>) -> Result<Self> {
         recipe.scene.validate_without_mesh()?;
         let (mesh, given) = (recipe.mesh.into_owned(), recipe.given.into_owned());

@@ -55,7 +55,7 @@ impl Claim {
     /// As [`super::write_with_report`].
     ///
     /// # Errors
-    /// As there.
+    /// Errors of [`super::write_with_report`].
     #[cfg(feature = "report")]
     pub fn write_with_report(
         self,
@@ -69,7 +69,7 @@ impl Claim {
     /// As [`super::write_without_report`].
     ///
     /// # Errors
-    /// As there.
+    /// Errors of [`super::write_without_report`].
     pub fn write_without_report(
         self,
         header: &RunHeader,
@@ -82,7 +82,7 @@ impl Claim {
     /// As [`super::write_study`].
     ///
     /// # Errors
-    /// As there.
+    /// Errors of [`super::write_study`].
     #[cfg(feature = "report")]
     pub fn write_study(self, header: &RunHeader, study: &Study) -> Result<()> {
         finish_study(self.staging, header, study)

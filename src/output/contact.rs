@@ -75,7 +75,7 @@ impl PairRow {
 /// Writes the contact pairs of all states.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write(out: &mut impl Write, dimension: usize, states: &[State]) -> io::Result<()> {
     let nothing = PairState {
         pair: 0,

@@ -14,7 +14,7 @@ use std::path::Path;
 /// Writes the history.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write(out: &mut impl Write, results: &Results) -> io::Result<()> {
     let rows = results.history.iter();
     let rows = rows.map(|row| (row.clone(), row.measured.clone()));
@@ -24,7 +24,7 @@ pub(super) fn write(out: &mut impl Write, results: &Results) -> io::Result<()> {
 /// Writes the points between the rows.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write_path(out: &mut impl Write, results: &Results) -> io::Result<()> {
     let points = results.path.iter();
     let points = points.map(|point| (*point, between(results, point)));
@@ -46,7 +46,7 @@ fn between(results: &Results, point: &PathPoint) -> Vec<f64> {
 /// The history as it was written, and the names of the columns that the scene asked for.
 ///
 /// # Errors
-/// Those of [`rows`]; `Input` with the row and column of a cell that is no number.
+/// Errors of [`rows`]; `Input` with the row and column of a cell that is no number.
 pub(super) fn read(path: &Path) -> Result<(Vec<HistoryRow>, Vec<String>)> {
     let mut history: Vec<HistoryRow> = rows(path)?;
     let text = files::read("read", path, None)?;

@@ -43,8 +43,8 @@ pub(super) fn finish_with_report(
 /// is touched. Returns the path of the page.
 ///
 /// # Errors
-/// Those of [`read()`]; `Internal` where a figure cannot be drawn, `Io` naming the file that cannot
-/// be written.
+/// Errors of [`read()`]; `Internal` where a figure cannot be drawn, `Io` naming the file that
+/// cannot be written.
 pub fn write_report(dir: &Path) -> Result<PathBuf> {
     let recorded = read(dir)?;
     let files = report::files(&recorded.header, &recorded.model, &recorded.results)?;

@@ -153,7 +153,7 @@ impl Sweep {
     /// Reads the results of all points that have some.
     ///
     /// # Errors
-    /// Those of a summary that cannot be read.
+    /// Errors of a summary that cannot be read.
     pub(crate) fn outcome(&self, dir: &Path) -> Result<Outcome<'_>> {
         let mut labels = Labels::default();
         let results = self.points.iter().map(|point| {

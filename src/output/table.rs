@@ -11,7 +11,7 @@ use std::io::{self, Write};
 /// without rows has its header too).
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write<Row: Serialize>(
     out: &mut impl Write,
     sample: &Row,
@@ -29,7 +29,7 @@ pub(super) fn write<Row: Serialize>(
 /// each row.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write_with<Row: Serialize>(
     out: &mut impl Write,
     sample: &Row,

@@ -182,7 +182,7 @@ fn encode<Item: Copy, const BYTES: usize>(
 /// Writes a grid.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
     let mesh = grid.mesh;
     let points = [DataArray::new(
@@ -240,7 +240,7 @@ pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
 /// Writes what says that files in the same directory are the pieces of a grid with these arrays.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write_pieces(
     out: &mut impl Write,
     grid: &Grid<'_>,
@@ -276,7 +276,7 @@ pub(super) fn write_pieces(
 /// Writes a collection of files, each at its time.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 pub(super) fn write_collection(out: &mut impl Write, files: &[(f64, String)]) -> io::Result<()> {
     let mut xml = Writer::new_with_indent(out, b' ', 2);
     open_file(&mut xml, "Collection")?;

@@ -66,7 +66,7 @@ fn hertz(cases: &mut Cases) -> Result<()> {
 }
 
 /// A figure of a state.
-type Figure = fn(&State) -> f64;
+type StateFigure = fn(&State) -> f64;
 
 /// A plane scene drawn out over a depth between planes of symmetry.
 fn solid_of(plane: &Scene, depth: f64) -> Scene {
@@ -100,11 +100,11 @@ fn drawn_out(cases: &mut Cases) -> Result<()> {
     if one.states.len() != other.states.len() || one.states.is_empty() {
         return Err(Error::analysis("a state was not reached"));
     }
-    let largest = |run: &Results, of: Figure| {
+    let largest = |run: &Results, of: StateFigure| {
         let values = run.states.iter().map(of);
         values.fold(0.0f64, |m, v| m.max(v.abs()))
     };
-    let figures: [(Figure, f64); 5] = [
+    let figures: [(StateFigure, f64); 5] = [
         (|s| s.contact_force, depth),
         (|s| s.max_pressure, 1.0),
         (|s| s.approach, 1.0),

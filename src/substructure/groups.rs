@@ -50,7 +50,7 @@ impl Groups {
     /// floating parts.
     ///
     /// # Errors
-    /// Those of [`Tied::new`].
+    /// Errors of [`Tied::new`].
     pub(super) fn new(
         stiffness: ContactStiffness,
         motions: &[RigidMotion],

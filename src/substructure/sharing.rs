@@ -48,7 +48,7 @@ pub fn sharing_factors<T>(body: impl FnOnce() -> T) -> T {
 
 /// A factor with its zone freedoms from now on, and whether it was made for this.
 pub(super) struct Condensation {
-    pub condensed: Held,
+    pub condensed: HeldFactor,
     pub zone: Vec<usize>,
     pub is_new: bool,
 }
@@ -56,7 +56,7 @@ pub(super) struct Condensation {
 /// Factors and condenses a matrix, or takes a kept factor of it.
 ///
 /// # Errors
-/// Those of [`Symmetric::condense`].
+/// Errors of [`Symmetric::condense`].
 pub(super) fn condense(
     matrix: &Symmetric,
     backend: Backend,
@@ -70,7 +70,7 @@ pub(super) fn condense(
     };
     let Some(key) = key else {
         return Ok(Condensation {
-            condensed: Held::alone(matrix.condense(backend, partition, shift)?),
+            condensed: HeldFactor::alone(matrix.condense(backend, partition, shift)?),
             zone: partition.zone.clone(),
             is_new: true,
         });
@@ -100,7 +100,7 @@ pub(super) fn condense(
         }
     };
     let home = Some(Home { key, zone });
-    let mut held = Held {
+    let mut held = HeldFactor {
         condensed: Arc::from(condensed),
         home,
     };
@@ -120,12 +120,12 @@ fn clear() {
     });
 }
 
-fn take(key: u128) -> Option<Held> {
+fn take(key: u128) -> Option<HeldFactor> {
     KEPT.with_borrow_mut(|kept| {
         let kept = kept.as_mut()?;
         let place = kept.iter().position(|kept| kept.home.key == key)?;
         let KeptFactor { home, condensed } = kept.remove(place);
-        Some(Held {
+        Some(HeldFactor {
             condensed,
             home: Some(home),
         })
@@ -167,15 +167,15 @@ fn key(matrix: &Symmetric, backend: Backend, partition: &Partition, shift: &[f64
 }
 
 /// A factor in use, which is kept when it is no longer, where runs share factors.
-pub(super) struct Held {
+pub(super) struct HeldFactor {
     condensed: Arc<dyn Condensed>,
     home: Option<Home>,
 }
 
-impl Held {
+impl HeldFactor {
     /// One that no other run takes over.
     pub(super) fn alone(condensed: Box<dyn Condensed>) -> Self {
-        Held {
+        HeldFactor {
             condensed: Arc::from(condensed),
             home: None,
         }
@@ -184,7 +184,7 @@ impl Held {
     /// [`Condensed::choose_zone`].
     ///
     /// # Errors
-    /// As there.
+    /// Errors of [`Condensed::choose_zone`].
     pub(super) fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>> {
         match Arc::get_mut(&mut self.condensed) {
             Some(condensed) => condensed.choose_zone(wanted),
@@ -199,7 +199,7 @@ impl Held {
     }
 }
 
-impl Deref for Held {
+impl Deref for HeldFactor {
     type Target = dyn Condensed;
 
     fn deref(&self) -> &(dyn Condensed + 'static) {
@@ -207,7 +207,7 @@ impl Deref for Held {
     }
 }
 
-impl Drop for Held {
+impl Drop for HeldFactor {
     fn drop(&mut self) {
         let Some(home) = self.home.take() else { return };
         let condensed = Arc::clone(&self.condensed);

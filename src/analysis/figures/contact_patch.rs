@@ -19,7 +19,7 @@ const PARALLEL: f64 = 1e-2;
 
 /// Where a contact ends.
 #[derive(Clone, Copy)]
-pub(super) struct Edge {
+pub(super) struct LineEdge {
     /// Arc length along the surface.
     pub arc: f64,
     /// Measured error of its reading.
@@ -203,10 +203,10 @@ impl Patch<'_> {
     /// the force of the last [`EDGE_SKIP`] pairs: see [`Tail`]. Its error is measured by a second
     /// reading with one pair more; where the pairs are too few for that, or a reading leaves its
     /// bracket, it is half a spacing.
-    pub(in crate::analysis) fn edge(&self, last: usize, way: isize, middle: f64) -> Edge {
+    pub(in crate::analysis) fn edge(&self, last: usize, way: isize, middle: f64) -> LineEdge {
         let arc = |k: usize| self.line[k].arc;
         let Some(beyond) = self.neighbour(last, way) else {
-            return Edge {
+            return LineEdge {
                 arc: self.end_arc(last),
                 reading: 0.0,
             };
@@ -232,7 +232,7 @@ impl Patch<'_> {
             _ => 0.5 * spacing,
         };
         let edge = found.unwrap_or(distance + 0.5 * spacing);
-        Edge {
+        LineEdge {
             arc: middle + way as f64 * edge,
             reading,
         }

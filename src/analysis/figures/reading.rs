@@ -28,7 +28,7 @@ impl Reading<'_, '_> {
     /// ranks share the matrix they share the elements too.
     ///
     /// # Errors
-    /// Those of the ranks.
+    /// Errors of the ranks.
     pub(in crate::analysis) fn stresses(&self, u: &[f64], with_fields: bool) -> Result<Stresses> {
         let (solver, structure) = (&self.solver, &self.solver.structure);
         let (model, in_zone) = (structure.model, &*structure.elements);

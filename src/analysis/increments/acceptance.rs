@@ -12,7 +12,7 @@ use crate::error::Result;
 /// factor `from`, and after `solves_before` trailing solves.
 ///
 /// # Errors
-/// Those of [`accepted`].
+/// Errors of [`accepted`].
 pub(super) fn contact_step(
     solver: &mut Solver,
     from: f64,

@@ -24,7 +24,7 @@ impl Drive {
     /// the drive is watched for that.
     ///
     /// # Errors
-    /// Those of [`ElasticDrive::step`] and [`PlasticDrive::step`].
+    /// Errors of [`ElasticDrive::step`] and [`PlasticDrive::step`].
     pub fn step(
         &mut self,
         solver: &mut Solver,

@@ -86,7 +86,7 @@ impl ElasticPath {
     /// within `accuracy`.
     ///
     /// # Errors
-    /// Those of the monitor.
+    /// Errors of the monitor.
     pub fn land(
         &mut self,
         solver: &mut Solver,
@@ -243,7 +243,7 @@ impl ElasticDrive {
     /// increments.
     ///
     /// # Errors
-    /// Those of [`ElasticDrive::step`].
+    /// Errors of [`ElasticDrive::step`].
     pub fn go(
         solver: &mut Solver,
         end: &LoadPoint,

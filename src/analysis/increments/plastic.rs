@@ -48,7 +48,7 @@ impl PlasticDrive {
     /// taken already.
     ///
     /// # Errors
-    /// Those of the monitor and of [`super::outgrown::accepted`].
+    /// Errors of the monitor and of [`super::outgrown::accepted`].
     pub fn begin(
         solver: &mut Solver,
         end: &LoadPoint,

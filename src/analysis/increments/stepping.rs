@@ -188,7 +188,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
     /// What is tried after an increment that did not converge: a shorter one, or another search.
     ///
     /// # Errors
-    /// Those of [`not_found`], where nothing is left to try.
+    /// Errors of [`not_found`], where nothing is left to try.
     fn after_no_convergence(
         &mut self,
         tries: &mut Tries,

@@ -88,7 +88,7 @@ impl ElasticStretch {
     /// the current state; without a stretch this is the last event of it.
     ///
     /// # Errors
-    /// Those of the monitor and of [`super::outgrown::accepted`].
+    /// Errors of the monitor and of [`super::outgrown::accepted`].
     pub fn step(
         mut self,
         solver: &mut Solver,

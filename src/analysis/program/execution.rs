@@ -36,7 +36,7 @@ impl<'m, 'o> Run<'m, 'o> {
     /// A run at its start.
     ///
     /// # Errors
-    /// Those of [`Solver::new`].
+    /// Errors of [`Solver::new`].
     pub(in crate::analysis) fn new(
         analysis: &'m Analysis,
         purpose: Purpose,
@@ -89,7 +89,7 @@ impl<'m, 'o> Run<'m, 'o> {
     /// Goes through the program, event by event, with a checkpoint where one is due.
     ///
     /// # Errors
-    /// Those of [`Run::next`]; [`stopped`] where the observer asks for that.
+    /// Errors of [`Run::next`]; [`stopped`] where the observer asks for that.
     pub(super) fn execute(&mut self) -> Result<()> {
         match self.position.stage {
             Stage::Preload { .. } if !self.position.stops.is_empty() => {

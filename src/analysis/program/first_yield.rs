@@ -13,7 +13,7 @@ use crate::results::YieldPoint;
 use crate::scene::{Unit, YieldMethod};
 
 /// What a search for first yield came to.
-pub(super) enum Search {
+pub(super) enum YieldSearch {
     /// First yield at this load factor.
     Found(f64, Peak),
     /// Nothing yields up to the program's largest load factor.
@@ -47,19 +47,19 @@ impl Run<'_, '_> {
                         .recovery(&self.solver, self.position.first_yield.watched);
                     let recovery = recovery.ok_or_else(|| Error::internal("no recovery"))?;
                     let (alpha, peak) = secant_yield_load(&mut self.solver, recovery)?;
-                    Search::Found(alpha, peak)
+                    YieldSearch::Found(alpha, peak)
                 }
-                YieldMethod::Secant => Search::Nothing,
+                YieldMethod::Secant => YieldSearch::Nothing,
             };
-            if let Search::Found(alpha, _) = found
+            if let YieldSearch::Found(alpha, _) = found
                 && alpha == origin.at.alpha
             {
                 return Ok(true);
             }
             let (found, missed) = match found {
-                Search::Found(alpha, peak) => (Some((alpha, peak)), self.missed_outside()?),
-                Search::Nothing => (None, None),
-                Search::Outside(choice) => (None, Some(choice)),
+                YieldSearch::Found(alpha, peak) => (Some((alpha, peak)), self.missed_outside()?),
+                YieldSearch::Nothing => (None, None),
+                YieldSearch::Outside(choice) => (None, Some(choice)),
             };
             if missed.is_none() {
                 if let Some((alpha, peak)) = found {
@@ -105,7 +105,7 @@ impl Run<'_, '_> {
     /// First yield along the path of growing load factor, up to the largest the program asks for
     /// unless yield is required. At the end of each straight piece, where the stresses of a load
     /// that turns back are largest, those outside the zone are looked at too.
-    fn exact_yield(&mut self, required: bool) -> Result<Search> {
+    fn exact_yield(&mut self, required: bool) -> Result<YieldSearch> {
         let limit = if required {
             None
         } else {
@@ -123,14 +123,14 @@ impl Run<'_, '_> {
                     .recovery(&self.solver, self.position.first_yield.watched);
                 if let Arrival::Yield(peak) = ElasticDrive::go(&mut self.solver, &point, recovery)?
                 {
-                    return Ok(Search::Found(self.solver.at.alpha, peak));
+                    return Ok(YieldSearch::Found(self.solver.at.alpha, peak));
                 }
                 if let Some(choice) = self.missed_outside()? {
-                    return Ok(Search::Outside(choice));
+                    return Ok(YieldSearch::Outside(choice));
                 }
             }
             if limit.is_some() {
-                return Ok(Search::Nothing);
+                return Ok(YieldSearch::Nothing);
             }
             end *= 2.0;
             if self.observer.stop_requested() {

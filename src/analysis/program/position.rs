@@ -22,7 +22,7 @@ pub(super) struct Position {
     /// Zones that were too small for the target at hand.
     pub(super) attempt: usize,
     /// The search for the target at hand, where it is no load factor.
-    pub(super) search: Option<Search>,
+    pub(super) search: Option<TargetSearch>,
     /// Load factors at the ends of the straight pieces ahead, that of the piece at hand first.
     pub(super) stops: Vec<f64>,
     /// The drive along that piece.
@@ -75,7 +75,7 @@ impl Default for Stage {
 
 /// A search for the load factor at which a quantity has its target value.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
-pub(super) struct Search {
+pub(super) struct TargetSearch {
     /// Load factor that the way at hand leads to.
     pub(super) end: f64,
     /// Ways that were taken.
@@ -88,7 +88,7 @@ pub(super) struct Search {
     pub(super) at_first: f64,
 }
 
-impl Search {
+impl TargetSearch {
     /// Share of the way that lies behind where the monitored quantity has a value.
     pub(super) fn share_behind(&self, monitored: f64) -> f64 {
         within_0_and_1(1.0 - monitored.abs() / self.at_first)
@@ -157,7 +157,7 @@ mod tests {
         // Half of the pairs of a line contact are still to open at a quarter of the load.
         assert_eq!(share_of_way(0.25, 1.0, 0.0, 0.5), 0.5);
         assert_eq!(share_of_way(-0.25, 1.0, -1.0, 0.5), 0.75);
-        let search = |at_first| Search {
+        let search = |at_first| TargetSearch {
             end: 1.0,
             rounds: 1,
             upward: true,

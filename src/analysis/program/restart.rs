@@ -56,7 +56,8 @@ impl<'m, 'o> Run<'m, 'o> {
     /// The run that the last checkpoint is of.
     ///
     /// # Errors
-    /// Those of [`Store::read`] and [`SolverRecord::recall`](crate::analysis::structure::record::SolverRecord::recall).
+    /// Errors of [`Store::read`] and
+    /// [`SolverRecord::recall`](crate::analysis::structure::record::SolverRecord::recall).
     pub(super) fn resume(
         analysis: &'m Analysis,
         observer: &'o mut dyn Observer,

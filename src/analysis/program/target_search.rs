@@ -1,7 +1,7 @@
 //! The search for the load factor at which what a target waits for has its value.
 
 use super::awaited::Awaited;
-use super::position::Search;
+use super::position::TargetSearch;
 use super::run::{DOUBLINGS, Run};
 use crate::analysis::increments::step::{MONITOR_ACCURACY, Monitor};
 use crate::analysis::structure::solver::Solver;
@@ -71,7 +71,7 @@ impl<'m> Run<'m, '_> {
     /// quantity, `off` here, vanishes.
     pub(super) fn search(&mut self, monitor: Box<Monitor<'m>>, off: f64, upward: bool, scale: f64) {
         self.monitor = Some(monitor);
-        self.position.search = Some(Search {
+        self.position.search = Some(TargetSearch {
             end: self.solver.at.alpha,
             rounds: 0,
             upward,

@@ -22,7 +22,7 @@ impl<'m> Unloading<'m> {
     /// something outside the zone yields on the way.
     ///
     /// # Errors
-    /// Those of the increments on the way, and of `read`.
+    /// Errors of the increments on the way, and of `read`.
     pub(super) fn look<T>(
         &self,
         solver: &mut Solver,

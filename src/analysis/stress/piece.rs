@@ -47,7 +47,7 @@ pub(in crate::analysis) struct Whole<'a> {
 /// message of each rank.
 ///
 /// # Errors
-/// Those of the ranks.
+/// Errors of the ranks.
 pub(in crate::analysis) fn element_stresses(
     whole: &Whole,
     n: usize,

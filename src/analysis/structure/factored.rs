@@ -89,7 +89,7 @@ impl<'m> Structure<'m> {
     /// that of the given `elements`.
     ///
     /// # Errors
-    /// Those of [`Substructure::new`].
+    /// Errors of [`Substructure::new`].
     pub fn new(
         model: &'m Model,
         system: &'m System,
@@ -130,7 +130,7 @@ impl<'m> Structure<'m> {
     /// whether it did.
     ///
     /// # Errors
-    /// Those of [`Substructure::new`].
+    /// Errors of [`Substructure::new`].
     pub fn set_zone(&mut self, elements: Vec<usize>, cost: &mut Cost) -> Result<bool> {
         self.zone_number += 1;
         let factored = self.choose_zone(elements, cost)?;

@@ -63,10 +63,10 @@ impl SolverRecord {
         }
     }
 
-    /// The structure that this is the record of, and whether its factor is the same to the last bit.
+    /// Structure that this is the record of, and whether its factor is the same to the last bit.
     ///
     /// # Errors
-    /// Those of [`Solver::new`]; `Input` where the record does not fit the model.
+    /// Errors of [`Solver::new`]; `Input` where the record does not fit the model.
     pub(in crate::analysis) fn recall<'m>(
         &self,
         model: &'m Model,

@@ -90,7 +90,7 @@ impl<'m> Solver<'m> {
     /// one of the given elements (`guard` marks those that only watch).
     ///
     /// # Errors
-    /// Those of [`Structure::new`].
+    /// Errors of [`Structure::new`].
     pub fn new(
         model: &'m Model,
         system: &'m System,
@@ -176,7 +176,7 @@ impl<'m> Solver<'m> {
     /// Changes the zone to the given elements. State, statuses and history are kept.
     ///
     /// # Errors
-    /// Those of [`Structure::set_zone`].
+    /// Errors of [`Structure::set_zone`].
     pub fn set_zone(&mut self, elements: Vec<usize>, guard: &[bool]) -> Result<()> {
         let before = self.structure.elements.clone();
         if self.structure.set_zone(elements, &mut self.cost)? {

@@ -12,9 +12,9 @@ use crate::scene::{Kind, Unit};
 /// Reads the state that the scene of a model starts from; `None` where that is a virgin one.
 ///
 /// # Errors
-/// Those of [`read_end_state`]; `Input` where first yield is asked for, a body with plastic strains
-/// may not yield, its material has other back stresses that fade, the model is of another kind, or
-/// bodies have not brought along what they had.
+/// Errors of [`read_end_state`]; `Input` where first yield is asked for, a body with plastic
+/// strains may not yield, its material has other back stresses that fade, the model is of another
+/// kind, or bodies have not brought along what they had.
 pub(in crate::analysis) fn read(model: &Model) -> Result<Option<EndState>> {
     let scene = &model.scene;
     let Some(folder) = scene.start_folder() else {

@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::f64::consts::PI;
 
 /// What the figures are asked for.
-pub(super) struct Asked {
+pub(super) struct AskedContact {
     pub contact: HertzContact,
     pub relative: RelativeRadii,
     /// Contact modulus.
@@ -107,7 +107,7 @@ impl From<Peak> for PeakSheet {
 }
 
 impl Sheet {
-    pub fn new(asked: Asked) -> Sheet {
+    pub fn new(asked: AskedContact) -> Sheet {
         let (contact, load) = (&asked.contact, asked.load);
         let [large, small] = contact.semi_axes(load);
         let max_pressure = contact.max_pressure(load);
@@ -152,7 +152,7 @@ impl Sheet {
     }
 }
 
-impl Asked {
+impl AskedContact {
     fn body(&self, name: &'static str, index: usize) -> BodySheet {
         let (contact, body) = (&self.contact, &self.bodies[index]);
         let poisson = body.poissons_ratio;

@@ -1,28 +1,10 @@
-//! The estimated errors, as one table: a row per state, a column per quantity; and where the
-//! bodies of closed forms end.
+//! The estimated errors, as one table: a row per state, a column per quantity.
 
 use super::super::table::{Column::*, Table};
 use super::Report;
-use crate::mesh::generate::contact_size;
-use crate::number::significant;
 use crate::output::ending::in_words;
 use crate::output::stated_errors::StatedErrors;
 use crate::results::Accuracy;
-use crate::scene::Scene;
-
-/// Where the bodies of a generated contact end: closed forms are of bodies without end.
-pub(super) fn far_boundary(scene: &Scene) -> Option<String> {
-    let mesh = &scene.mesh;
-    let solid = (mesh.curved_bodies.as_ref()).map(|p| (p.far_size, "half axes"));
-    let plane = mesh.cylinder_on_half_plane.as_ref();
-    let plane = plane.map(|p| (contact_size::far_size(scene, p), "half widths"));
-    let (far, of) = solid.or(plane)?;
-    Some(format!(
-        "Closed forms are of bodies without end; these end at {} {of} at first yield. No mesh of \
-         the same `far_size` shows what that changes: twice the size does.",
-        significant(far, 3)
-    ))
-}
 
 impl Report {
     /// Stated errors relative to the largest size of each quantity, and the largest of each kind of

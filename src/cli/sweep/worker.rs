@@ -30,7 +30,7 @@ pub(super) struct Ended {
 /// Does the runs that are asked for, until there is no more to ask.
 ///
 /// # Errors
-/// Those of the answers' way out.
+/// Errors of the answers' way out.
 pub(in crate::cli) fn serve() -> Result<()> {
     let failed = |cause| Error::analysis("cannot answer the sweep").because(cause);
     sharing_factors(|| {

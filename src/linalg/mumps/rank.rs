@@ -1,6 +1,6 @@
 //! What a rank keeps and does.
 
-use super::task::{Analysed, Factored, Made, Near, Product, Task};
+use super::task::{Analysed, Factored, MadeOnRank, Near, Product, Task};
 use crate::error::Result;
 use crate::linalg::SymmetricCsc;
 use crate::linalg::cholmod;
@@ -266,10 +266,10 @@ fn machine_name() -> String {
 }
 
 impl KeptOnRank {
-    fn take(&mut self, index: usize, columns: Columns) -> Made {
+    fn take(&mut self, index: usize, columns: Columns) -> MadeOnRank {
         let matrix = &columns.matrix;
         let own = |j: usize| matrix.get(j, j).copied().unwrap_or(0.0);
-        let made = Made {
+        let made = MadeOnRank {
             diagonal: (0..matrix.cols()).map(own).collect(),
             continued: columns.continued.clone(),
             n_entries: matrix.nnz(),

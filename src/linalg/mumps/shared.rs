@@ -1,7 +1,7 @@
 //! A symmetric matrix of which each rank has some columns, as the first rank sees it.
 
 use super::rank::{Assemble, Columns, Evaluate, Host};
-use super::task::{Made, Near, Product, Task};
+use super::task::{MadeOnRank, Near, Product, Task};
 use super::{Entry, Traffic, World};
 use crate::error::{Error, Result};
 use crate::linalg::SymmetricCsc;
@@ -46,7 +46,7 @@ impl Shared {
     /// A matrix of `n` freedoms: `part` gives that of each rank.
     ///
     /// # Errors
-    /// Those of the ranks.
+    /// Errors of the ranks.
     pub fn new(
         n: usize,
         mut part: impl FnMut(usize) -> Result<Part>,
@@ -56,7 +56,7 @@ impl Shared {
         let before = world.traffic();
         let index = NEXT.fetch_add(1, Ordering::Relaxed);
         let (mut numbers, mut failed) = (vec![Vec::new(); world.size], None);
-        let made: Vec<std::result::Result<Made, String>> = world.ask(
+        let made: Vec<std::result::Result<MadeOnRank, String>> = world.ask(
             |rank| {
                 let message = part(rank).map(|part| {
                     numbers[rank] = part.numbers;
@@ -73,7 +73,7 @@ impl Shared {
                 ..Host::default()
             },
         )?;
-        let made: std::result::Result<Vec<Made>, String> = made.into_iter().collect();
+        let made: std::result::Result<Vec<MadeOnRank>, String> = made.into_iter().collect();
         let made = match (failed, made) {
             (None, Ok(made)) => made,
             (failed, made) => {
@@ -181,7 +181,7 @@ impl Shared {
     /// Asks each rank what `evaluate` answers to its message, on others that of [`World::serve`].
     ///
     /// # Errors
-    /// Those of the ranks.
+    /// Errors of the ranks.
     pub(in crate::linalg) fn evaluate(
         &self,
         mut message: impl FnMut(usize) -> Vec<u8>,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) enum Task {
     /// Assembles and keeps columns of a matrix, by its number; without bytes it has none.
-    /// [`Result<Made, String>`].
+    /// [`Result<MadeOnRank, String>`].
     Matrix(usize, Vec<u8>),
     /// Forgets them. Nothing.
     ForgetMatrix(usize),
@@ -34,7 +34,7 @@ pub(super) enum Task {
 
 /// Columns that a rank has.
 #[derive(Debug, Default, Serialize, Deserialize)]
-pub(super) struct Made {
+pub(super) struct MadeOnRank {
     /// Diagonal entries, 0 where another rank has the column.
     pub(super) diagonal: Vec<f64>,
     /// Whether each freedom couples to the same freedoms as the one before it, and to that one.

@@ -28,7 +28,7 @@ struct OnTheWay<const S: usize> {
 pub(super) struct Deviators<'a, const S: usize> {
     hardening: &'a Hardening,
     harder: f64,
-    /// `3 G + H_kin`.
+    /// Slope of the resistance without hardening, `3 G + H_kin`.
     stiffness: f64,
     /// `2 G`, and the modulus of the back stresses.
     moduli: [f64; 2],
@@ -159,8 +159,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// The same as the path in full stresses and strains, but for round-off: linear kinematic
-        /// and isotropic hardening, from a state with plastic strains.
+        /// Deviators give what the path in full stresses and strains gives, but for round-off:
+        /// linear kinematic and isotropic hardening, from a state with plastic strains.
         #[test]
         fn deviators_give_what_full_stresses_give(
             first in prop::array::uniform6(-0.01f64..0.01),

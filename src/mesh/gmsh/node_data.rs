@@ -55,7 +55,7 @@ fn parse(text: &[u8], name: &str) -> Result<Vec<(u64, f64)>> {
 /// Writes values by node as a section, one line for each.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors of `out`.
 #[cfg(feature = "cli")]
 pub(crate) fn write(name: &str, values: &[(u64, f64)], out: &mut dyn Write) -> std::io::Result<()> {
     let mut out = std::io::BufWriter::with_capacity(1 << 16, out);

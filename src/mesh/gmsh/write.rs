@@ -10,7 +10,7 @@ use std::io::{Error, ErrorKind, Result, Write};
 /// [`Curve`](crate::mesh::Curve) of a surface has no place in the format and is lost.
 ///
 /// # Errors
-/// Those of `out`, and `InvalidInput` for a name with a double quote or a line end, which the
+/// Errors of `out`, and `InvalidInput` for a name with a double quote or a line end, which the
 /// format cannot hold.
 pub fn write(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     let mut out = std::io::BufWriter::with_capacity(1 << 16, out);

@@ -108,7 +108,7 @@ impl Form {
     /// The form of a surface of a scene, which is valid.
     ///
     /// # Errors
-    /// Those of a file of heights.
+    /// Errors of a file of heights.
     pub(in crate::model) fn of(surface: &RigidSurface, scene: &Scene) -> Result<Self> {
         let space = scene.kind;
         if let Some(of) = &surface.heights {

@@ -1,6 +1,6 @@
 //! The force that passes a surface: `*SECTION PRINT`.
 
-use super::statistics::Sums;
+use super::statistics::ContactSums;
 use super::tables::{Tables, fortran};
 use crate::output::frd::Extrapolated;
 use crate::results::Fields;
@@ -33,7 +33,7 @@ impl Tables<'_> {
             return Ok(());
         };
         let extrapolated = Extrapolated::new(&self.model.mesh, points);
-        let mut sums = Sums::default();
+        let mut sums = ContactSums::default();
         for &(label, local) in &*print.faces {
             if let Some(element) = self.elements.get(label) {
                 let face = (element as usize, usize::from(local));
@@ -66,7 +66,7 @@ impl Tables<'_> {
     }
 
     /// Adds what passes a face.
-    fn add_face(&self, (element, local): (usize, usize), stress: &[f64], sums: &mut Sums) {
+    fn add_face(&self, (element, local): (usize, usize), stress: &[f64], sums: &mut ContactSums) {
         let (mesh, space) = (&self.model.mesh, self.model.kind);
         let shape = mesh.shapes[element];
         let c = stress.len() / mesh.n_nodes().max(1);
@@ -105,7 +105,7 @@ impl Tables<'_> {
     }
 }
 
-impl Sums {
+impl ContactSums {
     /// Adds a force at a place, on an area along its outward normal.
     fn add(&mut self, place: Vector, force: Vector, area: Vector) {
         let size = length(area);

@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 /// What acts on a surface, or on the part of a slave surface that presses.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Sums {
+pub(super) struct ContactSums {
     pub(super) force: Vector,
     pub(super) moment: Vector,
     pub(super) area: f64,
@@ -16,7 +16,7 @@ pub(super) struct Sums {
     pub(super) normal: Vector,
 }
 
-impl Sums {
+impl ContactSums {
     /// Means over the area of what was summed with it.
     pub(super) fn center(&mut self) {
         if self.area > 0.0 {
@@ -78,10 +78,10 @@ impl Tables<'_> {
         sums.write(out, heads, &last)
     }
 
-    fn sums(&self, contact: usize, state: &State, fields: &Fields) -> Sums {
+    fn sums(&self, contact: usize, state: &State, fields: &Fields) -> ContactSums {
         let model = self.model;
         let thickness = model.scene.requests.thickness.unwrap_or(1.0);
-        let mut out = Sums::default();
+        let mut out = ContactSums::default();
         let presses =
             |pair: &&crate::results::PairState| pair.contact == contact && pair.force > 0.0;
         for of_pair in state.pairs.iter().filter(presses) {

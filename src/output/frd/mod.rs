@@ -65,7 +65,7 @@ pub fn write_frd(path: &Path, model: &Model, results: &Results) -> Result<()> {
 /// Writes the content of a `.frd` file.
 ///
 /// # Errors
-/// Those of the writer.
+/// Errors of the writer.
 pub(super) fn write(out: &mut impl Write, model: &Model, results: &Results) -> io::Result<()> {
     let requests = &model.scene.requests;
     let numbered = Numbered::new(&model.mesh);

@@ -2,7 +2,7 @@
 
 use super::bands::Bands;
 use super::contact_frame::{ContactFrame, global};
-use super::contours::Sheet;
+use super::contours::TriangleSheet;
 use super::drawing::{Drawing, tick};
 use super::patchwork::Patchwork;
 use super::path;
@@ -136,7 +136,7 @@ impl<'m> ContactMap<'m> {
             .sheet(places, self.at_nodes(|pair| pressures[pair]));
         // Half way between what touches and what does not, as pairs have their areas.
         let touches = self.at_nodes(|pair| f64::from(u8::from(pressures[pair] > 0.0)));
-        let touches = Sheet {
+        let touches = TriangleSheet {
             places: sheet.places.clone(),
             values: touches,
             ..sheet

@@ -6,7 +6,7 @@ use super::path::Spot;
 type LinePoint = [u32; 2];
 
 /// Triangles of the plane with a value at each corner; between them values are linear.
-pub(super) struct Sheet<'t> {
+pub(super) struct TriangleSheet<'t> {
     /// Corners of the triangles, in the same sense all over.
     pub triangles: &'t [[u32; 3]],
     /// Sides that belong to one triangle, in its sense.
@@ -17,7 +17,7 @@ pub(super) struct Sheet<'t> {
     pub values: Vec<f64>,
 }
 
-impl Sheet<'_> {
+impl TriangleSheet<'_> {
     /// Closed lines round all that is not below a value; with minus infinity round all.
     ///
     /// Inside, sides of triangles cancel: what is left is the line of the value through each
@@ -183,8 +183,8 @@ mod tests {
             }
         }
 
-        fn sheet(&self, value: impl Fn([f64; 2]) -> f64) -> Sheet<'_> {
-            Sheet {
+        fn sheet(&self, value: impl Fn([f64; 2]) -> f64) -> TriangleSheet<'_> {
+            TriangleSheet {
                 triangles: &self.triangles,
                 border: &self.border,
                 places: self.places.clone(),

@@ -2,7 +2,7 @@
 //! plane model or of a cut through a solid one.
 
 use super::bands::Bands;
-use super::contours::Sheet;
+use super::contours::TriangleSheet;
 use super::drawing::{Drawing, tick};
 use super::patchwork::Patchwork;
 use super::picture::Picture;
@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 /// Field that a picture shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Quantity {
+pub(super) enum ShownField {
     /// Von Mises stress.
     VonMises,
     /// Mean pressure `-(s_xx + s_yy + s_zz)/3`, compressive positive.
@@ -27,30 +27,30 @@ pub(super) enum Quantity {
     PlasticZone,
 }
 
-impl Quantity {
+impl ShownField {
     /// Value of the field in an element.
     fn of(self, mesh: &Mesh, fields: &Fields, element: usize) -> f64 {
         match self {
-            Quantity::VonMises => fields.von_mises[element],
-            Quantity::Pressure => {
+            ShownField::VonMises => fields.von_mises[element],
+            ShownField::Pressure => {
                 let s = &fields.stress[2 * mesh.dimension * element..][..3];
                 -(s[0] + s[1] + s[2]) / 3.0
             }
-            Quantity::PlasticZone => fields.plastic_strain[element],
+            ShownField::PlasticZone => fields.plastic_strain[element],
         }
     }
 
     fn scale(self) -> Scale {
         match self {
-            Quantity::VonMises => Scale::Rising,
-            Quantity::Pressure => Scale::Diverging,
-            Quantity::PlasticZone => Scale::Heat,
+            ShownField::VonMises => Scale::Rising,
+            ShownField::Pressure => Scale::Diverging,
+            ShownField::PlasticZone => Scale::Heat,
         }
     }
 
     fn unit(self, labels: &Labels) -> &str {
         match self {
-            Quantity::PlasticZone => "strain",
+            ShownField::PlasticZone => "strain",
             _ => labels.stress(),
         }
     }
@@ -77,7 +77,7 @@ pub(super) struct StatePicture {
     /// Index of the view.
     pub view: usize,
     /// Field that the picture shows.
-    pub quantity: Quantity,
+    pub quantity: ShownField,
     /// The picture itself.
     pub drawing: Drawing,
     /// Whether its scale is not that of the other states.
@@ -97,8 +97,8 @@ const NEUTRAL: RGBColor = RGBColor(0x9a, 0xa5, 0xb1);
 struct ViewValues<'v> {
     state: usize,
     view: usize,
-    quantity: Quantity,
-    sheet: Sheet<'v>,
+    quantity: ShownField,
+    sheet: TriangleSheet<'v>,
     zone: Vec<f64>,
 }
 
@@ -111,7 +111,7 @@ pub(super) fn draw(
     labels: &Labels,
     views: &[View],
     states: &[(usize, &Fields)],
-    quantities: &[Quantity],
+    quantities: &[ShownField],
 ) -> Result<Vec<StatePicture>> {
     let tasks: Vec<_> = states
         .iter()
@@ -152,7 +152,7 @@ pub(super) fn draw(
             [all[0].min(r[0]), all[1].max(r[1])]
         });
         let size = |r: [f64; 2]| r[0].abs().max(r[1].abs());
-        let has_own_scale = shown.quantity != Quantity::PlasticZone
+        let has_own_scale = shown.quantity != ShownField::PlasticZone
             && size(*own) > 0.0
             && size(*own) < FAINT * size(common);
         let range = if has_own_scale { *own } else { common };
@@ -172,7 +172,7 @@ fn draw_one(labels: &Labels, view: &View, shown: &ViewValues, range: [f64; 2]) -
     let quantity = shown.quantity;
     let sheet = &shown.sheet;
     let bands = Bands::new(range, quantity.scale(), quantity.unit(labels));
-    let zone = Sheet {
+    let zone = TriangleSheet {
         places: sheet.places.clone(),
         values: shown.zone.clone(),
         ..*sheet
@@ -181,7 +181,7 @@ fn draw_one(labels: &Labels, view: &View, shown: &ViewValues, range: [f64; 2]) -
     let mut picture = Picture::new(view.window);
     let all = sheet.above(f64::NEG_INFINITY);
     // Each band lies on the one below it: between two there is no gap for the ground to show.
-    let is_zone = quantity == Quantity::PlasticZone;
+    let is_zone = quantity == ShownField::PlasticZone;
     if is_zone {
         picture.fill(&all, NEUTRAL, 0.35);
     }
@@ -197,7 +197,7 @@ fn draw_one(labels: &Labels, view: &View, shown: &ViewValues, range: [f64; 2]) -
     picture.outline(all, INK, 0.9);
     if is_zone {
         picture.outline(zone, INK, 0.9);
-    } else if quantity == Quantity::VonMises {
+    } else if quantity == ShownField::VonMises {
         picture.outline(zone.clone(), INK, 2.6);
         picture.outline(zone, PAPER, 1.3);
     }

@@ -1,7 +1,7 @@
 //! A mesh as triangles of a plane: plane elements, cuts through solid ones, faces of a contact;
 //! with their mirror images.
 
-use super::contours::{Sheet, border};
+use super::contours::{TriangleSheet, border};
 use super::window::Window;
 use crate::mesh::{Facet, Mesh};
 use crate::space::{Vector, along, dot, unit};
@@ -195,8 +195,8 @@ impl Patchwork {
     }
 
     /// A sheet with values at its points.
-    pub(super) fn sheet(&self, places: Vec<[f64; 2]>, values: Vec<f64>) -> Sheet<'_> {
-        Sheet {
+    pub(super) fn sheet(&self, places: Vec<[f64; 2]>, values: Vec<f64>) -> TriangleSheet<'_> {
+        TriangleSheet {
             triangles: &self.triangles,
             border: &self.border,
             places,

@@ -4,7 +4,7 @@ use super::chart::{Chart, Curve, Pen};
 use super::contact_frame::{ContactFrame, global};
 use super::curves::Titled;
 use super::patchwork::{Patchwork, seen};
-use super::section::Cut;
+use super::section::SectionPlane;
 use super::window::{Window, mirrors, negligible};
 use crate::material::von_mises;
 use crate::model::Model;
@@ -54,7 +54,7 @@ pub(super) fn chart(
         let surface = mesh.surfaces.get(&model.contacts[contact].names[index])?;
         let body = mesh.element_body[surface.facets.first()?.element];
         let name = &mesh.bodies[body as usize];
-        let along = |sheet: &super::contours::Sheet| -> Vec<[f64; 2]> {
+        let along = |sheet: &super::contours::TriangleSheet| -> Vec<[f64; 2]> {
             let found = sheet.along(line, |point| patchwork.body(point) == body);
             let depths = found.into_iter().map(|[s, value]| [into * s, value]);
             let mut points: Vec<_> = depths
@@ -111,7 +111,7 @@ type Below = (usize, [[f64; 2]; 2], Patchwork);
 
 /// The section through a patch along its first axis.
 fn below_patch(model: &Model, frame: &ContactFrame, reach: f64) -> Option<Below> {
-    let [cut, _] = Cut::both(frame);
+    let [cut, _] = SectionPlane::both(frame);
     let in_plane = |x: Vector| cut.axes.map(|axis| dot(axis, x));
     let (from, way) = (in_plane(frame.center), in_plane(frame.normal));
     let halves = mirrors(model);

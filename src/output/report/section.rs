@@ -8,7 +8,7 @@ use crate::space::{Vector, cross, difference, dot};
 use std::collections::BTreeMap;
 
 /// A plane through solids.
-pub(super) struct Cut {
+pub(super) struct SectionPlane {
     /// A point of the plane.
     pub origin: Vector,
     /// Axes of the plane; their product points out of the drawing.
@@ -30,10 +30,10 @@ const TWO: [[usize; 4]; 6] = [
     [2, 3, 0, 1],
 ];
 
-impl Cut {
+impl SectionPlane {
     /// The planes through the middle of a contact along its axes and normal.
-    pub(super) fn both(frame: &ContactFrame) -> [Cut; 2] {
-        frame.axes.map(|axis| Cut {
+    pub(super) fn both(frame: &ContactFrame) -> [SectionPlane; 2] {
+        frame.axes.map(|axis| SectionPlane {
             origin: frame.center,
             axes: [axis, frame.up],
         })
@@ -251,7 +251,7 @@ mod tests {
             let mut sum = 0.0;
             for k in 0..=n {
                 let t = reach * (2.0 * k as f64 / n as f64 - 1.0);
-                let cut = Cut {
+                let cut = SectionPlane {
                     origin: along([0.0; 3], t, across),
                     axes,
                 };

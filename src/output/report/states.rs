@@ -3,10 +3,10 @@
 use super::Captioned;
 use super::contact_frame::{ContactFrame, global};
 use super::contact_map::ContactMap;
-use super::fields::{self, Quantity, StatePicture, View, chosen};
+use super::fields::{self, ShownField, StatePicture, View, chosen};
 use super::magnified;
 use super::patchwork::{Patchwork, seen};
-use super::section::Cut;
+use super::section::SectionPlane;
 use super::window::{self, mirrors, negligible};
 use crate::error::Result;
 use crate::model::Model;
@@ -48,18 +48,18 @@ pub(super) fn draw(
         .filter_map(|&index| Some((index, results.states[index].fields.as_ref()?)))
         .collect();
     let views = views(model, results, labels, frame, &with_fields);
-    let quantities: &[Quantity] = match model.kind.is_solid() {
-        true => &[Quantity::VonMises],
+    let quantities: &[ShownField] = match model.kind.is_solid() {
+        true => &[ShownField::VonMises],
         false => &[
-            Quantity::VonMises,
-            Quantity::Pressure,
-            Quantity::PlasticZone,
+            ShownField::VonMises,
+            ShownField::Pressure,
+            ShownField::PlasticZone,
         ],
     };
     let yields = |(_, fields): &(usize, &Fields)| fields.yielded.iter().any(|y| *y > 0);
     let any_yields = with_fields.iter().any(yields);
-    let quantities: Vec<Quantity> = (quantities.iter().copied())
-        .filter(|q| *q != Quantity::PlasticZone || any_yields)
+    let quantities: Vec<ShownField> = (quantities.iter().copied())
+        .filter(|q| *q != ShownField::PlasticZone || any_yields)
         .collect();
     let drawn = fields::draw(&model.mesh, labels, &views, &with_fields, &quantities)?;
     let map =
@@ -156,7 +156,7 @@ fn views(
     let Some(frame) = frame else {
         return Vec::new();
     };
-    let cuts = Cut::both(frame)
+    let cuts = SectionPlane::both(frame)
         .into_iter()
         .zip(["_section_1", "_section_2"])
         .enumerate();
@@ -216,20 +216,20 @@ fn load(state: &State, labels: &Labels) -> String {
 fn captioned(picture: StatePicture, state: &State, views: &[View], labels: &Labels) -> Captioned {
     let view = &views[picture.view];
     let (name, words) = match picture.quantity {
-        Quantity::VonMises => ("von_mises", "Von Mises stress"),
-        Quantity::Pressure => (
+        ShownField::VonMises => ("von_mises", "Von Mises stress"),
+        ShownField::Pressure => (
             "pressure",
             "Hydrostatic pressure \u{2212}(\u{3c3}\u{2081}+\u{3c3}\u{2082}+\u{3c3}\u{2083})/3 \
              (red: compression)",
         ),
-        Quantity::PlasticZone => (
+        ShownField::PlasticZone => (
             "plastic_zone",
             "Plastic zone: equivalent plastic strain where the material has yielded",
         ),
     };
     let strain = match picture.quantity {
-        Quantity::PlasticZone if state.plastic_points == 0 => ": none yet".to_string(),
-        Quantity::PlasticZone => format!(
+        ShownField::PlasticZone if state.plastic_points == 0 => ": none yet".to_string(),
+        ShownField::PlasticZone => format!(
             ": up to {}",
             significant(state.max_equivalent_plastic_strain, 3)
         ),

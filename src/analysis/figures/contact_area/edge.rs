@@ -22,7 +22,7 @@
 //! where in a face the contact ends (`half_widths_of_long_ellipses_are_those_of_hertz`).
 
 use super::fit::Fit;
-use super::moments::{Polygon, Sums, where_positive};
+use super::moments::{PatchSums, Polygon, where_positive};
 use crate::root;
 
 /// Size of `c` over the square of the largest pressure at which the correction of the first layer
@@ -205,7 +205,7 @@ impl Edge {
     }
 
     /// The part of the faces that belongs to the patch.
-    pub(super) fn add_to(&self, sums: &mut Sums) {
+    pub(super) fn add_to(&self, sums: &mut PatchSums) {
         for face in &self.faces {
             sums.add_parts(&face.parts, face.level(self.constant));
         }
@@ -242,7 +242,7 @@ mod tests {
 
     /// Area of the row's part of the patch: the place of its edge.
     fn end(edge: &Edge) -> f64 {
-        let mut sums = Sums::default();
+        let mut sums = PatchSums::default();
         edge.add_to(&mut sums);
         sums.moments(&[]).area
     }

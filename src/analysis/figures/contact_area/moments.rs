@@ -21,13 +21,13 @@ pub(super) struct Moments {
 
 /// Sums over the parts of faces that belong to a patch.
 #[derive(Default)]
-pub(super) struct Sums {
+pub(super) struct PatchSums {
     area: f64,
     first: [f64; 2],
     second: [[f64; 2]; 2],
 }
 
-impl Sums {
+impl PatchSums {
     /// Convex polygons.
     pub(super) fn add_all(&mut self, polygons: &[Polygon]) {
         for corners in polygons {

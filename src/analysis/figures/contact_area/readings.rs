@@ -2,7 +2,7 @@
 
 use super::edge::{Edge, EdgeFace};
 use super::fit::{Cloud, Known};
-use super::moments::{Moments, Polygon, Sums};
+use super::moments::{Moments, PatchSums, Polygon};
 use super::shape::{Shape, middle};
 use crate::model::images::Reflection;
 use crate::space::{difference, dot, length};
@@ -33,7 +33,7 @@ impl Shape<'_> {
     /// pair; `None` where they do not determine a polynomial at each face of the edge.
     fn moments(&self, layers: &BTreeMap<usize, usize>, skipped: usize) -> Option<(Moments, bool)> {
         let believed = self.believed(layers, skipped);
-        let mut sums = Sums::default();
+        let mut sums = PatchSums::default();
         let mut faces = Vec::new();
         for (face, corners) in self.member_faces() {
             let places = self.places(corners);
@@ -146,7 +146,7 @@ impl Shape<'_> {
 
     /// The patch halfway between pairs that touch and pairs that do not.
     fn moments_of_few(&self) -> Moments {
-        let mut sums = Sums::default();
+        let mut sums = PatchSums::default();
         for (face, corners) in self.member_faces() {
             let places = self.places(corners);
             let sign = |k: &usize| if self.members.contains(k) { 1.0 } else { -1.0 };
@@ -161,7 +161,7 @@ impl Shape<'_> {
         self.with_images(&sums)
     }
 
-    fn with_images(&self, sums: &Sums) -> Moments {
+    fn with_images(&self, sums: &PatchSums) -> Moments {
         let reflections = self.images.iter().filter_map(|image| image.reflection());
         let in_plane = |reflection: Reflection| {
             [0, 1].map(|i| {

@@ -1,7 +1,7 @@
 //! A patch on the plane across its mean normal: coordinates, moments and what is read of it.
 
 use super::fit::{Cloud, Known};
-use super::moments::{Moments, Polygon, Sums};
+use super::moments::{Moments, PatchSums, Polygon};
 use super::topology::Topology;
 use crate::model::images::Images;
 use crate::model::mirror::Mirror;
@@ -130,7 +130,7 @@ impl<'a> Shape<'a> {
     /// them, and takes the spacing of the pairs along them as units.
     pub(super) fn measure(&mut self) {
         if self.planes.is_empty() {
-            let mut sums = Sums::default();
+            let mut sums = PatchSums::default();
             self.member_faces().for_each(|(_, corners)| {
                 sums.add_parts(&[self.places(corners)], |_| 1.0);
             });

@@ -1,0 +1,19 @@
+//! Where the bodies of a generated contact end: closed forms are of bodies without end.
+
+use crate::mesh::generate::contact_size;
+use crate::number::significant;
+use crate::scene::Scene;
+
+/// A line on the size of the bodies, in units of the contact; `None` where no generator made them.
+pub(super) fn in_words(scene: &Scene) -> Option<String> {
+    let mesh = &scene.mesh;
+    let solid = (mesh.curved_bodies.as_ref()).map(|p| (p.far_size, "half axes"));
+    let plane = mesh.cylinder_on_half_plane.as_ref();
+    let plane = plane.map(|p| (contact_size::far_size(scene, p), "half widths"));
+    let (far, of) = solid.or(plane)?;
+    Some(format!(
+        "Closed forms are of bodies without end; these end at {} {of} at first yield. No mesh of \
+         the same `far_size` shows what that changes: twice the size does.",
+        significant(far, 3)
+    ))
+}
