@@ -56,7 +56,7 @@ impl<'m, 'o> Run<'m, 'o> {
     /// The run that the last checkpoint is of.
     ///
     /// # Errors
-    /// Those of [`Store::read`] and [`SolverRecord::recall`](crate::analysis::structure::record::SolverRecord::recall).
+    /// Failures of [`Store::read`], and of setting up the structure from its record.
     pub(super) fn resume(
         analysis: &'m Analysis,
         observer: &'o mut dyn Observer,

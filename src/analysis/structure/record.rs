@@ -63,7 +63,7 @@ impl SolverRecord {
         }
     }
 
-    /// The structure that this is the record of, and whether its factor is the same to the last bit.
+    /// The structure set up from this record, and whether its factor is the same to the last bit.
     ///
     /// # Errors
     /// Those of [`Solver::new`]; `Input` where the record does not fit the model.

@@ -159,7 +159,7 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// The same as the path in full stresses and strains, but for round-off: linear kinematic
+        /// Equal to the path in full stresses and strains, but for round-off: linear kinematic
         /// and isotropic hardening, from a state with plastic strains.
         #[test]
         fn deviators_give_what_full_stresses_give(
