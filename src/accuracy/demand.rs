@@ -212,7 +212,7 @@ impl Pursuit {
             scene,
             results,
             extent: self.extent,
-            effort: Effort::Full,
+            effort: Effort::Quick,
         };
         let found = assess(&judged, levels, &mut self.runs, observer);
         self.work += found.work;
