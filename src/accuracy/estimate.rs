@@ -49,7 +49,7 @@ pub fn estimate(
     let mut out = assess(&run, companions.levels, &mut runs, observer);
     if let Some(why) = companions.why_none {
         let full = match effort {
-            Effort::Quick => "; the effort `full` compares with finer meshes where there are some",
+            Effort::Quick => "; the full estimate (`--estimate full`) runs finer ones if it can",
             Effort::Full | Effort::None => "",
         };
         out.notes

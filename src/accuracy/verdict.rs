@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 pub(super) const TARGETS: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
 /// Finest meshes from which a reference is extrapolated.
 const FINEST: usize = 4;
-/// Errors below this are round-off, and no order is read off them.
+/// Error below which a difference is round-off and shows no order.
 const ROUND_OFF: f64 = 1e-12;
 
 /// What the runs are measured against.

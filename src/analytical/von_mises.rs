@@ -16,7 +16,7 @@ pub(super) fn greatest_shear([s1, s2, s3]: [f64; 3]) -> f64 {
 /// A stress that is largest at some depth below a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// The stress there.
+    /// The largest stress.
     pub stress: f64,
     /// Depth below the surface.
     pub depth: f64,

@@ -11,7 +11,7 @@ const WIDTH: usize = 110;
 const WIDTHS: [usize; 2] = [40, 160];
 const INDENT: usize = 2;
 const GAP: usize = 2;
-/// A text column is not squeezed below this.
+/// Least width to which a text column is squeezed.
 const LEAST: usize = 10;
 
 /// How a column is set.

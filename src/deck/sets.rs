@@ -17,7 +17,7 @@ pub(super) enum What {
 }
 
 impl What {
-    /// A node or element, and the keyword that makes sets of them.
+    /// Name of a node or element, and the keyword that makes sets of such.
     fn words(self) -> [&'static str; 2] {
         match self {
             What::Nodes => ["node", "NSET"],

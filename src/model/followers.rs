@@ -37,7 +37,7 @@ type Axis = (usize, usize);
 /// What displacements follow.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Followers {
-    /// Place of each among the others.
+    /// Place of each follower among the others.
     place: BTreeMap<Axis, usize>,
     /// `sum v . q` of control points.
     terms: Vec<Vec<(usize, Vector)>>,

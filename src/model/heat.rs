@@ -113,7 +113,7 @@ pub struct FreeOfLoad<'a> {
 }
 
 impl FreeOfLoad<'_> {
-    /// Which components of the strain it is.
+    /// Components of the strain that the load has.
     pub fn components(&self) -> &Range<usize> {
         &self.strain.components
     }

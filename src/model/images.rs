@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 /// Difference from pi/n up to which planes meet at that angle: directions that come from the
 /// coordinates of a file have some ten digits.
 const SAME_ANGLE: f64 = 1e-6;
-/// The smallest angle is pi/this.
+/// Largest n for which planes may meet at the angle pi/n.
 const MOST: f64 = 180.0;
 /// Difference of the entries of two orthogonal matrices below which they are the same one; those of
 /// different images differ by `2 sin(pi/MOST)` or more.

@@ -41,9 +41,9 @@ pub(super) struct Tail<'a> {
     pub points: &'a [EdgePoint],
     /// Distance of the first of the last pairs from the middle.
     pub from: f64,
-    /// Distance and width of the surface at the first and last of them.
+    /// Distance and width of the surface at the first and last of the last pairs.
     pub near: [(f64, f64); 2],
-    /// Length of the surface that belongs to the first of them.
+    /// Length of the surface that belongs to the first of the last pairs.
     pub length: f64,
 }
 

@@ -59,7 +59,7 @@ struct Iteration<'i, 'm> {
     search: Search,
     /// Load point at the start, the paper's time `tau`.
     start: LoadPoint,
-    /// Equilibrium there.
+    /// Equilibrium at the start.
     before: Equilibrium,
     /// Gaps and forces there that must stay positive.
     base: Vec<f64>,

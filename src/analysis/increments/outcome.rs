@@ -31,7 +31,7 @@ pub struct Increment {
     pub t: f64,
     /// Equilibrium at its end.
     pub state: Equilibrium,
-    /// Pairs that change there.
+    /// Pairs that change at the end of the increment.
     pub changes: Vec<usize>,
     /// Material evaluations.
     pub iterations: usize,

@@ -16,7 +16,7 @@ const ON_EDGE: f64 = 1e-9;
 /// The highest point that was found on `[-1, 1]^D`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Maximum<const D: usize> {
-    /// The function's value there.
+    /// Value of the function at its highest point.
     pub value: f64,
     /// The highest point itself.
     pub at: [f64; D],

@@ -34,7 +34,7 @@ pub(super) struct DrivingForce {
     pub(in crate::analysis) of_rigid: Option<Vec<f64>>,
     /// Force of each tied pair where the nodes move by 1.
     pub(in crate::analysis) of_pairs: Vec<f64>,
-    /// Displacements of zone and contact freedoms where they do.
+    /// Displacements of zone and contact freedoms where the nodes move by 1.
     pub(in crate::analysis) moved: Trailing,
     /// The prescribed displacements themselves.
     pub(in crate::analysis) prescribed: Vec<f64>,

@@ -55,7 +55,7 @@ pub(in crate::analysis) struct Loads {
     pub(in crate::analysis) reduced: Vec<Vec<f64>>,
     /// Load vectors condensed on zone and contact freedoms.
     pub(in crate::analysis) condensed: Vec<EliminatedLoad>,
-    /// Forces `t` of the tied pairs, those of changed gaps among them.
+    /// Forces `t` of the tied pairs, the forces of changed gaps included.
     pub(in crate::analysis) forces: Vec<Vec<f64>>,
     /// Weights of each rigid motion in the far boundary
     /// ([`crate::model::RigidMotion::in_far_boundary`]), reduced as loads are.

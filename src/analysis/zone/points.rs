@@ -66,7 +66,7 @@ pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize
     free: FreeStrains<P>,
     /// Factor of each load.
     factors: Vec<f64>,
-    /// Initial loads of the committed plastic strains: what yields adds to them.
+    /// Initial loads of the committed plastic strains, to which further yielding adds.
     base: Trailing,
     /// Initial loads of the committed plastic strains on the prescribed displacements.
     base_on_prescribed: Vec<f64>,

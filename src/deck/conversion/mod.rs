@@ -47,7 +47,7 @@ pub struct Conversion {
     /// What was understood, taken otherwise, and ignored.
     pub account: Account,
     pub(crate) geometry: Geometry,
-    /// Lines of the deck by the keys of the scene that come of them.
+    /// Lines of the deck from which the keys of the scene come.
     pub(super) places: BTreeMap<String, String>,
 }
 

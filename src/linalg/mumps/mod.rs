@@ -154,7 +154,7 @@ struct RemainingMatrix {
     freedoms: Vec<usize>,
     /// Partition of these freedoms, by their places among themselves.
     partition: Partition,
-    /// Entries between them.
+    /// Entries between these freedoms.
     own: Vec<Entry>,
     /// Analysis of the interior, where there is one.
     analysis: Option<Analysis>,

@@ -24,7 +24,7 @@ pub(super) struct Content {
     pub node_index: LabelIndex,
     /// Lines in physical groups, faces and volumes.
     pub elements: Vec<RawElement>,
-    /// Nodes of all of them, one after the other.
+    /// Nodes of all elements, one element after the other.
     pub connectivity: Vec<u32>,
     /// Points in physical groups.
     pub points: Vec<RawPoint>,

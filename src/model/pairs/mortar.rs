@@ -101,8 +101,8 @@ pub(super) fn pairs(entries: &ContactInput, notes: &mut Vec<String>) -> Result<F
     if !found.left_out.is_empty() {
         let contact = &entries.contact;
         notes.push(format!(
-            "contact {}: {} of `{}` face the other surface by less than a part in 1e8 of their \
-             share and stay free",
+            "contact {}: less than a part in 1e8 of the share of {} of `{}` faces the other \
+             surface: free of contact",
             entries.index + 1,
             super::list(entries.mesh, &found.left_out),
             [&contact.first, &contact.second][found.slave],

@@ -28,7 +28,7 @@ const NEAR_ENDS: f64 = 0.125;
 /// Share of an element's size that a place may lie outside of its faces and count as inside.
 const OUTSIDE: f64 = 1e-3;
 
-/// Facets of a surface, where lines meet them.
+/// Facets of a surface, found where lines meet the facets.
 struct Looking {
     /// Facet, middle, outward unit normal, corners.
     facets: Vec<(Facet, Vector, Vector, Vec<Vector>)>,

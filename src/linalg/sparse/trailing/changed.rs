@@ -24,7 +24,7 @@ pub(crate) struct Changed {
     unchanged: Vec<f64>,
     /// `M`, or what of it is factored.
     work: Vec<f64>,
-    /// Numbers in these.
+    /// Number of values in `unchanged` and in `work`.
     size: usize,
     /// Start of each panel in the values.
     starts: Vec<usize>,
