@@ -35,8 +35,8 @@ fn check(t: &DMatrix<f64>, q: &[f64], g: &[f64], r: &[f64]) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(10_000))]
 
-    /// Every semidefinite problem is solved, or shown to have no solution by a direction that costs
-    /// no energy.
+    /// Every semidefinite problem is solved, or a direction that costs no energy proves that it has
+    /// no solution.
     #[test]
     fn complementarity_terminates(n in 1usize..14, rank in 1usize..16,
             entries in proptest::collection::vec(-1.0f64..1.0, 224),

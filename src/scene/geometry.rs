@@ -40,10 +40,10 @@ pub struct MeshSource {
     /// Surfaces of the file that lie on tori: grooves, raceways, fillets.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tori: Vec<SurfaceTorus>,
-    /// Draws the plane mesh along z to a solid one (`kind = "solid"`).
+    /// Extrudes the plane mesh along z into a solid one (`kind = "solid"`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub extrude: Option<Extrusion>,
-    /// Turns the plane mesh about the y axis to a solid one (`kind = "solid"`).
+    /// Revolves the plane mesh about the y axis into a solid one (`kind = "solid"`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub revolve: Option<Revolution>,
     /// How the stiffness of linear quadrilaterals, hexahedra and prisms is integrated.
@@ -55,8 +55,7 @@ pub struct MeshSource {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Formulation {
-    /// With the mean of the dilatation over the element (B-bar): does not lock where the volume
-    /// stays the same.
+    /// With the mean dilatation of the element (B-bar), which avoids volumetric locking.
     #[default]
     Mean,
     /// At all points alike, as CalculiX does for `C3D8`, `CPE4` and `CAX4`: to compare with it.

@@ -12,7 +12,8 @@ use crate::results::Status;
 use crate::scene::{Plastic, Target, Unit};
 use nalgebra::{DMatrix, DVector};
 
-/// `2 n^2 eps` with the 25 pairs of the disc. The condensed stiffness of a surface is an operator
+/// Bound of the error for conforming surfaces: `2 n^2 eps` with the `n` = 25 pairs of the disc. The
+/// condensed stiffness of a surface is an operator
 /// of first order: its condition is about the number of elements along it.
 const CONFORMING: f64 = 2.0 * 25.0 * 25.0 * f64::EPSILON;
 

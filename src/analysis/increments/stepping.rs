@@ -264,8 +264,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         })
     }
 
-    /// As [`Stepper::solve_together`] or, where that does not converge, with plastic flow for each
-    /// set of statuses.
+    /// Solves an increment as [`Stepper::solve_together`] does; if that does not converge, goes
+    /// through contact statuses and solves the plastic flow anew for each set of them.
     fn solve_step(
         &mut self,
         (end, most): (&LoadPoint, f64),

@@ -33,8 +33,8 @@ use rayon::prelude::*;
 use rules::{COMPARED, FROM_FULL};
 use serde::{Deserialize, Serialize};
 
-/// Smallest pivot of the scaled normal equations that counts as determined: the square root of what
-/// round-off leaves.
+/// Smallest pivot of the scaled normal equations with which a fit counts as determined: about the
+/// square root of the round-off of the pivots, 1e-14.
 const DETERMINED: f64 = 1e-7;
 
 /// Energy of the estimated stress error and of the stress itself, element by element.

@@ -36,7 +36,7 @@ pub(super) struct DrivingForce {
     pub(in crate::analysis) of_pairs: Vec<f64>,
     /// Displacements of zone and contact freedoms where the nodes move by 1.
     pub(in crate::analysis) moved: Trailing,
-    /// The prescribed displacements themselves.
+    /// Displacements of the prescribed freedoms where the nodes move by 1.
     pub(in crate::analysis) prescribed: Vec<f64>,
 }
 

@@ -241,8 +241,9 @@ impl<'m> Structure<'m> {
         out
     }
 
-    /// The first half of the solve with the load of initial strains, which balances itself on each
-    /// body: what round-off leaves of its resultants would drive bodies that contact alone holds.
+    /// The first half of the solve with the load of initial strains. That load is self-equilibrated
+    /// on each body; the resultants that round-off leaves are removed, because they would drive
+    /// bodies that contact alone holds.
     pub fn eliminate_initial(&self, load: Trailing, cost: &mut Cost) -> EliminatedLoad {
         let mut out = self.eliminate(load, cost);
         self.sub.balance_in_bodies(&mut out.forces);

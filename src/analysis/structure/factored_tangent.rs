@@ -5,8 +5,8 @@ use crate::contact::Tableau;
 use crate::linalg::ZonePart;
 use crate::substructure::{Softened, Trailing};
 
-/// Cost of a factor with that of its matrix, over the operations of the factorisation: the matrices
-/// of the elements and the copy of the stiffness take about as long again.
+/// Ratio of the cost of building and factoring the tangent to that of the factorisation alone: the
+/// matrices of the elements and the copy of the stiffness take about as long again.
 const WITH_ITS_MATRIX: f64 = 2.0;
 
 /// A tangent of the zone, factored.

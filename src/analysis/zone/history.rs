@@ -162,8 +162,8 @@ impl<const S: usize> BackStrains<S> {
     }
 }
 
-/// What the strain paths of an increment that is looked for leave besides plastic states: what back
-/// stresses that fade remember at their ends.
+/// End values of the strain paths of a trial increment: the strains that fading back stresses
+/// remember. Plastic states are kept elsewhere.
 pub struct PathEnds<const S: usize> {
     each: usize,
     /// `each` strains of a point, and as many places to compute them in.

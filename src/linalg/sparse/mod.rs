@@ -40,7 +40,7 @@ use super::{
 use crate::error::{Error, Result};
 use crate::memory;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use trailing::{Changed, Trailing};
+use trailing::{Changed, TrailingFactor};
 
 /// A factor `L` of a backend, analysed, and with values once it is computed.
 pub(crate) trait LowerFactor: Send {
@@ -81,7 +81,7 @@ pub(crate) struct SparseCondensed<F> {
     /// The zone freedoms in use.
     zone: Vec<usize>,
     shift: Vec<f64>,
-    pub(crate) trailing: Trailing,
+    pub(crate) trailing: TrailingFactor,
     solver: Mutex<Solver<F>>,
     cost: Prediction,
     weakest: Pivot,
@@ -116,7 +116,8 @@ impl<F: LowerFactor> SparseCondensed<F> {
             return Err(NotDefinite { freedom }.into());
         }
         let groups = Groups::new(partition);
-        let (trailing, zone) = Trailing::extract(&factor, &groups, partition, &partition.zone)?;
+        let (trailing, zone) =
+            TrailingFactor::extract(&factor, &groups, partition, &partition.zone)?;
         Ok(SparseCondensed {
             trailing,
             zone,
@@ -155,7 +156,7 @@ impl<F: LowerFactor> Condensed for SparseCondensed<F> {
         }
         let solver = self.solver();
         let groups = Groups::new(&self.partition);
-        let chosen = Trailing::extract(&solver.factor, &groups, &self.partition, wanted)?;
+        let chosen = TrailingFactor::extract(&solver.factor, &groups, &self.partition, wanted)?;
         drop(solver);
         (self.trailing, self.zone) = chosen;
         Ok(Some(self.zone.clone()))

@@ -37,9 +37,9 @@ struct Panel {
     /// First column (trailing numbering: zone, then contact, in the order of the factor).
     first: usize,
     width: usize,
-    /// Rows below the panel's own columns, in `Trailing::rows`.
+    /// Rows below the panel's own columns, in `TrailingFactor::rows`.
     rows: Range<usize>,
-    /// First value in `Trailing::values`: the triangle, then the rectangle.
+    /// First value in `TrailingFactor::values`: the triangle, then the rectangle.
     values: usize,
 }
 
@@ -64,9 +64,9 @@ struct Work {
     subtrees: Vec<WorkOfSubtree>,
 }
 
-/// `L_tt` and its solves.
+/// The part `L_tt` of the factor on zone and contact freedoms, with its solves.
 #[derive(Debug)]
-pub(crate) struct Trailing {
+pub(crate) struct TrailingFactor {
     n_zone: usize,
     /// Trailing columns of the factor (0 is the first of the factored zone) that are kept,
     /// ascending.
@@ -87,7 +87,7 @@ pub(crate) struct Trailing {
     work: Mutex<Work>,
 }
 
-impl Trailing {
+impl TrailingFactor {
     /// Copies the trailing columns out of `factor`, whose groups are contiguous: those of the
     /// contact freedoms, and of the zone those that the freedoms `wanted` need. Returns the zone
     /// freedoms kept (ascending) with it.
@@ -128,7 +128,7 @@ impl Trailing {
         let places = |columns: &[u32]| -> Vec<u32> {
             columns.iter().map(|j| place[freedom_of(j)]).collect()
         };
-        let mut trailing = Trailing {
+        let mut trailing = TrailingFactor {
             n_zone,
             zone: places(&kept[..n_zone]),
             contact: places(&kept[n_zone..]),

@@ -11,13 +11,13 @@
 //! E. G. Ng, B. W. Peyton, *Block sparse Cholesky algorithms on advanced uniprocessor computers*,
 //! SIAM J. Sci. Comput. 14 (1993) 1034, doi:10.1137/0914063 (supernodes, relative indices).
 
-use super::{Panel, Trailing, panel};
+use super::{Panel, TrailingFactor, panel};
 use crate::linalg::{ChangedFactor, ContactStiffness, ZonePart, blocked};
 use nalgebra::{DMatrix, DMatrixViewMut};
 
 /// `M` and its factor.
 pub(crate) struct Changed {
-    factor: Trailing,
+    factor: TrailingFactor,
     shift: Vec<f64>,
     /// `L_tt L_tt'`, panel by panel, each of all its rows, column by column; empty before it is
     /// asked for.
@@ -39,7 +39,7 @@ pub(crate) struct Changed {
 
 impl Changed {
     /// A changed factor, for the trailing factor of a matrix with this shift.
-    pub(crate) fn new(trailing: &Trailing, shift: &[f64]) -> Self {
+    pub(crate) fn new(trailing: &TrailingFactor, shift: &[f64]) -> Self {
         let factor = trailing.like();
         let mut panel_of = vec![0; factor.kept.len()];
         let mut starts = Vec::with_capacity(factor.panels.len());
@@ -236,10 +236,10 @@ impl Panel {
     }
 }
 
-impl Trailing {
+impl TrailingFactor {
     /// Another one with the same columns.
     fn like(&self) -> Self {
-        let mut like = Trailing {
+        let mut like = TrailingFactor {
             n_zone: self.n_zone,
             kept: self.kept.clone(),
             zone: self.zone.clone(),

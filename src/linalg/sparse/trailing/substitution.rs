@@ -5,7 +5,7 @@
 
 use super::super::panel;
 use super::super::tree::Forest;
-use super::{Panel, Trailing, Work};
+use super::{Panel, TrailingFactor, Work};
 use crate::linalg::ZonePart;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -18,7 +18,7 @@ use std::sync::PoisonError;
 pub(super) struct Subtree {
     pub(super) panels: Range<usize>,
     pub(super) columns: Range<usize>,
-    /// Rows of the root, in `Trailing::rows`.
+    /// Rows of the root, in `TrailingFactor::rows`.
     pub(super) outer: Range<usize>,
     /// Where the rows of each panel begin in `own_rows`.
     starts: Vec<usize>,
@@ -33,7 +33,7 @@ pub(super) struct WorkOfSubtree {
     pub(super) rows: Vec<f64>,
 }
 
-impl Trailing {
+impl TrailingFactor {
     /// Cuts the elimination tree of the zone's panels.
     pub(super) fn find_subtrees(&mut self) {
         let zone = &self.panels[..self.n_zone_panels];
@@ -230,7 +230,7 @@ impl Trailing {
     }
 
     /// `u_z = L_zz^-T (y_z - L_cz' u_c)` in a part of the zone and zero elsewhere, with `zone` as
-    /// [`Trailing::eliminate_zone`] left it.
+    /// [`TrailingFactor::eliminate_zone`] left it.
     pub(crate) fn recover_zone(&self, part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         let Work {

@@ -7,9 +7,10 @@ use crate::mesh::surface::ordered_nodes;
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::space::{Vector, along, difference, dot, length};
 
-/// What nodes may lie off a circle that is to be recognised, as a share of what chords between them
-/// do; and what these must be off a straight line, as a share of their length.
+/// Largest distance of a node from the circle that is recognised, over the sagitta of the chords
+/// between nodes.
 pub(super) const OFF: f64 = 1e-2;
+/// Smallest sagitta over the chord from which on nodes lie on no straight line.
 pub(super) const BENT: f64 = 1e-8;
 /// Fewest nodes, and largest turn from one to the next in degrees, of what is a circle rather than
 /// a polygon.
