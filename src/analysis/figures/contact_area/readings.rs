@@ -21,7 +21,8 @@ impl Shape<'_> {
     /// be off by. The pairs are too few for that where there is none.
     pub(super) fn readings(&self) -> (Moments, Option<Moments>) {
         let layers = self.layers();
-        let [smooth, steep] = [SMOOTH, STEEP].map(|skipped| self.moments(&layers, skipped));
+        let moments = |skipped| self.moments(&layers, skipped);
+        let (smooth, steep) = rayon::join(|| moments(SMOOTH), || moments(STEEP));
         match (smooth, steep) {
             (Some((smooth, true)), steep) => (smooth, steep.map(|(steep, _)| steep)),
             (smooth, Some((steep, _))) => (steep, smooth.map(|(smooth, _)| smooth)),
