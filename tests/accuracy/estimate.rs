@@ -2,7 +2,7 @@
 //! takes few increments.
 
 use crate::support;
-use brinell::accuracy::{Effort, Extent, estimate};
+use brinell::accuracy::{Effort, Extent, estimate, quantities, work};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -211,4 +211,51 @@ fn a_half_width_as_target_says_what_it_adds() {
     assert!(load > 1e-4 && dent < 1e-6, "{load:e} {dent:e}");
     let note = &by_dent.notes[0];
     assert!(note.starts_with("residual_depth as target is reached at another load"));
+}
+
+/// What a scene gives has no error: a load of a state at a load factor, and the approach where that
+/// scales a prescribed displacement; the answer of the bodies has one.
+#[test]
+fn what_a_scene_gives_has_no_row() {
+    for (scene, given, answer) in [
+        ("flat_punch", "approach", "load"),
+        ("ball_on_half_space", "load", "approach"),
+    ] {
+        let targets = "program.targets=[{ name = \"s\", load_factor = 0.1 }]";
+        let scene = support::load(scene, &[targets, "program.unit=\"load\""]);
+        let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
+        let results = analysis.run(&mut Silent).unwrap();
+        let paths: Vec<String> = quantities(&results).into_iter().map(|q| q.path).collect();
+        assert!(!paths.contains(&format!("states.s.{given}")), "{paths:?}");
+        assert!(paths.contains(&format!("states.s.{answer}")), "{paths:?}");
+    }
+}
+
+/// By default other runs take no more operations than the run, and the errors that they state are
+/// of the size of those that the full estimate states.
+#[test]
+fn the_default_estimate_takes_no_more_than_the_run() {
+    let scene = support::load(
+        "ball_on_half_space",
+        &["mesh.cylinder_on_half_plane.resolution=12"],
+    );
+    let results = support::run(&scene);
+    let of = |effort| {
+        let (backend, extent) = (Backend::default(), Extent::Program);
+        estimate(&scene, backend, &results, extent, effort, &mut Silent)
+    };
+    let [quick, full] = [Effort::Quick, Effort::Full].map(of);
+    assert_eq!(quick.method, EstimateMethod::CoarserMeshes);
+    assert!(quick.companions.iter().all(|c| c.ratio > 1.0));
+    assert!(
+        quick.work <= work(&results),
+        "{}",
+        quick.work / work(&results)
+    );
+    let load = |found: &Accuracy| {
+        let row = found.quantities.iter().find(|q| q.quantity == "yield.load");
+        row.unwrap().relative_error.unwrap()
+    };
+    let ratio = load(&quick) / load(&full);
+    assert!((0.1..10.0).contains(&ratio), "{ratio}");
 }
