@@ -124,6 +124,7 @@ pub(super) fn assess(
     }
     if extent == Extent::Program {
         out.notes.extend(said_by_load(scene, &out.quantities));
+        out.notes.extend(path::beyond_asked(scene, &out.quantities));
     }
     out.seconds = start.elapsed().as_secs_f64();
     out

@@ -20,8 +20,9 @@ use super::effort::Effort;
 use super::meter::work;
 use super::quantities::{quantities, value_of};
 use super::runs::{Finished, Runs};
+use crate::number::percent;
 use crate::progress::Observer;
-use crate::results::Results;
+use crate::results::{QuantityError, Results};
 use crate::scene::{Kind, LEAST_PATH_ERROR, Program, Scene, Stepping};
 use std::collections::BTreeMap;
 
@@ -36,6 +37,9 @@ const TWICE_AS_LONG: f64 = 4.0;
 const FACTOR: f64 = 100.0;
 /// Tolerances below this are made looser, not tighter: [`FACTOR`] below them lies round-off.
 const TIGHT: f64 = 1e-9;
+
+/// Figures that `path_error` speaks of.
+const ASKED_FOR: [&str; 2] = [".max_pressure", ".residual_depth"];
 
 /// Errors of the path.
 #[derive(Debug)]
@@ -127,6 +131,30 @@ pub(super) fn errors(
         }
     }
     (PathErrors::Estimated(out), made)
+}
+
+/// The note where the path leaves, by the estimate, more of a pressure or a dent than `path_error`
+/// allows: the worst figure with its error.
+pub(super) fn beyond_asked(scene: &Scene, quantities: &[QuantityError]) -> Option<String> {
+    if scene.stepping() != Stepping::Auto {
+        return None;
+    }
+    let of_key = |q: &&QuantityError| ASKED_FOR.iter().any(|key| q.quantity.ends_with(key));
+    let share = |q: &QuantityError| {
+        // The relative error is that of the whole error, against the scale of the figure.
+        let whole = q.error.filter(|error| *error > 0.0)?;
+        Some((q.path? * q.relative_error? / whole, q.quantity.clone()))
+    };
+    let found = quantities.iter().filter(of_key).filter_map(share);
+    let (left, quantity) = found.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let asked = scene.program.path_error;
+    (left > asked).then(|| {
+        format!(
+            "program.path_error = {asked:e} is not shown to be reached: the increments leave an \
+             estimated {} of {quantity}; a smaller program.path_error makes them shorter",
+            percent(left)
+        )
+    })
 }
 
 /// The scene with other tolerances, and what share of the difference is their error.

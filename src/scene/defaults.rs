@@ -91,6 +91,11 @@ pub(super) fn path_error() -> f64 {
     1e-3
 }
 
+/// Days of work for the smallest model: more than any load program was seen to take.
+pub(super) fn max_increments() -> usize {
+    1_000_000
+}
+
 pub(super) fn gamma() -> f64 {
     1e-8
 }

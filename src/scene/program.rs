@@ -25,6 +25,13 @@ pub struct Program {
     /// they become shorter with its square root.
     #[serde(default = "super::defaults::path_error")]
     pub path_error: f64,
+    /// Most increments of the whole run, whatever the stepping. A run that takes as many ends there
+    /// with what it has reached (exit code 5).
+    #[serde(
+        default = "super::defaults::max_increments",
+        skip_serializing_if = "is_usual_most"
+    )]
+    pub max_increments: usize,
     /// Relative tolerance with which events are landed on: a change of contact (paper 4.18, 4.23),
     /// and the maximum of the stress at first yield.
     #[serde(default = "super::defaults::gamma")]
@@ -51,6 +58,10 @@ fn is_steady(steady: &f64) -> bool {
     *steady == super::defaults::steady()
 }
 
+fn is_usual_most(increments: &usize) -> bool {
+    *increments == super::defaults::max_increments()
+}
+
 fn is_one(cycles: &usize) -> bool {
     *cycles == 1
 }
@@ -63,6 +74,7 @@ impl Default for Program {
             stepping: Stepping::default(),
             steps: super::defaults::steps(),
             path_error: super::defaults::path_error(),
+            max_increments: super::defaults::max_increments(),
             gamma: super::defaults::gamma(),
             targets: Vec::new(),
             history: Vec::new(),

@@ -3,6 +3,7 @@
 //! The scenes are in `data/scenes/hard`.
 
 mod beyond;
+mod bounded;
 mod checkpoint;
 mod collapse;
 mod cycles;

@@ -47,6 +47,25 @@ struct Tries {
     search: Search,
 }
 
+impl Tries {
+    /// Nothing was tried yet.
+    fn new(solver: &Solver, usual: Stepping, left: f64, smallest: f64) -> Self {
+        Tries {
+            left,
+            smallest,
+            most: left,
+            corrections: 0,
+            crossings: 0,
+            seen: Vec::new(),
+            open: solver.tableau.open().to_vec(),
+            border: solver.border.clone(),
+            usual,
+            stepping: usual,
+            search: Search::FIRST,
+        }
+    }
+}
+
 /// Finds elastoplastic increments by the rules of a program.
 pub(super) struct Stepper<'s, 'm> {
     pub(super) solver: &'s mut Solver<'m>,
@@ -82,19 +101,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
     ) -> Result<(Increment, bool)> {
         self.solver.move_loose_bodies(end)?;
         self.solver.forget_tangent();
-        let mut tries = Tries {
-            left,
-            smallest,
-            most: left,
-            corrections: 0,
-            crossings: 0,
-            seen: Vec::new(),
-            open: self.solver.tableau.open().to_vec(),
-            border: self.solver.border.clone(),
-            usual: self.rules.stepping,
-            stepping: self.rules.stepping,
-            search: Search::FIRST,
-        };
+        let mut tries = Tries::new(self.solver, self.rules.stepping, left, smallest);
         loop {
             match self.try_once(&tries, end, ahead.take())? {
                 Ok(increment) => {
@@ -314,10 +321,97 @@ impl<'s, 'm> Stepper<'s, 'm> {
 
     fn not_settled(&self, end: &LoadPoint, most: f64) -> Error {
         Error::analysis(format!(
-            "contact did not settle in the increment from load factor {:.6} to {:.6}: the statuses \
-             repeat",
+            "contact did not settle: load factor {:.9} is the last that was held, and on the way \
+             to {:.9} the same sets of closed pairs come back, none of which is right to \
+             round-off. Look for pairs that are twice in the contacts or bodies that nothing but \
+             them holds, or go there by other increments (program.stepping, a target on the way)",
             self.solver.at.alpha,
             self.solver.at.towards(end, most).alpha
         ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::choice::zone_choice::{first_guess, place_of_first_yield};
+    use crate::analysis::structure::starting;
+    use crate::assembly::assemble;
+    use crate::linalg::Backend;
+    use crate::model::Model;
+    use crate::scene::Scene;
+
+    const TWO_BLOCKS: &str = r#"
+kind = "plane_strain"
+[[mesh.parts]]
+body = "lower"
+block = { x = [0.0, 2.0], y = [0.0, 1.0], elements = [2, 1] }
+[[mesh.parts]]
+body = "upper"
+block = { x = [0.0, 2.0], y = [1.0, 2.0], elements = [2, 1] }
+[materials.metal]
+youngs_modulus = 1000.0
+poissons_ratio = 0.3
+yield_stress = 10.0
+[bodies.lower]
+material = "metal"
+[bodies.upper]
+material = "metal"
+[[contact]]
+first = "upper.bottom"
+second = "lower.top"
+[[support]]
+on = "lower.bottom"
+fix = ["x", "y"]
+[[support]]
+on = "upper.left"
+fix = ["x"]
+[[load]]
+on = "upper.top"
+pressure = 1.0
+[program]
+targets = [{ load_factor = 1.0 }]
+"#;
+
+    /// Statuses that come back: the increment is followed from change to change with the statuses
+    /// it began with; where that does not settle either, the load factor that was held is named.
+    #[test]
+    fn statuses_that_come_back_end_by_name() {
+        let scene = Scene::parse(TWO_BLOCKS, "blocks.toml").unwrap();
+        let model = Model::new(&scene).unwrap();
+        let system = assemble(&model, Backend::Dense).unwrap();
+        let (choice, within) = (place_of_first_yield(&model), first_guess(&model).elements);
+        let elements = choice.elements.clone();
+        let mut solver = Solver::new(
+            &model,
+            &system,
+            Backend::Dense,
+            &within,
+            elements,
+            &choice.guard,
+        )
+        .unwrap();
+        starting::begin(&mut solver).unwrap();
+        let end = solver.structure.point(0.5);
+        let rules = Rules {
+            settings: &scene.analysis,
+            stepping: Stepping::Auto,
+            program: &scene.program,
+            zone_until: f64::INFINITY,
+            stop: &|| false,
+        };
+        let open = solver.tableau.open().to_vec();
+        let mut tries = Tries::new(&solver, rules.stepping, 1.0, 1e-6);
+        assert!(solver.tableau.flip(0));
+        let mut stepper = Stepper::new(&mut solver, rules);
+        let mut again = || stepper.try_otherwise(&mut tries, &end, NoIncrement::Undecided);
+        again().unwrap();
+        let why = again().unwrap_err();
+        assert_eq!(why.kind(), ErrorKind::Analysis);
+        for words in ["load factor 0.0", "is the last that was held", "to 0.5"] {
+            assert!(why.message().contains(words), "{why}");
+        }
+        assert_eq!(tries.stepping, Stepping::Events);
+        assert_eq!(solver.tableau.open(), open);
     }
 }

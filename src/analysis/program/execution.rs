@@ -20,7 +20,7 @@ use crate::analysis::structure::starting;
 use crate::error::{Error, Result};
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Results, State};
-use crate::scene::{Target, Unit};
+use crate::scene::{Stepping, Target, Unit};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -119,7 +119,7 @@ impl<'m, 'o> Run<'m, 'o> {
     pub(super) fn next(&mut self) -> Result<Option<Event>> {
         loop {
             if let Some(&stop) = self.position.stops.first() {
-                let advanced = self.advance(stop);
+                let advanced = self.within_bound().and_then(|()| self.advance(stop));
                 if let Some(row) = advanced.map_err(|error| self.not_reached(error))? {
                     return Ok(Some(Event::Increment(row)));
                 }
@@ -144,6 +144,35 @@ impl<'m, 'o> Run<'m, 'o> {
                 }
             }
         }
+    }
+
+    /// Another increment may be taken.
+    ///
+    /// # Errors
+    /// `Analysis` where the run has taken `program.max_increments`, with what it has reached.
+    fn within_bound(&self) -> Result<()> {
+        let program = &self.model().scene.program;
+        let taken = self.results.history.len();
+        if taken < program.max_increments {
+            return Ok(());
+        }
+        let shorter = match self.model().scene.stepping() {
+            Stepping::Auto => format!("a larger program.path_error (now {:e})", program.path_error),
+            Stepping::Events => "program.stepping = \"auto\" or \"steps\"".to_string(),
+            Stepping::Steps => format!("fewer program.steps (now {})", program.steps),
+        };
+        Err(Error::analysis(format!(
+            "program.max_increments = {taken} were taken: the last one ended at load factor {:.6}, \
+             {} of {} targets were reached{}. Raise program.max_increments, or ask for fewer \
+             increments by {shorter}",
+            self.solver.at.alpha,
+            self.position.target,
+            self.labels.len(),
+            match self.position.cycles.n_done() {
+                0 => String::new(),
+                done => format!(" in cycle {}", done + 1),
+            },
+        )))
     }
 
     /// Passes an event on; whether the run goes on after it.

@@ -6,7 +6,7 @@
 //! physical curve on the edge between two bodies belongs to the body whose name begins its own
 //! (`shaft.contact` to `shaft`), otherwise to the element on its left. Nodes of no element of a
 //! body (centres of circles, for instance) are dropped, elements that are given clockwise are
-//! turned round.
+//! turned round. The partitions of a mesh are joined; a file that holds some of them is refused.
 //!
 //! # Source
 //! Gmsh reference manual, chapter "Gmsh file formats", "MSH file format" (version 4.1) and
@@ -16,6 +16,7 @@ mod assemble;
 mod content;
 mod cursor;
 mod encoding;
+mod entities;
 mod kind;
 pub(crate) mod node_data;
 #[cfg(test)]
@@ -32,8 +33,8 @@ use crate::{Error, ErrorKind, Result};
 use content::Content;
 use cursor::Cursor;
 use encoding::Encoding;
+use entities::Entities;
 use std::path::Path;
-use version4::Entities;
 
 /// Reads a mesh file.
 ///
@@ -53,7 +54,7 @@ pub fn read(path: &Path) -> Result<Mesh> {
 pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
     let mut cursor = Cursor::new(text, name);
     let mut content = Content::default();
-    let mut entities = Entities::new();
+    let mut entities = Entities::default();
     let mut version = None;
     let (mut has_nodes, mut has_elements) = (false, false);
     loop {
@@ -82,13 +83,13 @@ pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
             }
             (b"$Entities", Some(Version::V4)) => {
                 cursor.section = "$Entities";
-                entities = version4::read_entities(&mut cursor)?;
+                entities.read(&mut cursor)?;
                 cursor.section_end("$EndEntities")?;
             }
-            (b"$PartitionedEntities", Some(_)) => {
-                let place =
-                    cursor.error_at(at, "the mesh is partitioned; save it without partitions");
-                return Err(Error::new(ErrorKind::Unsupported, place.message()));
+            (b"$PartitionedEntities", Some(Version::V4)) => {
+                cursor.section = "$PartitionedEntities";
+                entities.read_partitioned(&mut cursor)?;
+                cursor.section_end("$EndPartitionedEntities")?;
             }
             (b"$Nodes", Some(_)) if has_nodes => {
                 return Err(cursor.error_at(at, "a second section $Nodes"));

@@ -2,6 +2,7 @@
 
 use super::content::Content;
 use super::cursor::Cursor;
+use super::entities::Partitions;
 use super::kind::Kind;
 use crate::Result;
 
@@ -23,6 +24,8 @@ pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<(
 /// Reads `$Elements`: `number type n_tags physical elementary ... nodes` per line. In a binary file
 /// elements of one type follow `type n_elements n_tags`, each `number physical ... nodes`.
 pub(super) fn read_elements(content: &mut Content, cursor: &mut Cursor) -> Result<()> {
+    let header = cursor.at();
+    let mut partitions = Partitions::default();
     let n = count_line(cursor, "the number of elements")?;
     content.elements.reserve(n);
     content.connectivity.reserve(4 * n);
@@ -41,7 +44,8 @@ pub(super) fn read_elements(content: &mut Content, cursor: &mut Cursor) -> Resul
             for _ in 0..n_alike {
                 let at = cursor.at();
                 let label = cursor.unsigned("an element number")?;
-                read_tags_and_nodes(content, cursor, (kind, label, at), n_tags)?;
+                let element = (kind, label, at);
+                partitions.add(read_tags_and_nodes(content, cursor, element, n_tags)?);
             }
             read += n_alike;
         } else {
@@ -49,31 +53,36 @@ pub(super) fn read_elements(content: &mut Content, cursor: &mut Cursor) -> Resul
             let element_type = cursor.unsigned("an element type")?;
             let kind = Content::kind(cursor, at, element_type)?;
             let n_tags = cursor.count("the number of tags")?;
-            read_tags_and_nodes(content, cursor, (kind, label, at), n_tags)?;
+            let element = (kind, label, at);
+            partitions.add(read_tags_and_nodes(content, cursor, element, n_tags)?);
             read += 1;
         }
     }
-    Ok(())
+    partitions.require_all(0, cursor, header)
 }
 
-/// The first tag is the physical group.
+/// Reads an element. The first tag is the physical group, the fourth the partition, which is
+/// returned, 0 where there is none.
 fn read_tags_and_nodes(
     content: &mut Content,
     cursor: &mut Cursor,
     (kind, label, at): (Kind, u64, usize),
     n_tags: usize,
-) -> Result<()> {
-    let mut physical = 0;
+) -> Result<u64> {
+    let [mut physical, mut partition] = [0; 2];
     for k in 0..n_tags {
         // Negative for a surface that is turned round; the group is the same.
         let tag = cursor.signed("a tag")?.unsigned_abs();
-        if k == 0 {
-            physical = tag;
+        match k {
+            0 => physical = tag,
+            3 => partition = tag,
+            _ => {}
         }
     }
     let group = [physical];
     let groups = if physical == 0 { &[][..] } else { &group };
-    content.read_element(cursor, kind, label, groups, at)
+    content.read_element(cursor, kind, label, groups, at)?;
+    Ok(partition)
 }
 
 /// A count on a line of its own: text in a binary file, too.

@@ -1,54 +1,9 @@
-//! Entities, nodes and elements of version 4.1.
+//! Nodes and elements of version 4.1.
 
 use super::content::Content;
 use super::cursor::Cursor;
+use super::entities::Entities;
 use crate::Result;
-use std::collections::HashMap;
-
-/// Physical tags by entity (dimension, tag).
-pub(super) type Entities = HashMap<(u64, i64), Vec<u64>>;
-
-/// Reads `$Entities`: which physical groups a point, curve or surface is in.
-pub(super) fn read_entities(cursor: &mut Cursor) -> Result<Entities> {
-    let mut counts = [0; 4];
-    for (count, what) in counts.iter_mut().zip([
-        "the number of points",
-        "the number of curves",
-        "the number of surfaces",
-        "the number of volumes",
-    ]) {
-        *count = cursor.count(what)?;
-    }
-    cursor.end_line()?;
-    let mut entities = Entities::new();
-    for (dimension, count) in counts.into_iter().enumerate() {
-        for _ in 0..count {
-            let tag = cursor.signed("the tag of an entity")?;
-            // A point has its position, everything else a bounding box.
-            for _ in 0..if dimension == 0 { 3 } else { 6 } {
-                cursor.float("a coordinate of an entity")?;
-            }
-            let n = cursor.count("the number of physical tags")?;
-            let mut tags = Vec::new();
-            for _ in 0..n {
-                let tag = cursor.signed("a physical tag")?.unsigned_abs();
-                if !tags.contains(&tag) {
-                    tags.push(tag);
-                }
-            }
-            // The bounding entities that follow are of no use here.
-            if !cursor.is_binary() {
-                cursor.rest_of_line();
-            } else if dimension > 0 {
-                for _ in 0..cursor.count("the number of bounding entities")? {
-                    cursor.signed("a bounding entity")?;
-                }
-            }
-            entities.insert((dimension as u64, tag), tags);
-        }
-    }
-    Ok(entities)
-}
 
 /// Reads `$Nodes`: blocks of node numbers, then their coordinates.
 pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<()> {
@@ -121,9 +76,7 @@ pub(super) fn read_elements(
                 ),
             ));
         }
-        let groups = entities
-            .get(&(dimension, entity))
-            .map_or(&[][..], Vec::as_slice);
+        let groups = entities.groups(dimension, entity);
         for _ in 0..n {
             let at = cursor.at();
             let label = cursor.unsigned("an element number")?;

@@ -47,6 +47,7 @@ impl Checks {
                 exact(program.path_error)
             ),
         );
+        self.count("program.max_increments", program.max_increments, 1);
         self.count("program.steps", program.steps, 1);
         self.at_most("program.steps", program.steps, MOST_STEPS);
         self.at_most("program.targets", program.targets.len(), MOST_TARGETS);

@@ -24,6 +24,12 @@ impl Bytes {
         value.into()
     }
 
+    fn smalls(&mut self, words: &mut Words, n: i64) {
+        (0..n).for_each(|_| {
+            self.small(words);
+        });
+    }
+
     fn number(&mut self, words: &mut Words) -> i64 {
         if !self.wide {
             return self.small(words);
@@ -45,19 +51,29 @@ impl Bytes {
     }
 
     /// The bounding entities of all but points, which these texts may have, too.
-    fn entities(&mut self, lines: &mut dyn Iterator<Item = &str>) {
+    fn entities(&mut self, lines: &mut dyn Iterator<Item = &str>, partitioned: bool) {
+        if partitioned {
+            self.number(&mut lines.next().unwrap().split_whitespace());
+            for _ in 0..self.number(&mut lines.next().unwrap().split_whitespace()) {
+                let mut words = lines.next().unwrap().split_whitespace();
+                self.smalls(&mut words, 2);
+            }
+        }
         let mut counts = lines.next().unwrap().split_whitespace();
         let counts = [0; 4].map(|_| self.number(&mut counts));
         for (dimension, n) in counts.into_iter().enumerate() {
             for _ in 0..n {
                 let mut words = lines.next().unwrap().split_whitespace();
                 self.small(&mut words);
+                if partitioned {
+                    self.smalls(&mut words, 2);
+                    let n = self.number(&mut words);
+                    self.smalls(&mut words, n);
+                }
                 self.floats(&mut words, if dimension == 0 { 3 } else { 6 });
                 for _ in 0..if dimension == 0 { 1 } else { 2 } {
                     let n = self.number(&mut words);
-                    (0..n).for_each(|_| {
-                        self.small(&mut words);
-                    });
+                    self.smalls(&mut words, n);
                 }
             }
         }
@@ -151,7 +167,8 @@ pub(super) fn binary(text: &str, swapped: bool) -> Vec<u8> {
                 bytes.put(1i32.to_ne_bytes().to_vec());
                 bytes.line("");
             }
-            "$Entities" => bytes.entities(&mut lines),
+            "$Entities" => bytes.entities(&mut lines, false),
+            "$PartitionedEntities" => bytes.entities(&mut lines, true),
             "$Nodes" => bytes.nodes(&mut lines),
             "$Elements" => bytes.elements(&mut lines),
             _ => bytes.out.extend(body.bytes()),
@@ -163,7 +180,12 @@ pub(super) fn binary(text: &str, swapped: bool) -> Vec<u8> {
 }
 
 fn samples() -> Vec<String> {
-    let mut out = vec![V2.replace("900000000000", "900000000"), V4.to_string()];
+    let partitioned = partitions::row(true, &partitions::ALL);
+    let mut out = vec![
+        V2.replace("900000000000", "900000000"),
+        V4.to_string(),
+        partitioned,
+    ];
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/data/meshes");
     for file in std::fs::read_dir(folder).unwrap() {
         let path = file.unwrap().path();
@@ -177,7 +199,7 @@ fn samples() -> Vec<String> {
 #[test]
 fn a_binary_file_is_the_text() {
     let samples = samples();
-    assert!(samples.len() > 4);
+    assert!(samples.len() > 5);
     for text in samples {
         let expected = parse(text.as_bytes(), "text.msh").unwrap();
         for swapped in [false, true] {

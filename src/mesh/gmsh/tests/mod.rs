@@ -2,6 +2,7 @@
 
 mod binary;
 mod damage;
+mod partitions;
 mod refusals;
 mod round_trip;
 mod solid;

@@ -1,6 +1,6 @@
 use super::*;
 
-fn refused(text: &str, expected: &[&str]) -> Error {
+pub(super) fn refused(text: &str, expected: &[&str]) -> Error {
     let error = parse(text.as_bytes(), "bad.msh").unwrap_err();
     assert!(error.message().starts_with("bad.msh, line "), "{error}");
     for part in expected {
@@ -60,15 +60,6 @@ fn element_types_that_brinell_does_not_have() {
         let error = refused(&text, &["line 40", name]);
         assert_eq!(error.kind(), ErrorKind::Unsupported);
     }
-    let text = with(
-        V2,
-        "$Nodes",
-        "$PartitionedEntities\n1\n$EndPartitionedEntities\n$Nodes",
-    );
-    assert_eq!(
-        refused(&text, &["line 12", "partition"]).kind(),
-        ErrorKind::Unsupported
-    );
 }
 
 #[test]
