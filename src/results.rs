@@ -268,8 +268,12 @@ pub struct State {
     pub plastic_points: usize,
     /// Gauss points per body with plastic strain.
     pub plastic_points_by_body: Vec<usize>,
-    /// Largest equivalent plastic strain.
+    /// Largest equivalent plastic strain at a Gauss point.
     pub max_equivalent_plastic_strain: f64,
+    /// How much larger the equivalent plastic strain may be between the outermost Gauss points and
+    /// the surface, by the slope over the points of each element.
+    #[serde(default)]
+    pub plastic_strain_reading: f64,
     /// Area (axisymmetric or solid: volume) of the whole whose Gauss points have plastic strain.
     pub plastic_zone_size: f64,
     /// Size of a layer of Gauss points along the border of that: no finer is it known.

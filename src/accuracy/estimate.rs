@@ -11,7 +11,9 @@ use crate::analysis::left_of_search;
 use crate::linalg::{Backend, smallest_pivot_ratio};
 use crate::number::percent;
 use crate::progress::Observer;
-use crate::results::{Accuracy, Companion, EstimateMethod, QuantityError, Results, State};
+use crate::results::{
+    Accuracy, Companion, EstimateMethod, HistoryRow, QuantityError, Results, State,
+};
 use crate::scene::Scene;
 use std::time::Instant;
 
@@ -131,27 +133,59 @@ pub(super) fn assess(
 }
 
 /// The error of a quantity where no other mesh was run: the energy norm of the stress error, of the
-/// whole for loads, displacements and work, of where bodies touch and yield for all else. No bound,
-/// and none where a target asks for the quantity itself.
+/// whole for loads, displacements and work, of where bodies touch and yield for all else and for
+/// loads that the material or the contact decides. No bound, and none where a target asks for the
+/// quantity itself.
 fn by_energy_norm(run: &Judged, quantity: &Quantity) -> Option<f64> {
     let program = &run.scene.program;
     let labels = program.labels();
     let mut targets = program.targets.iter().zip(&labels);
-    let asked = targets.any(|(target, label)| {
+    let of_state = |label: &str, key: &str| quantity.path == format!("states.{label}.{key}");
+    let asked = targets.clone().any(|(target, label)| {
         let mut keys = target.figures().map(|(figure, _)| figure.key());
-        keys.any(|key| quantity.path == format!("states.{label}.{key}"))
+        keys.any(|key| of_state(label, key))
     });
     if asked {
         return None;
     }
-    let is_of_all = quantity.path != "yield.load"
-        && matches!(quantity.key(), "load" | "approach" | "plastic_work");
+    let is_found = quantity.path == "yield.load"
+        || targets.any(|(target, label)| {
+            (target.first_yield || target.finds_load()) && of_state(label, "load")
+        });
+    let is_of_all = !is_found && matches!(quantity.key(), "load" | "approach" | "plastic_work");
     let norms = run.results.states.iter().filter_map(|state| {
         let local = state.local_energy_error.filter(|_| !is_of_all);
         local.or(state.energy_error)
     });
     let norm = norms.reduce(f64::max)?;
-    Some((norm * quantity.scale + quantity.reading).max(quantity.least))
+    let per_stress = match is_found {
+        true => load_per_stress(run.results),
+        false => 1.0,
+    };
+    Some(norm * per_stress * quantity.scale + quantity.reading + quantity.least)
+}
+
+/// By what share the load at first yield changes if the stress under every load changes by a small
+/// one: `1/m` where stresses go with the power `m` of the load, 1/3 under a ball and 1/2 under a
+/// cylinder (Hertz), 1 where contact does not change. The power is that of the largest pressure
+/// from the increment whose load is nearest to half of that at first yield.
+fn load_per_stress(results: &Results) -> f64 {
+    let Some(first) = &results.first_yield else {
+        return 1.0;
+    };
+    let before = results.history.iter().filter(|row| {
+        let share = row.load / first.load;
+        share > 0.0 && share < 1.0 && row.plastic_points == 0 && row.max_pressure > 0.0
+    });
+    let off_half = |row: &HistoryRow| (row.load / first.load - 0.5).abs();
+    let nearest = before.min_by(|a, b| off_half(a).total_cmp(&off_half(b)));
+    let power = nearest.map_or(1.0, |row| {
+        (first.max_pressure / row.max_pressure).ln() / (first.load / row.load).ln()
+    });
+    match power > 0.0 && power < 1.0 {
+        true => 1.0 / power,
+        false => 1.0,
+    }
 }
 
 /// Runs the other meshes; with their element sizes.

@@ -15,7 +15,8 @@ pub struct Quantity {
     pub scale: f64,
     /// Error of the reading off the pressures: of half widths and areas, else 0.
     pub reading: f64,
-    /// Least error of the quantity: of plastic zones a layer of Gauss points, else 0.
+    /// Least error of the quantity: of plastic zones a layer of Gauss points, of plastic strains
+    /// what is between the outermost points and the surface, else 0.
     pub least: f64,
 }
 
@@ -102,6 +103,7 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
             let value = (quantity.in_state.get)(state);
             let least = match quantity.key {
                 "plastic_zone_size" => state.plastic_zone_layer,
+                "max_equivalent_plastic_strain" => state.plastic_strain_reading,
                 _ => 0.0,
             };
             let width = (state.half_width, &state.half_width_reading);

@@ -104,6 +104,7 @@ pub fn results(mesh: &Mesh) -> Results {
         max_equivalent_plastic_strain: 0.02,
         plastic_zone_size: 0.004,
         plastic_zone_layer: 0.0,
+        plastic_strain_reading: 0.0,
         load_is_given: false,
         approach_is_given: false,
         plastic_work: 0.7,

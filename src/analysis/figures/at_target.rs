@@ -56,6 +56,7 @@ impl Reading<'_, '_> {
             plastic_work,
             plastic_depth,
             plastic_strain,
+            corner_strain,
         } = stresses;
         let quality = self.quality(&displacements, internal, &reactions);
         let pairs = pair_states(
@@ -91,6 +92,7 @@ impl Reading<'_, '_> {
             plastic_points: plastic_points.iter().sum(),
             plastic_points_by_body: plastic_points,
             max_equivalent_plastic_strain: plastic_strain,
+            plastic_strain_reading: (corner_strain - plastic_strain).max(0.0),
             plastic_zone_size: plastic_volume * self.solver.structure.model.symmetry,
             plastic_zone_layer: plastic_layer * self.solver.structure.model.symmetry,
             plastic_work: plastic_work * self.solver.structure.model.symmetry,

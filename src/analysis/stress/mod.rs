@@ -11,11 +11,13 @@
 //! | `layers` | samples across a body that is one element thick | |
 //! | `neighbours` | elements that share a node | |
 //! | `element_stresses` | what the stresses of elements come to | |
+//! | `at_corners` | what values at points come to at the corners of their element | |
 //! | `stresses` | the forces that stresses exert, and what has yielded | |
 //! | `point_values` | stresses and strains at integration points, for results | |
 //! | `piece` | the stresses of a state, computed by all ranks | |
 //! | `indicator` | the error of stresses, element by element | |
 
+mod at_corners;
 pub(super) mod element_stresses;
 mod fitted;
 mod indicator;

@@ -1,6 +1,7 @@
 //! What the stresses of all elements amount to: the forces that they exert on the nodes, and what
 //! has yielded.
 
+use super::at_corners::largest_at_corners;
 use super::element_stresses::{ElementStresses, ShownStresses};
 use crate::analysis::zone::border::{self, Yielded};
 use crate::analysis::zone::points::ZoneOf;
@@ -33,8 +34,10 @@ pub(in crate::analysis) struct Stresses {
     pub(in crate::analysis) plastic_work: f64,
     /// Largest distance of such a point below a contact surface, along the normal there.
     pub(in crate::analysis) plastic_depth: f64,
-    /// Largest equivalent plastic strain.
+    /// Largest equivalent plastic strain at a Gauss point.
     pub(in crate::analysis) plastic_strain: f64,
+    /// Largest equivalent plastic strain at the corner of an element.
+    pub(in crate::analysis) corner_strain: f64,
 }
 
 impl Stresses {
@@ -59,6 +62,7 @@ impl Stresses {
             plastic_work: 0.0,
             plastic_depth: 0.0,
             plastic_strain: 0.0,
+            corner_strain: 0.0,
         };
         for (node, force) in forces.iter().enumerate() {
             model.freedoms.each_term(node, |slot, v| match slot {
@@ -121,6 +125,10 @@ impl Stresses {
                     self.plastic_strain = self.plastic_strain.max(past.equivalent);
                 }
             }
+            let (shape, rule) = (model.mesh.shapes[e], model.mesh.rule(e));
+            let strains: Vec<f64> = history.iter().map(|past| past.equivalent).collect();
+            let at_corners = largest_at_corners(shape, rule, &strains);
+            self.corner_strain = self.corner_strain.max(at_corners);
             let volume = gradients.weights().iter().sum();
             let count = history.iter().filter(|past| has_yielded(past)).count();
             yielded.push(Yielded::new(e, volume, D, [count, history.len()]));
