@@ -1,4 +1,4 @@
-//! Which effects a scene calls for, and what the run will cost: before anything is solved.
+//! The effects that a scene calls for and the cost of its run, before anything is solved.
 
 use super::seconds;
 use crate::analysis::choice::zone_choice;
@@ -15,7 +15,7 @@ use crate::substructure::ContactCost;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// What a run of the scene will do and cost.
+/// Effects and predicted cost of a run of the scene.
 #[derive(Debug, Clone, Serialize)]
 pub struct Check {
     /// Effects that the scene calls for.
@@ -24,45 +24,47 @@ pub struct Check {
     pub sizes: Sizes,
     /// Cost of the factorisation, from the symbolic analysis.
     pub prediction: Prediction,
-    /// Memory that this process may still take, in bytes: what the run has to fit into. `None`
-    /// where the system does not report it.
+    /// Memory that this process may still take, in bytes, and into which the run must fit. `None`
+    /// if the system does not report it.
     pub available_bytes: Option<f64>,
-    /// Cost of the dense part of contact, from the pairs that bodies join.
+    /// Cost of the dense part of contact, from the numbers of pairs that are joined by bodies.
     pub contact: ContactCost,
     /// Rough time of one factorisation, at the speed that is typical of one core.
     pub predicted_seconds: f64,
     /// Rough time of the whole run without the estimate of its errors and without the report: mesh
-    /// and assembly, factorisation, yield load, increments, states. On the machine that it was
-    /// fitted to it is within a factor of 3 of what the scenes of `data/scenes` take, but for runs
-    /// that come near a limit load, which may take 50 times as long.
+    /// and assembly, factorisation, yield load, increments, states. On the machine to which it was
+    /// fitted, it is within a factor of 3 of the time that the scenes of `data/scenes` take. Runs
+    /// that come near a limit load are an exception: they may take 50 times as long.
     pub predicted_run_seconds: f64,
     /// The BLAS in use.
     pub blas: String,
-    /// What the estimate of the run's errors will do and take, in words; empty where nobody asked.
+    /// What the estimate of the run's errors will do and how long it will take, in words; empty if
+    /// no estimate was asked for.
     pub error_estimate: String,
     /// Things the user should know.
     pub notes: Vec<String>,
 }
 
 impl Check {
-    /// Whether the run fits into the memory that is there; `None` where that is not known.
+    /// Whether the run fits into the available memory; `None` if that is not known.
     pub fn fits(&self) -> Option<bool> {
         let needed = self.prediction.memory_bytes;
         self.available_bytes.map(|available| needed <= available)
     }
 }
 
-/// Freedoms of the smaller of the two solids of which faer was measured to be faster on one thread
+/// Number of freedoms from which faer is recommended on one thread: the smaller of the two solids
+/// on which it was measured to be faster
 /// (`cargo bench --features faer --bench history -- backends 110k 300k`).
 const FASTER_BY_FAER: usize = 100_000;
 
-/// Seconds from which on a run is worth a warning before it begins.
+/// Predicted seconds above which the user is warned before a run.
 const LONG: f64 = 60.0;
 
 /// Predicts effects and cost of a model; solves nothing.
 ///
 /// # Errors
-/// Limits of the backend; those of the directory that the scene starts from.
+/// Limits of the backend; errors of the directory that the scene starts from.
 pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     let start = starting::read(model)?;
     let system = assemble(model, backend)?;
@@ -163,7 +165,7 @@ fn effect(name: &str, on: bool, why: String) -> Effect {
     }
 }
 
-/// An effect that the scene asks for and that is off where it turns out to be nothing.
+/// An effect that the scene asks for. It is reported as off if it has no consequence in this run.
 fn effect_asked_for(name: &str, asked: bool, on: bool, why: String) -> Effect {
     Effect {
         asked,
@@ -314,7 +316,7 @@ fn cycles(model: &Model) -> Effect {
     effect("cycles", model.scene.program.cycles > 1, why)
 }
 
-/// Targets whose load is the answer.
+/// The effect of targets for which the load is searched.
 fn loads_found(model: &Model) -> Effect {
     let program = &model.scene.program;
     let labels = program.labels();
@@ -335,8 +337,8 @@ fn loads_found(model: &Model) -> Effect {
     effect(LOADS_FOUND, !words.is_empty(), why)
 }
 
-/// The ledger: each effect on or off, and why. `yields` says whether the loads reach (or may reach)
-/// yield.
+/// The list of all effects, each on or off with the reason. `yields` tells whether the loads reach
+/// (or may reach) yield.
 pub(in crate::analysis) fn effects(
     model: &Model,
     yields: bool,

@@ -1,9 +1,9 @@
-//! What is known before anything is solved.
+//! What can be told of a run before anything is solved.
 //!
 //! | file | what |
 //! |---|---|
-//! | `effects` | effects that a scene calls for, and what a run costs |
-//! | `seconds` | how long it takes |
+//! | `effects` | effects that a scene calls for, and the cost of a run |
+//! | `seconds` | rough time of a run |
 
 pub(super) mod effects;
 pub(super) mod seconds;

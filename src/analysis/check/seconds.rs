@@ -1,4 +1,4 @@
-//! Roughly how long a run will take, before it begins.
+//! Rough time of a run, before it begins.
 
 use crate::analysis::structure::flow;
 use crate::linalg::{Backend, Prediction};
@@ -7,41 +7,44 @@ use crate::results::Sizes;
 use crate::scene::{Program, Stepping, Target, Unit};
 use crate::substructure::ContactCost;
 
-/// Floating point operations per second of large supernodes on one thread, and the same of faer:
-/// those of solids of 105,000 and 311,000 freedoms (`cargo bench --features faer --bench history --
-/// backends`).
+/// Floating point operations per second of large supernodes on one thread, with CHOLMOD and with
+/// faer ([`TYPICAL_FLOPS_OF_FAER`]): measured on solids of 105,000 and 311,000 freedoms
+/// (`cargo bench --features faer --bench history -- backends`).
 const TYPICAL_FLOPS: f64 = 3.6e10;
 const TYPICAL_FLOPS_OF_FAER: f64 = 5.8e10;
-/// Nonzeros of the factor per second of all that does not grow with the operations: ordering,
-/// analysis, and what it takes to begin each of many small supernodes, of which plane meshes have
-/// most.
+/// Nonzeros of the factor per second, for all work that does not grow with the operations:
+/// ordering, analysis, and the overhead of each of many small supernodes, of which plane meshes
+/// have most.
 const TYPICAL_NONZEROS: f64 = 2.7e7;
 /// Floating point operations per second of the dense matrices of contact.
 const FLOPS_OF_CONTACT: f64 = 7e9;
 
-/// What a run takes besides its factorisation, measured over the scenes of `data/scenes` and finer
-/// meshes of the paper's two: seconds to start; for each freedom of making the mesh, the assembly
-/// and the files; for each freedom of the zone of finding first yield; for each freedom and state.
+/// Seconds that a run takes in addition to its factorisation, measured over the scenes of
+/// `data/scenes` and finer meshes of the paper's two: to start ([`START`]); per freedom, to make
+/// the mesh, assemble and write files ([`SETUP`]); per freedom of the zone, to find first yield
+/// ([`YIELD_LOAD`]); per freedom and state ([`STATE`]).
 const START: f64 = 1.5e-3;
 const SETUP: f64 = 0.9e-6;
 const YIELD_LOAD: f64 = 2e-6;
 const STATE: f64 = 4.5e-7;
-/// Seconds of the elastic path, per cube of the pairs: each change of contact goes over their
-/// matrix.
+/// Seconds of the elastic path, per cube of the number of pairs: each change of contact passes over
+/// the matrix of the pairs.
 const PATH: f64 = 1.5e-9;
-/// Seconds of a trailing solve with its share of the plastic iteration: to begin with, and for each
+/// Seconds of a trailing solve with its share of the plastic iteration: a constant, and a time per
 /// entry of the factor's trailing columns.
 const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
-/// Share of the pairs that change their status in an increment of their own while the load goes one
-/// way: where gaps differ (the contact grows pair by pair), and where all are alike.
+/// Share of the pairs that change their status in an increment of their own while the load moves in
+/// one direction: first if gaps differ (the contact grows pair by pair), then if all gaps are
+/// alike.
 const CHANGES: [f64; 2] = [0.7, 0.17];
-/// Trailing solves of an elastoplastic increment: where the material hardens; where it has next to
-/// no stiffness left, in a contact that grows; and where all of it may yield.
+/// Trailing solves of an elastoplastic increment: if the material hardens; if it has almost no
+/// stiffness left, in a contact that grows; and if all of it may yield.
 const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
-/// Trailing solves of an elastoplastic increment in which contact may change, for the three
-/// materials of [`SOLVES`].
+/// Trailing solves of an elastoplastic increment in which contact may change, for the three cases
+/// of [`SOLVES`].
 const SOLVES_OF_LONG: [f64; 3] = [25.0, 60.0, 60.0];
-/// Plastic modulus over Youngs modulus below which material counts as soft in that sense.
+/// Ratio of plastic modulus to Young's modulus below which material counts as almost without
+/// stiffness.
 const SOFT: f64 = 0.1;
 /// Rough seconds of ordering, analysis and factorisation.
 pub(super) fn of_factorisation(prediction: &Prediction, backend: Backend) -> f64 {
@@ -86,7 +89,8 @@ fn solves(model: &Model) -> f64 {
     match model.scene.stepping() {
         Stepping::Events => SOLVES[kind] * (n_targets + ways * changes),
         Stepping::Steps => SOLVES_OF_LONG[kind] * program.steps as f64 * n_targets,
-        // Every other way unloads, elastically for the most part: from change to change.
+        // The load falls along every other way, on which the material unloads elastically for the
+        // most part, from one change of contact to the next.
         Stepping::Auto => {
             let measured = program.unit == Unit::Yield;
             let loading = loading_increments(&goals, measured, program.path_error);
@@ -96,7 +100,7 @@ fn solves(model: &Model) -> f64 {
     }
 }
 
-/// Whether all pairs of a contact would close together.
+/// Whether all pairs of a contact have the same gap, so that they would close together.
 pub(in crate::analysis) fn gaps_are_alike(pairs: &[Pair]) -> bool {
     let span = |of: fn(&Pair) -> f64| {
         let ends = pairs
@@ -110,8 +114,7 @@ pub(in crate::analysis) fn gaps_are_alike(pairs: &[Pair]) -> bool {
     span(|pair| pair.gap) <= 1e-9 * span(|pair| pair.arc)
 }
 
-/// What the load comes to target by target, in the unit of the program or of whatever the targets
-/// ask for.
+/// The load at each target, in the unit of the program or of the quantity that the target asks for.
 fn goals(program: &Program) -> Vec<f64> {
     let mut at = 0.0f64;
     let goal = |target: &Target| {
@@ -120,7 +123,7 @@ fn goals(program: &Program) -> Vec<f64> {
             (Some(factor), _) => factor,
             // The load of a line contact depends on the square of its width.
             (_, Some(width)) => width * width,
-            // A figure is looked for in loading.
+            // A figure is searched for with rising load.
             _ if target.finds_load() => at.max(1.0),
             _ => displaced.unwrap_or(1.0),
         };
@@ -129,7 +132,8 @@ fn goals(program: &Program) -> Vec<f64> {
     program.targets.iter().map(goal).collect()
 }
 
-/// Number of times that the load turns round on its way from zero to the last goal, plus one.
+/// Number of ways on the path from zero to the last goal: one more than the number of times at
+/// which the load turns round.
 fn ways(goals: &[f64]) -> f64 {
     let (mut at, mut upward, mut count) = (0.0, true, 1.0);
     for &to in goals {
@@ -141,8 +145,8 @@ fn ways(goals: &[f64]) -> f64 {
     count
 }
 
-/// Increments with more load than ever before in its direction (`flow.rs`), by the load at first
-/// yield where it is the `unit` of the goals.
+/// Number of increments in which the load is larger than ever before in its direction (`flow.rs`).
+/// If `unit` is set, goals are in units of the load at first yield.
 fn loading_increments(goals: &[f64], unit: bool, path_error: f64) -> f64 {
     let (mut reached, mut count) = ([0.0f64; 2], 0.0);
     for to in goals {
@@ -157,7 +161,7 @@ fn loading_increments(goals: &[f64], unit: bool, path_error: f64) -> f64 {
     count
 }
 
-/// Rough seconds of a run whose factorisation takes `factorisation`.
+/// Rough seconds of a run whose factorisation takes `factorisation` seconds.
 pub(super) fn of_run(
     model: &Model,
     sizes: &Sizes,
@@ -183,8 +187,8 @@ pub(super) fn of_run(
 mod tests {
     use super::*;
 
-    /// Only load beyond what was there before makes increments, the fewer the less it adds, and
-    /// more far beyond the load at first yield.
+    /// Only load beyond the largest so far takes increments: the fewer, the less load it adds, and
+    /// more if it is far beyond the load at first yield.
     #[test]
     fn increments_are_of_equal_length_in_the_root_of_the_load() {
         for (goals, unit, count) in [

@@ -1,9 +1,9 @@
-//! Which elements may yield in a run.
+//! The choice of the elements that may yield in a run.
 //!
 //! | file | what |
 //! |---|---|
 //! | `zone_choice` | first guess, prediction from elastic stress, growth |
-//! | `zone_fit` | the zone at hand, and what it is chosen by |
+//! | `zone_fit` | the current zone, and the data from which it is chosen |
 
 pub(super) mod zone_choice;
 pub(super) mod zone_fit;

@@ -1,8 +1,8 @@
-//! Which elements may yield: the plastic zone is chosen by the program.
+//! The choice of the elements that may yield: the program chooses the plastic zone.
 //!
-//! A first guess from geometry (near the contact surfaces) lets the yield load be found. The
-//! elastic stress at the program's extreme loads then predicts how far yielding spreads; a guard
-//! layer round the prediction watches, and when it yields the zone grows.
+//! A first guess from geometry (near the contact surfaces) is enough to find the yield load. The
+//! elastic stress at the program's extreme loads then predicts how far yielding spreads. A guard
+//! layer round the prediction is watched; if it yields, the zone grows.
 
 use crate::analysis::stress::stress_field::stress;
 use crate::analysis::zone::free_strain::take_off_all;
@@ -14,22 +14,22 @@ use crate::scene::Kind;
 use crate::space::Vector;
 use rayon::prelude::*;
 
-/// Elements of all bodies that may yield are the zone if their number is below this.
+/// If fewer elements than this may yield, all of them form the zone.
 const SMALL: usize = 1500;
-/// Elastic von Mises stress over yield stress above which an element is predicted to yield: stress
-/// redistributes.
+/// Ratio of elastic von Mises stress to yield stress above which an element is predicted to yield:
+/// less than 1, because stress redistributes.
 pub(super) const PREDICTED: f64 = 0.95;
-/// Layers of elements put round the prediction.
+/// Number of layers of elements added round the prediction.
 const MARGIN: usize = 2;
-/// Layers of guard elements round those.
+/// Number of layers of guard elements round the prediction and its margin.
 const GUARD: usize = 1;
 
 /// A choice of zone elements.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Choice {
-    /// Elements, ascending.
+    /// Elements of the zone, ascending.
     pub elements: Vec<usize>,
-    /// Which of them only watch.
+    /// Whether each element belongs to the guard, which is only watched.
     pub guard: Vec<bool>,
 }
 
@@ -44,8 +44,8 @@ impl Choice {
         Choice { elements, guard }
     }
 
-    /// Whether the zone holds all elements that may yield. (That none of it watches does not say
-    /// so: another body may be out of reach.)
+    /// Whether the zone holds all elements that may yield. (A zone without a guard need not hold
+    /// all of them: another body may be out of reach.)
     pub fn holds_all(&self, model: &Model) -> bool {
         let n = model.mesh.n_elements();
         self.elements.len() == (0..n).filter(|&e| may_yield(model, e)).count()
@@ -63,14 +63,15 @@ fn may_yield(model: &Model, element: usize) -> bool {
     model.may_yield[model.mesh.element_body[element] as usize]
 }
 
-/// What is factored as zone at first: elements so near the contact surfaces that yielding rarely
-/// spreads beyond, or all where there are few or no contact. A large zone costs the factorisation
-/// nothing; which part of it is used is chosen later.
+/// The elements that are factored as zone at first: elements so near to the contact surfaces that
+/// yielding rarely spreads beyond them, or all that may yield if these are few or there is no
+/// contact. A large zone adds nothing to the cost of the factorisation; the part that is used is
+/// chosen later.
 pub fn first_guess(model: &Model) -> Choice {
     near_contact(model, Reach::OfZone)
 }
 
-/// Where first yield is looked for.
+/// The elements in which first yield is looked for.
 pub fn place_of_first_yield(model: &Model) -> Choice {
     near_contact(model, Reach::OfFirstYield)
 }
@@ -92,8 +93,8 @@ fn near_contact(model: &Model, reach: Reach) -> Choice {
     Choice::from_marks(model, core, GUARD)
 }
 
-/// Prediction from elastic stress ratios of all elements (largest over the program's extreme
-/// loads).
+/// The zone predicted from elastic stress ratios of all elements (the largest over the program's
+/// extreme loads).
 pub fn predict(model: &Model, ratios: &[f64]) -> Choice {
     let hot: Vec<bool> = ratios
         .iter()
@@ -103,8 +104,8 @@ pub fn predict(model: &Model, ratios: &[f64]) -> Choice {
     Choice::from_marks(model, widen(model, hot, MARGIN), GUARD)
 }
 
-/// What contact pressure falls to as the load does to a share, as a share of its own: the square
-/// root in line contact, the cube root in point contact.
+/// The factor by which contact pressure falls if the load falls to `share` of its value: the square
+/// root of `share` in line contact, the cube root in point contact.
 pub fn decline(model: &Model, share: f64) -> f64 {
     match model.kind {
         Kind::Axisymmetric | Kind::Solid => share.cbrt(),
@@ -112,9 +113,9 @@ pub fn decline(model: &Model, share: f64) -> f64 {
     }
 }
 
-/// The zone while the load is a share of the one that `ratios` belong to, which all loads are
-/// proportional to, with the `old` one: stress is taken to fall with the load no slower than the
-/// pressure does.
+/// The zone up to a load that is `share` of the load to which `ratios` belong, joined with the
+/// `old` zone; all loads are proportional to this load. Stress is assumed to fall with the load no
+/// more slowly than contact pressure.
 pub fn stage(model: &Model, ratios: &[f64], share: f64, old: &Choice) -> Choice {
     let limit = PREDICTED / decline(model, share);
     let hot: Vec<bool> = ratios
@@ -129,7 +130,7 @@ pub fn stage(model: &Model, ratios: &[f64], share: f64, old: &Choice) -> Choice 
     Choice::from_marks(model, core, GUARD)
 }
 
-/// A larger zone round the old one.
+/// A larger zone: the old one with further layers around it.
 pub fn grown(model: &Model, old: &Choice) -> Choice {
     let mut core = vec![false; model.mesh.n_elements()];
     for &e in &old.elements {
@@ -138,7 +139,7 @@ pub fn grown(model: &Model, old: &Choice) -> Choice {
     Choice::from_marks(model, widen(model, core, 2 * MARGIN), GUARD)
 }
 
-/// A zone that also holds the given elements and what lies around them.
+/// A zone that holds the given elements and the layers around them in addition to the old zone.
 pub fn including(model: &Model, old: &Choice, elements: &[usize]) -> Choice {
     let mut core = vec![false; model.mesh.n_elements()];
     for &e in elements {
@@ -151,7 +152,7 @@ pub fn including(model: &Model, old: &Choice, elements: &[usize]) -> Choice {
     Choice::from_marks(model, core, GUARD)
 }
 
-/// Adds layers of neighbours that may yield (sharing a node, in any body).
+/// Adds layers of neighbouring elements that may yield: elements of any body that share a node.
 fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
     for _ in 0..layers {
         let mut touched = vec![false; model.mesh.n_nodes()];
@@ -173,8 +174,8 @@ fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
     marked
 }
 
-/// Elastic von Mises stress over yield stress at the sampling points of every element that may
-/// yield (0 elsewhere), for displacements of the whole model.
+/// Largest ratio of elastic von Mises stress to yield stress at the sampling points of each element
+/// that may yield (0 for all others), for displacements of the whole model.
 pub fn stress_ratios(model: &Model, u: &[f64], factors: &[f64]) -> Vec<f64> {
     let displacements = model.nodal(u, factors);
     let formulation = model.formulation;
@@ -225,9 +226,9 @@ mod tests {
         Scene::load_with(path, &overrides).unwrap()
     }
 
-    /// Under a point contact stress falls with the cube root of the load: at an eighth of it an
-    /// element is predicted to yield whose ratio at the whole load is twice the limit, in line
-    /// contact with its square root at a quarter.
+    /// In point contact stress falls with the cube root of the load: at an eighth of the load an
+    /// element is predicted to yield if its ratio at the whole load is twice the limit. In line
+    /// contact, with the square root, the same holds at a quarter of the load.
     #[test]
     fn a_stage_of_the_load_takes_the_elements_that_flow_by_then() {
         for (name, share) in [
@@ -244,14 +245,14 @@ mod tests {
                 let found = choice.elements.binary_search(&element);
                 assert_eq!(found.is_ok(), taken, "{name}");
                 assert!(found.is_err() || !choice.guard[found.unwrap()]);
-                // The outermost layer watches: where it yields the zone is made larger.
+                // The outermost layer is the guard: if it yields, the zone is made larger.
                 let core = choice.guard.iter().filter(|guard| !**guard).count();
                 assert_eq!(taken, core > 0 && core < choice.guard.len(), "{name}");
             }
         }
     }
 
-    /// Bodies that share nodes: of the neighbours only those that may yield join the zone.
+    /// In bodies that share nodes, only those neighbours that may yield join the zone.
     #[test]
     fn layers_end_where_material_stays_elastic() {
         let scene = scene(
@@ -264,7 +265,7 @@ mod tests {
         );
         let mut model = Model::new(&scene).unwrap();
         let upper = model.mesh.bodies.iter().position(|b| b == "upper").unwrap();
-        // The right half of the lower block becomes a part of the other body.
+        // The right half of the lower block becomes part of the other body.
         let n = model.mesh.n_elements();
         for e in 0..n {
             let [x, ..] = model.mesh.point(model.mesh.nodes(e)[0] as usize);

@@ -1,4 +1,4 @@
-//! The zone of a run, and what it is chosen by.
+//! The zone of a run, and the data from which it is chosen.
 
 use super::zone_choice::{Choice, PREDICTED};
 use crate::analysis::stress::recovery::{Recovery, Watched};
@@ -7,27 +7,27 @@ use crate::analysis::zone::packed::Ascending;
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
-/// The zone at hand, and what it is chosen by.
+/// The current zone, and the data from which it is chosen.
 pub(in crate::analysis) struct ZoneFit {
     pub(in crate::analysis) choice: Choice,
     /// Recovered stress over the zone, once it was asked for.
     recovery: Option<Recovery>,
-    /// Elastic von Mises stress over yield stress of each element where first yield was last looked
-    /// for; empty where the zone holds all that may yield.
+    /// Ratio of elastic von Mises stress to yield stress of each element at the last search for
+    /// first yield; empty if the zone holds all elements that may yield.
     pub(in crate::analysis) ratios_before_yield: Vec<f64>,
-    /// Elastic von Mises stress over yield stress of each element by a coarser mesh, until the zone
-    /// was fitted to it.
+    /// Ratio of elastic von Mises stress to yield stress of each element, found on a coarser mesh;
+    /// `None` once the zone was fitted to it.
     pub(in crate::analysis) expected: Option<Vec<f64>>,
-    /// What the zone follows the load by.
+    /// Predicted spread of yielding, by which the zone follows the load.
     pub(in crate::analysis) spread: Option<Spread>,
 }
 
-/// What a run on another mesh predicts of the stress.
+/// The stress that a run on another mesh predicts.
 pub(in crate::analysis) struct Expected {
-    /// Elastic von Mises stress over yield stress of each element at first yield and at the
-    /// program's extreme loads, the larger one.
+    /// Ratio of elastic von Mises stress to yield stress of each element: the larger of the values
+    /// at first yield and at the program's extreme loads.
     pub(in crate::analysis) ratios: Vec<f64>,
-    /// When the search for it began.
+    /// Time at which the run on the other mesh began.
     pub(in crate::analysis) since: Instant,
 }
 
@@ -42,12 +42,13 @@ impl ZoneFit {
         }
     }
 
-    /// Forgets what was recovered over the zone: another is chosen.
+    /// Drops the stress recovered over the zone, because another zone is chosen.
     pub(in crate::analysis) fn forget_recovery(&mut self) {
         self.recovery = None;
     }
 
-    /// The stress over the zone where it is watched, if there is a zone.
+    /// The recovered stress over the zone, at the points that are `watched`; `None` if there is no
+    /// zone.
     pub(in crate::analysis) fn recovery(
         &mut self,
         solver: &Solver,
@@ -66,13 +67,14 @@ impl ZoneFit {
     }
 }
 
-/// How far yielding will spread, by the elastic stress at the program's extreme loads.
+/// The extent to which yielding will spread, from the elastic stress at the program's extreme
+/// loads.
 #[derive(Serialize, Deserialize)]
 pub(in crate::analysis) struct Spread {
     /// Elements that may be predicted to yield.
     elements: Ascending,
-    /// Elastic von Mises stress of these elements over yield stress at the largest load, no less
-    /// than the value that the stress at first yield predicts there.
+    /// Ratio of elastic von Mises stress to yield stress of these elements at the largest load, no
+    /// less than the value extrapolated from the stress at first yield.
     ratios: Vec<f64>,
     /// The largest load factor.
     pub(in crate::analysis) highest: f64,
@@ -89,7 +91,7 @@ impl Spread {
         }
     }
 
-    /// The ratios of all elements: zero where they do not matter.
+    /// The ratios of all elements; zero for elements below the limit of prediction.
     pub(in crate::analysis) fn ratios(&self, n_elements: usize) -> Vec<f64> {
         let mut all = vec![0.0; n_elements];
         for (element, ratio) in self.elements.iter().zip(&self.ratios) {

@@ -1,29 +1,31 @@
-//! How far the two bodies of each contact have come together as wholes.
+//! The approach of the two bodies of each contact, taken as wholes.
 //!
-//! A body as a whole moves as its far boundary does: by what is prescribed of it, else not where
-//! supports hold it along the contact, else as the surfaces through which it is loaded, in the mean
-//! weighted with the sizes of the loads, else by the mean over its volume. In a stack of bodies the
-//! approaches of the contacts add up to that of its ends.
+//! A body as a whole moves as its far boundary does. The motion of the far boundary is, in this
+//! order: the displacement prescribed on the body; zero if supports hold the body along the
+//! contact; the mean displacement of the surfaces through which it is loaded, weighted with the
+//! sizes of the loads; the mean over its volume. In a stack of bodies the approaches of the
+//! contacts add up to the approach of its ends.
 
 use super::dent::body_of;
 use crate::model::{ContactSurface, LoadCase, Magnitude, Model, Slot, volumes_of_nodes};
 use crate::space::{Vector, along, dot, length};
 
-/// Length of the mean normal below which a contact has no direction: a pin all round its hole.
+/// Length of the mean normal below which a contact has no direction, like a pin in contact all
+/// round its hole.
 const NO_DIRECTION: f64 = 1e-6;
-/// Cosine beyond which a support acts along a contact: the nearer axis of two.
+/// Cosine of the angle beyond which a support acts along a contact: the nearer of two axes.
 const ALONG: f64 = 0.7;
 
-/// How the approach of a contact follows from displacements.
+/// The approach of the bodies of a contact as a function of displacements.
 pub(super) struct Approach {
-    /// Unit vector from the slave's body to the other.
+    /// Unit vector from the slave's body to the master's body.
     direction: Vector,
-    /// Nodes of the slave's body and of the other, with their weights.
+    /// Nodes of the slave's body and of the master's body, with their weights.
     sides: [Vec<(usize, f64)>; 2],
 }
 
 impl Approach {
-    /// Approaches of all contacts; `None` where the normals of a contact cancel.
+    /// Approaches of all contacts; `None` for a contact whose normals cancel.
     pub(super) fn of_contacts(model: &Model) -> Vec<Option<Approach>> {
         let contacts = model.contacts.iter();
         contacts.map(|contact| Self::of(model, contact)).collect()
@@ -45,7 +47,7 @@ impl Approach {
         })
     }
 
-    /// The approach, for displacements of all nodes.
+    /// The approach for given displacements of all nodes.
     pub(in crate::analysis) fn at(&self, moved: &[Vector]) -> f64 {
         let mean = |side: &[(usize, f64)]| -> f64 {
             let parts = side.iter();
@@ -57,8 +59,8 @@ impl Approach {
     }
 }
 
-/// The mean normal of a contact of the whole: what lies across planes of symmetry, or the axis of
-/// revolution, cancels there.
+/// The mean normal of a contact of the whole model with its mirror images: components across planes
+/// of symmetry, or across the axis of revolution, cancel.
 fn direction(model: &Model, contact: &ContactSurface) -> Option<Vector> {
     let pairs = &model.pairs[contact.range.clone()];
     let area: f64 = pairs.iter().map(|pair| pair.area).sum();
@@ -76,7 +78,7 @@ fn direction(model: &Model, contact: &ContactSurface) -> Option<Vector> {
     (size > NO_DIRECTION).then(|| mean.map(|x| x / size))
 }
 
-/// The nodes whose mean displacement is that of a body as a whole, with their weights.
+/// The nodes whose weighted mean displacement is that of the body as a whole, with their weights.
 fn far_boundary(model: &Model, body: usize, direction: Vector) -> Vec<(usize, f64)> {
     let loads = || model.loads.iter().filter(|load| load.body as usize == body);
     let is_along = |load: &&LoadCase| dot(load.direction, direction).abs() > ALONG;

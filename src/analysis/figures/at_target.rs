@@ -1,4 +1,4 @@
-//! What is reported of the state at a target: figures, and fields on the whole mesh.
+//! The report of the state at a target: figures, and fields on the whole mesh.
 
 use super::measure::pair_states;
 use super::reactions;
@@ -12,9 +12,9 @@ use crate::space::Vector;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// A state as it is reported.
+/// Figures of a state for the results.
 pub struct Figures {
-    /// State as the results show it.
+    /// State in the form of the results.
     pub state: State,
     /// Elements outside the zone with stress beyond yield: the zone was too small for this state.
     pub beyond_yield_outside: Vec<usize>,
@@ -22,12 +22,13 @@ pub struct Figures {
     pub beyond_yield_inside: bool,
     /// Seconds spent on the stresses of all elements: forces, fields, error indicator.
     pub stress_seconds: f64,
-    /// Displacements of all nodes without the rigid motions of floating bodies.
+    /// Displacements of all nodes without the rigid body motions of floating bodies.
     pub deformation: Vec<Vector>,
 }
 
 impl Reading<'_, '_> {
-    /// The current state with its quality; fields where asked for. Costs half a full solve.
+    /// Reads the figures of the current state and its quality, with fields if asked for. Costs half
+    /// a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -114,8 +115,8 @@ impl Reading<'_, '_> {
         })
     }
 
-    /// Fields, with the estimated errors of the stresses, for displacements of all freedoms, what
-    /// all elements show and the forces of their stresses on the nodes.
+    /// Fields with the estimated errors of the stresses. Given are the displacements of all
+    /// freedoms, the stresses to be shown, and the forces of the stresses on the nodes.
     fn fields(
         &self,
         shown: ShownStresses,
@@ -132,8 +133,8 @@ impl Reading<'_, '_> {
     }
 }
 
-/// The estimated error of the stresses, of the whole and where it touches or yields, and fields on
-/// the whole mesh, for the displacements of its nodes and what all elements show.
+/// The estimated errors of the stresses (of the whole model, and of the elements in contact or
+/// yielding), and the fields on the whole mesh, for the given nodal displacements and stresses.
 fn fields(
     model: &Model,
     nodal: Vec<Vector>,
@@ -176,8 +177,8 @@ fn fields(
     ([Some(errors.total), local], fields)
 }
 
-/// Pressure and gap of the pairs on the slaves and on nodes that face them; on other masters the
-/// mean of the pressures that act on them.
+/// Enters the pressure and gap of each pair on the slave and on the node that faces it. Other
+/// master nodes get the mean of the pressures that act on them.
 fn on_nodes(model: &Model, pairs: &[PairState], fields: &mut Fields) {
     let n = model.mesh.n_nodes();
     fields.contact_pressure = vec![0.0; n];
@@ -206,8 +207,9 @@ fn on_nodes(model: &Model, pairs: &[PairState], fields: &mut Fields) {
     }
 }
 
-/// Begin and end of a patch in degrees about the centre of a circular surface: from the symmetry
-/// plane at the surface's nearer end, or from its middle where there is none.
+/// Start and end of a patch, in degrees about the centre of a circular surface. Angles are measured
+/// from the symmetry plane at the nearer end of the surface, or from the middle of the patch if
+/// there is no such plane.
 fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f64; 2]> {
     let surface = &model.contacts[contact];
     let (center, _) = surface.circle?;
@@ -238,8 +240,8 @@ fn contact_arc(model: &Model, contact: usize, [from, to]: [f64; 2]) -> Option<[f
     if from <= pairs[0].arc || to >= pairs[last].arc {
         return Some([0.0, extent]);
     }
-    // A patch that has left the symmetry plane is still measured from there, the nearer one if both
-    // ends lie on one.
+    // A patch that has left the symmetry plane is still measured from this plane; from the nearer
+    // one if both ends of the surface lie on a symmetry plane.
     let on_symmetry = |k: usize| {
         let x = model.mesh.point(pairs[k].slave);
         surface.mirrors_at(x).next().is_some()
@@ -283,7 +285,7 @@ mod tests {
         sine.asin().to_degrees()
     }
 
-    /// A contact that has left the symmetry planes is measured from the nearer one.
+    /// A contact that has left the symmetry planes is measured from the nearer plane.
     #[test]
     fn an_arc_off_the_symmetry_plane_is_measured_from_there() {
         let model = disc(&["mesh.disc_in_plate.resolution=24"]);
@@ -302,12 +304,13 @@ mod tests {
             between(&model, last, last - 7),
         ];
         close(near_last, expected);
-        // One that reaches the plane starts there.
+        // A contact that reaches the symmetry plane starts at zero.
         let at_first = contact_arc(&model, 0, [arc(0), arc(5)]);
         close(at_first, [0.0, between(&model, 0, 5)]);
     }
 
-    /// Without a symmetry plane at its surface's nearer end an arc is measured from its own middle.
+    /// If there is no symmetry plane at the nearer end of its surface, an arc is measured from its
+    /// own middle.
     #[test]
     fn an_arc_without_a_symmetry_plane_is_told_from_its_middle() {
         let mut model = disc(&["mesh.disc_in_plate.resolution=24"]);

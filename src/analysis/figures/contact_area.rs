@@ -1,26 +1,27 @@
 //! Patches of contact between solids: area, centroid, half axes.
 //!
-//! Where bodies touch smoothly the square of the pressure falls to zero linearly at the edge. At
-//! the last pairs that touch it is not believed (how they share their force depends on where in the
-//! face the contact ends): there, and up to the first open ones, it is what the pairs further
-//! inside go on to, with the force of those at the edge ([`edge`]). The patch is where that is
-//! positive, cut out of the faces by straight lines; half axes are those of the ellipse with the
-//! same moments of area
+//! At the edge of a smooth contact the square of the pressure falls to zero linearly. The pressures
+//! of the last pairs in contact are not trusted: the share of the force that each of them carries
+//! depends on where in the face the contact ends. From there up to the first open pairs, the square
+//! of the pressure is extrapolated from the pairs further inside, such that the pairs at the edge
+//! together have their force ([`edge`]). The patch is the region in which it is positive, cut out
+//! of the faces by straight lines. Its half axes are those of the ellipse with the same moments of
+//! area
 //!
 //! ```text
 //! A = int dA,   c = int x dA/A,   M = int (x - c)(x - c)' dA/A = Q diag(a^2, b^2)/4 Q'
 //! ```
 //!
-//! Where the other body covers only part of a face, only that part counts.
+//! If the other body covers only part of a face, only that part counts.
 //!
-//! Beyond a plane of symmetry the patch goes on as its mirror image. A patch between two parallel
-//! planes of symmetry is a strip without end: its larger half axis is infinite, the smaller one
+//! Beyond a plane of symmetry the patch continues as its mirror image. A patch between two parallel
+//! planes of symmetry is an endless strip: its larger half axis is infinite, its smaller one is
 //! half its width. A patch that closes round a body, as in a press fit, has no mean normal: its
-//! area is that of its surface, and its half axes are those of what is seen of it from one side.
+//! area is that of its surface, and its half axes are those of its projection, seen from one side.
 //!
-//! All of this is done in coordinates along the patch's principal axes, each over the spacing of
-//! the pairs along it: oblong faces are squares there, and as many of them lie near along both
-//! axes.
+//! All of this is computed in coordinates along the patch's principal axes, each in units of the
+//! pairs' spacing along that axis. Oblong faces are squares in these coordinates, and as many faces
+//! are near along one axis as along the other.
 
 mod edge;
 mod fit;
@@ -36,7 +37,7 @@ use shape::Shape;
 use std::collections::BTreeSet;
 use topology::Topology;
 
-/// The patches of all contacts, the strongest first; forces up to `vanishing` count as zero.
+/// The patches of all contacts, the strongest first. Forces up to `vanishing` count as zero.
 pub(super) fn patches(
     model: &Model,
     force: &[f64],

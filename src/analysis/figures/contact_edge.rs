@@ -1,12 +1,12 @@
-//! Where a contact ends, to a hundredth of an element.
+//! The edge of a plane contact, located to a hundredth of an element.
 //!
-//! Near the end of a smooth contact the pressure squared is `(e^2 - s^2) (c0 + c1 s^2)`, `s` the
-//! distance from the middle and `e` that of the edge: exactly so, with `c1 = 0`, in Hertz' contact.
-//! The pressures of the last two pairs depend on where in its facet the contact ends (on Hertz'
-//! line contact they alone would put the edge off by -0.06 and 0.08 elements, those before by
-//! 0.01), their force together does not: equilibrium passes it on whole. For any `e` the constants
-//! follow from the pairs before them by least squares; the edge is the `e` whose pressure over the
-//! last pairs has their force.
+//! Near the edge of a smooth contact the squared pressure is `(e^2 - s^2) (c0 + c1 s^2)`, with `s`
+//! the distance from the middle and `e` the distance of the edge. In Hertz' contact this is exact,
+//! with `c1 = 0`. The pressures of the last two pairs depend on where in its facet the contact ends
+//! (on Hertz' line contact they alone would put the edge off by -0.06 and 0.08 elements, those
+//! before by 0.01). Their total force does not, since equilibrium passes it on as a whole. For any
+//! `e` the constants follow by least squares from the pairs before the last two. The edge is the
+//! `e` for which the pressure over the last pairs has their force.
 //!
 //! Measured with 4 to 24 elements over the contact: off by 0.003 to 0.01 elements on Hertz' contact
 //! of a line and of a point, by 0.02 to 0.1 on the disc in a plate. A line through the squared
@@ -21,52 +21,55 @@ const GAUSS: [(f64, f64); 4] = [
     (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
-/// Share of its factors below which a determinant is round-off.
+/// A determinant is round-off if it is below this share of the product of its factors.
 const SINGULAR: f64 = 1e-12;
 
-/// A pair before the last ones of a contact.
+/// A pair inside the last ones of a contact.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct EdgePoint {
     /// Squared distance from the middle of the contact.
     pub squared: f64,
     /// Squared pressure.
     pub pressure_squared: f64,
-    /// Weight of the pair: the width of the surface there.
+    /// Weight of the pair: the width of the surface at the pair.
     pub weight: f64,
 }
 
-/// The end of a contact: its last pairs, and those before from which the pressure there is known.
+/// The end of a contact: its last pairs, and the pairs before them, from which the pressure at the
+/// edge is extrapolated.
 pub(super) struct Tail<'a> {
-    /// The pairs before.
+    /// The pairs before the last ones.
     pub points: &'a [EdgePoint],
-    /// Distance of the first of the last pairs from the middle.
+    /// Distance of the first of the last pairs from the middle of the contact.
     pub from: f64,
-    /// Distance and width of the surface at the first and last of the last pairs.
+    /// Distance from the middle, and width of the surface, at the first and at the last of the last
+    /// pairs.
     pub near: [(f64, f64); 2],
     /// Length of the surface that belongs to the first of the last pairs.
     pub length: f64,
 }
 
 impl Tail<'_> {
-    /// The distance of the edge from the middle, between the given ones, for which the last pairs
+    /// The distance of the edge from the middle, between the given bounds, at which the last pairs
     /// carry `force`.
     pub(in crate::analysis) fn edge(&self, force: f64, [low, high]: [f64; 2]) -> f64 {
         root::of(|edge| self.force(edge) - force, low, high)
     }
 
-    /// Force on the last pairs if the contact ends at the distance `edge` from its middle.
+    /// Force on the last pairs if the contact ends at distance `edge` from its middle.
     fn force(&self, edge: f64) -> f64 {
         let [c0, c1] = self.constants(edge * edge);
         let pressure = |s: f64| ((edge * edge - s * s) * (c0 + c1 * s * s)).max(0.0).sqrt();
         let [(s0, w0), (s1, w1)] = self.near;
         let width = |s: f64| w0 + (w1 - w0) * (s - s0) / (s1 - s0);
-        // The area of the last pairs begins half the length of the first before it: there its shape
-        // function has risen from 0 to 1.
+        // The area of the last pairs begins half the length of the first pair before that pair, at
+        // the middle of the rise of its shape function from 0 to 1.
         let begin = self.from - 0.5 * self.length;
         if edge <= begin {
             return 0.0;
         }
-        // s = edge - (edge - begin) t^2 takes the root at the edge out of the integrand.
+        // The substitution s = edge - (edge - begin) t^2 removes the root at the edge from the
+        // integrand.
         let span = edge - begin;
         let sum: f64 = GAUSS
             .iter()
@@ -75,8 +78,8 @@ impl Tail<'_> {
                 weight * 2.0 * t * pressure(s) * width(s)
             })
             .sum();
-        // It rises along an element, not at once: the pressure falls over it, so that this takes
-        // more.
+        // The shape function rises along an element, not at once. The pressure falls along it, so
+        // the force is larger by this term.
         let rise = self.length / 12f64.sqrt();
         let x = begin * begin;
         let fall = begin * (c0 + c1 * x - (edge * edge - x) * c1) / pressure(begin);
@@ -88,9 +91,10 @@ impl Tail<'_> {
         span * sum + more.max(0.0) * width(begin)
     }
 
-    /// Least squares of the pressure squared, weighted with the width; with one point `c1 = 0`.
+    /// Least squares fit of the squared pressure, weighted with the width; `c1 = 0` if there is one
+    /// point.
     fn constants(&self, edge_squared: f64) -> [f64; 2] {
-        // Rows (e^2 - x) (c0 + c1 x) = p^2.
+        // The equations are (e^2 - x) (c0 + c1 x) = p^2, one for each point.
         let (mut m00, mut m01, mut m11, mut r0, mut r1) = (0.0, 0.0, 0.0, 0.0, 0.0);
         for point in self.points {
             let (x, a) = (point.squared / edge_squared, edge_squared - point.squared);
@@ -116,8 +120,8 @@ impl Tail<'_> {
 mod tests {
     use super::*;
 
-    /// Average of a pressure over the elements of size 1 beside a node, weighted with its shape
-    /// function.
+    /// Average of a pressure over the elements of size 1 on either side of a node, weighted with
+    /// the node's shape function.
     fn nodal(pressure: &dyn Fn(f64) -> f64, node: f64) -> f64 {
         const N: usize = 4000;
         let points = (0..N).map(|i| 2.0 * (i as f64 + 0.5) / N as f64 - 1.0);
@@ -146,8 +150,8 @@ mod tests {
                 };
                 let force = nodal(&pressure, 8.0) + nodal(&pressure, 9.0);
                 let found = tail.edge(force, [8.5, 10.0].map(|e| e - 0.5));
-                // The averages before the last pairs fall short of the pressures, by a hundredth of
-                // an element of the edge.
+                // Averages at the pairs inside differ from the pressures, which shifts the edge by
+                // a hundredth of an element.
                 assert!((found - edge).abs() < 0.015, "{bend} {edge}: {found}");
             }
         }

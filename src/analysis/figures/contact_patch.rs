@@ -1,4 +1,4 @@
-//! A run of closed pairs: where it ends, and what is read off between its pairs.
+//! A run of closed pairs of a plane contact: its ends, and values between its pairs.
 
 use super::contact_edge::{EdgePoint, Tail};
 use crate::model::{AxisPoint, ContactSurface, Mirror, Model};
@@ -6,40 +6,40 @@ use crate::scene::Kind;
 use crate::space::{Vector, dot};
 use std::f64::consts::PI;
 
-/// Pairs at the edge, the last closed one included, whose pressures are not believed one by one,
-/// only their force together: how they share it depends on where in the facet the contact ends (on
-/// Hertz' line contact the last two put the edge off by 0.08 and -0.06 elements, those before by
-/// 0.01).
+/// Number of pairs at the edge, including the last closed one, whose pressures are not trusted one
+/// by one, only their total force: the share of each depends on where in the facet the contact ends
+/// (on Hertz' line contact the last two put the edge off by 0.08 and -0.06 elements, those before
+/// by 0.01).
 const EDGE_SKIP: isize = 2;
-/// Pairs before those from which the pressure near the edge is fitted.
+/// Number of pairs before the edge pairs to which the pressure near the edge is fitted.
 const EDGE_POINTS: isize = 4;
-/// Angle of the sector between two planes below which they are parallel: a contact goes on beyond
-/// them without end.
+/// Angle of the sector between two planes of symmetry below which they count as parallel, so that
+/// the contact with its images is endless.
 const PARALLEL: f64 = 1e-2;
 
-/// Where a contact ends.
+/// The end of a contact along its surface.
 #[derive(Clone, Copy)]
 pub(super) struct LineEdge {
     /// Arc length along the surface.
     pub arc: f64,
-    /// Measured error of its reading.
+    /// Measured error of the edge's position.
     pub reading: f64,
 }
 
-/// What an edge is read off.
+/// Data from which the position of an edge is read.
 struct EdgeTail {
-    /// The last closed pair, and the direction in which the contact ends.
+    /// Place of the last closed pair; `way` is the direction from there in which the contact ends.
     last: usize,
     way: isize,
     /// Arc length of the middle of the contact.
     middle: f64,
     /// Distance from the last closed pair to the first open one.
     spacing: f64,
-    /// Distances from the middle between which the edge lies.
+    /// Distances from the middle that bracket the edge.
     bracket: [f64; 2],
 }
 
-/// A pair of a contact along its surface.
+/// A pair of a contact, placed along its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Place {
     /// Number of the pair in the model.
@@ -48,8 +48,9 @@ pub(super) struct Place {
     pub arc: f64,
 }
 
-/// The pairs of a contact along its surface. A closed surface begins with a pair that does not
-/// press, which ends it, too, a turn further: no run of pairs that press goes beyond.
+/// The pairs of a contact in order along its surface. A closed surface begins with a pair that does
+/// not press, and ends with the same pair one turn further, so that no run of pressing pairs
+/// crosses its ends.
 pub(super) fn line_of(
     model: &Model,
     contact: &ContactSurface,
@@ -81,14 +82,14 @@ pub(super) struct Patch<'a> {
     pub contact: &'a ContactSurface,
     /// Pairs of the contact along its surface.
     pub line: &'a [Place],
-    /// First closed place of the line, and the first beyond the last.
+    /// First closed place of the line; `end` is the first place after the closed ones.
     pub begin: usize,
     pub end: usize,
 }
 
 impl Patch<'_> {
-    /// Arc length where the surface ends beyond its last place `k`: there, or on the axis, or where
-    /// the other surface ends.
+    /// Arc length at which the surface ends beyond place `k` of the line, if `k` is its first or
+    /// last place: on the axis, where the other surface ends, or at the place itself.
     pub(super) fn end_arc(&self, k: usize) -> f64 {
         match (self.axis_beside(k), self.contact.extent) {
             (Some(axis), _) => axis.pair.arc,
@@ -98,7 +99,7 @@ impl Patch<'_> {
         }
     }
 
-    /// The point on the axis that a place is next to.
+    /// The point on the axis next to a place, if there is one.
     pub(super) fn axis_beside(&self, k: usize) -> Option<&AxisPoint> {
         let axis = self.contact.axis.as_ref()?;
         let next = if axis.begins {
@@ -109,7 +110,7 @@ impl Patch<'_> {
         next.then_some(axis)
     }
 
-    /// Whether the patch takes up all of a surface.
+    /// Whether the patch takes up the whole surface.
     pub(super) fn is_whole(&self) -> bool {
         self.begin == 0 && self.end == self.line.len()
     }
@@ -119,7 +120,7 @@ impl Patch<'_> {
         self.pressure[self.line[k].pair]
     }
 
-    /// Whether a place ends its surface on a plane of symmetry or beside the axis.
+    /// Whether the surface ends at a place on a plane of symmetry or beside the axis.
     pub(in crate::analysis) fn is_symmetric(&self, k: usize) -> bool {
         if self.axis_beside(k).is_some() {
             return true;
@@ -142,8 +143,9 @@ impl Patch<'_> {
             .point(self.model.pairs[self.line[k].pair].slave)
     }
 
-    /// Half widths of the whole, images included, that the modelled run of pairs is: 1/2 away from
-    /// planes of symmetry, 1 on one, and between two the number of images that close the turn.
+    /// Number of half widths of the whole patch, images included, in one width of the modelled run
+    /// of pairs: 1/2 away from planes of symmetry, 1 on one plane, and between two planes the
+    /// number of images that close the turn.
     pub(super) fn half_widths(&self) -> f64 {
         match [self.begin, self.end - 1].map(|k| (self.is_symmetric(k), self.mirror(k))) {
             [(false, _), (false, _)] => 0.5,
@@ -156,8 +158,9 @@ impl Patch<'_> {
         }
     }
 
-    /// Area of the whole, images included, between two arc lengths: in the plane the width,
-    /// under revolution `int 2 pi r ds` with the radius between nodes linear in the arc length.
+    /// Area of the whole patch, images included, between two arc lengths. In the plane it is the
+    /// width; under revolution `int 2 pi r ds`, with the radius between nodes linear in the arc
+    /// length.
     pub(super) fn area_between(&self, [from, to]: [f64; 2]) -> f64 {
         let width = match self.model.kind {
             Kind::Axisymmetric => 2.0 * PI * self.moment([from, to]),
@@ -177,7 +180,7 @@ impl Patch<'_> {
         images * width
     }
 
-    /// `int r ds` between two arc lengths of a surface of revolution.
+    /// Integrates `int r ds` between two arc lengths of a surface of revolution.
     fn moment(&self, [from, to]: [f64; 2]) -> f64 {
         let axis = self.contact.axis.as_ref().map(|axis| (axis.pair.arc, 0.0));
         let mut radii: Vec<(f64, f64)> = (0..self.line.len())
@@ -188,7 +191,7 @@ impl Patch<'_> {
         let mut sum = 0.0;
         for (i, ends) in radii.windows(2).enumerate() {
             let [(a, r), (b, s)] = [ends[0], ends[1]];
-            // The first and the last piece go on beyond the nodes.
+            // The first and the last piece extend beyond the nodes.
             let low = if i == 0 { from } else { from.max(a) };
             let high = if i + 2 == radii.len() { to } else { to.min(b) };
             if high > low && b > a {
@@ -199,10 +202,10 @@ impl Patch<'_> {
         sum
     }
 
-    /// Where contact ends beyond the place `last`, along the surface in direction `way`, read from
-    /// the force of the last [`EDGE_SKIP`] pairs: see [`Tail`]. Its error is measured by a second
-    /// reading with one pair more; where the pairs are too few for that, or a reading leaves its
-    /// bracket, it is half a spacing.
+    /// Finds the edge of the contact beyond the place `last`, along the surface in direction `way`,
+    /// from the force of the last [`EDGE_SKIP`] pairs: see [`Tail`]. The error of the reading is
+    /// its difference from a second reading with one more pair. If there are too few pairs for
+    /// that, or a reading leaves its bracket, the error is half a spacing.
     pub(in crate::analysis) fn edge(&self, last: usize, way: isize, middle: f64) -> LineEdge {
         let arc = |k: usize| self.line[k].arc;
         let Some(beyond) = self.neighbour(last, way) else {
@@ -238,12 +241,12 @@ impl Patch<'_> {
         }
     }
 
-    /// The place `step` places along the surface from another.
+    /// The place `step` places along the surface from place `k`, if there is one.
     fn neighbour(&self, k: usize, step: isize) -> Option<usize> {
         k.checked_add_signed(step).filter(|i| *i < self.line.len())
     }
 
-    /// Distance of the edge from the middle, by the force of the last `skip` pairs and the
+    /// Distance of the edge from the middle, from the force of the last `skip` pairs and the
     /// pressures before them.
     fn read_edge(&self, tail: &EdgeTail, skip: isize) -> Option<f64> {
         let &EdgeTail {
@@ -258,8 +261,8 @@ impl Patch<'_> {
             self.neighbour(last, -step * way)
                 .filter(|k| (self.begin..self.end).contains(k))
         };
-        // This side of the middle, as in half a model, and not on an axis, where next to no area
-        // belongs to a pair.
+        // Only pairs on this side of the middle count, as in half a model, and no pair on the axis,
+        // which has almost no area.
         let beside =
             |k: &usize| way as f64 * (arc(*k) - middle) > -0.25 * spacing && self.width(*k) > 0.0;
         let inner = (skip..skip + EDGE_POINTS).filter_map(closed).filter(beside);
@@ -284,7 +287,7 @@ impl Patch<'_> {
             near: [first, last].map(|k| ((arc(k) - middle).abs(), self.width(k))),
             length: self.area(first) / self.width(first),
         };
-        // The last closed pair may carry the rest of a partly covered facet.
+        // The last closed pair may carry the force of the remaining, partly covered facet.
         Some(tail.edge(force, bracket))
     }
 
@@ -292,7 +295,7 @@ impl Patch<'_> {
         self.model.pairs[self.line[k].pair].area
     }
 
-    /// Area of the surface at a place over the length along it.
+    /// Area of the surface at a place, per length along the surface.
     fn width(&self, k: usize) -> f64 {
         match self.model.scene.kind {
             Kind::Axisymmetric => 2.0 * PI * self.point(k)[0],
@@ -300,7 +303,7 @@ impl Patch<'_> {
         }
     }
 
-    /// Pressure between pairs, linear.
+    /// Pressure at an arc length, linear between pairs.
     pub(super) fn pressure_at(&self, arc: f64) -> f64 {
         let places = &self.line[self.begin..self.end];
         let next = places

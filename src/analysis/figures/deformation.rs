@@ -1,4 +1,4 @@
-//! Whether what is computed is small, as the theory takes it to be.
+//! Whether the computed deformation is small, as the theory assumes.
 //!
 //! With the gradient `H` of the displacements the exact (Green) strain is
 //!
@@ -6,10 +6,10 @@
 //! E = (H + H')/2 + H'H/2
 //! ```
 //!
-//! Small strains leave the second term out: of a stretch `|H|` the share `|H|/2`, and a rotation
-//! `|H|` adds the strain `|H|^2/2` that is none. Between two nodes of an element `|H|` is at least
-//! the change of their difference over their distance. (G. A. Holzapfel, *Nonlinear Solid
-//! Mechanics* (2000), section 2.5.)
+//! Small strain theory leaves the second term out. Of a stretch `|H|` it leaves out the share
+//! `|H|/2`; to a rotation `|H|` it adds the spurious strain `|H|^2/2`. Between two nodes of an
+//! element `|H|` is at least the change of their difference divided by their distance. (G. A.
+//! Holzapfel, *Nonlinear Solid Mechanics* (2000), section 2.5.)
 
 use crate::mesh::Mesh;
 use crate::model::Model;
@@ -18,20 +18,20 @@ use crate::space::{Vector, difference, length};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Gradient beyond which a user is told: a twentieth of the strains is left out.
+/// Displacement gradient beyond which the user is warned: a twentieth of the strains is left out.
 const LARGE: f64 = 0.1;
 
 /// The largest displacement gradient of the states so far.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct Deformation {
     largest: f64,
-    /// The state, and the body it is in.
+    /// Name of the state in which the gradient occurs; `body` is the body in which it occurs.
     state: String,
     body: String,
 }
 
 impl Deformation {
-    /// Takes in a state with the displacements of its nodes.
+    /// Updates the largest gradient with a state, given the displacements of its nodes.
     pub(in crate::analysis) fn take(&mut self, mesh: &Mesh, state: &str, displacements: &[Vector]) {
         let of_element = |e: usize| {
             let corners = &mesh.nodes(e)[..mesh.shapes[e].n_corners()];
@@ -63,7 +63,7 @@ impl Deformation {
         }
     }
 
-    /// Warning about the deformation, where the user is to know of it.
+    /// Warning about large deformation, if the user should know of it.
     pub(in crate::analysis) fn warning(&self) -> Option<String> {
         let Deformation {
             largest,
@@ -81,8 +81,8 @@ impl Deformation {
         })
     }
 
-    /// What a deck is told that asks for large displacements at a place, and whether small ones
-    /// will do.
+    /// Message for a deck that asks for large displacements at a place, and whether small
+    /// displacements are sufficient.
     pub(in crate::analysis) fn taken_small(&self, place: &str) -> (String, bool) {
         let is_small = self.largest <= LARGE;
         let text = format!(
@@ -106,10 +106,10 @@ impl Deformation {
     }
 }
 
-/// Warning for a deck that asks for large displacements where material flows at a stress that is
-/// not small compared with the slope of its curve. Where flow spreads through a body, the change of
-/// its sections then matters as much as hardening does (A. Considere, *Annales des ponts et
-/// chaussees*, 1885), however small strains are.
+/// Warning for a deck that asks for large displacements when material flows at a stress that is not
+/// small compared with the slope of its curve. If flow spreads through a body, the change of its
+/// sections then matters as much as hardening does (A. Considere, *Annales des ponts et chaussees*,
+/// 1885), however small the strains are.
 pub(in crate::analysis) fn softened(
     model: &Model,
     results: &Results,

@@ -1,5 +1,5 @@
-//! The dent: what plastic strains leave of the surfaces' shape once loads and contact forces are
-//! gone.
+//! The dent: the shape that plastic strains leave in the surfaces after loads and contact forces
+//! have vanished.
 
 use super::measure::on_axis;
 use super::reading::Reading;
@@ -9,22 +9,22 @@ use crate::model::{ContactSurface, Pair};
 /// The dent of a state.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::analysis) struct Dent {
-    /// Depth of both surfaces together at the deepest place; negative where they have moved towards
+    /// Depth of both surfaces together at the deepest place; negative if they have moved towards
     /// each other everywhere.
     pub depth: f64,
-    /// Share of each body in the dent.
+    /// Largest depth in the surfaces of each body.
     pub by_body: Vec<f64>,
-    /// The most that a surface rises above its undeformed shape.
+    /// Largest height to which a surface rises above its undeformed shape.
     pub rim: f64,
 }
 
-/// Displacement of the two surfaces at a place of a contact into their own bodies.
+/// Displacements of the two surfaces of a contact into their own bodies, at one place.
 type Sunk = [f64; 2];
 
 impl Reading<'_, '_> {
-    /// The dent of the current plastic strains: displacements under their initial loads alone,
-    /// every pair open, less the rigid motion of each body's far boundary. Half a trailing solve
-    /// where there are any.
+    /// Computes the dent of the current plastic strains: displacements under their initial loads
+    /// alone, with every pair open, minus the rigid body motion of each body's far boundary. Costs
+    /// half a trailing solve if there are plastic strains.
     pub(in crate::analysis) fn dent(&mut self) -> Dent {
         let mut dent = Dent {
             depth: 0.0,
@@ -67,7 +67,7 @@ impl Reading<'_, '_> {
         dent
     }
 
-    /// Depths to which the two sides of each pair have sunk into their bodies without any load.
+    /// Depths to which the two sides of each pair have sunk into their bodies, without any load.
     fn sunk(&mut self) -> Vec<Sunk> {
         let forces = &self.solver.now.initial.forces;
         let n = forces.len();
@@ -75,8 +75,8 @@ impl Reading<'_, '_> {
         unloaded.reset(&vec![true; n]);
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         unloaded.solve(forces, &mut gap, &mut force);
-        // Pairs that hold the rigid motion of a floating body stay closed: initial loads balance,
-        // they carry nothing.
+        // Pairs that hold the rigid body motion of a floating body stay closed. They carry nothing,
+        // since initial loads are self-equilibrated.
         let slip: Vec<f64> = gap.iter().map(|g| -g).collect();
         let mut u = self.solver.now.initial.eliminated.clone();
         self.solver.structure.sub.recover(&mut u, &slip);
@@ -95,7 +95,7 @@ impl Reading<'_, '_> {
         }
         let model = structure.model;
         let of_pair = |(k, pair): (usize, &Pair)| {
-            // The normal points from the slave's body to the other.
+            // The normal points from the slave's body to the master's body.
             let [faced, slave] = model.rows.both_sides(k, &normal);
             match model.contacts[pair.contact].slave {
                 0 => [-slave, faced],
@@ -106,7 +106,8 @@ impl Reading<'_, '_> {
     }
 }
 
-/// The places of a contact: its pairs, and the axis of revolution where no pair stands there.
+/// The places of a contact at which dents are read: its pairs, and the axis of revolution if no
+/// pair lies on it.
 fn places_of(
     contact: &ContactSurface,
     sunk: &[Sunk],
@@ -119,7 +120,7 @@ fn places_of(
     places
 }
 
-/// The body that a surface bounds.
+/// The body to which a surface belongs.
 pub(super) fn body_of(mesh: &Mesh, surface: &str) -> Option<usize> {
     let facet = mesh.surfaces.get(surface)?.facets.first()?;
     Some(mesh.element_body[facet.element] as usize)

@@ -1,5 +1,5 @@
-//! What each row of the history has besides its own figures, where the scene asks for it: motion
-//! and force of sets of nodes, approach, force and area of each contact.
+//! Additional columns of the history, if the scene asks for them: motion and force of sets of
+//! nodes; approach, force and area of each contact.
 
 use super::approaches::Approach;
 use super::reactions;
@@ -8,10 +8,10 @@ use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::space::Vector;
 
-/// Names of the axes in columns.
+/// Names of the axes in column titles.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// What is read off after each increment.
+/// Gauges that are read after each increment.
 pub(in crate::analysis) struct Gauges {
     /// Nodes of each set.
     sets: Vec<Vec<usize>>,
@@ -20,7 +20,7 @@ pub(in crate::analysis) struct Gauges {
 }
 
 impl Gauges {
-    /// Gauges that the scene asks for; `None` where it asks for none.
+    /// The gauges that the scene asks for; `None` if it asks for none.
     ///
     /// # Errors
     /// A set that the mesh does not have.
@@ -37,7 +37,7 @@ impl Gauges {
         }))
     }
 
-    /// Names of the columns, in the order of [`Gauges::read`]; none where the scene asks for none.
+    /// Names of the columns, in the order of [`Gauges::read`]; empty if the scene asks for none.
     pub(in crate::analysis) fn columns(model: &Model) -> Vec<String> {
         let names = &model.scene.program.history;
         if names.is_empty() {
@@ -56,7 +56,8 @@ impl Gauges {
         out
     }
 
-    /// The values in the current state. Half a full solve, and the stresses of all elements.
+    /// Reads the gauges in the current state. Costs half a full solve and the stresses of all
+    /// elements.
     ///
     /// # Errors
     /// Failure of the backend's solve.

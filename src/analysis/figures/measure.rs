@@ -1,4 +1,5 @@
-//! What a user reads off a state: pressure, contact half width, contact arc, approach.
+//! Contact figures of a state for the user: pressure, half width, arc and area of the contact,
+//! total load.
 
 use super::contact_area::{ReadPatch, patches};
 use super::contact_patch::{Patch, line_of};
@@ -6,14 +7,14 @@ use crate::analysis::structure::solver::Solver;
 use crate::model::{AxisPoint, ContactSurface, Magnitude, Model, Pair};
 use crate::results::{ContactPatch, EdgeReading, PairState, Status};
 
-/// Forces below this share of the largest are of pairs about to open or just closed: at a change of
-/// contact the force is zero up to round-off or gamma, and the extent of the contact must not
-/// depend on what is left of it.
+/// Pairs with forces below this share of the largest are about to open or have just closed: at a
+/// change of contact the force is zero up to round-off or gamma, and the extent of the contact must
+/// not depend on that remainder.
 const VANISHING: f64 = 1e-7;
-/// Forces below this share of the largest of the run are round-off of an unloaded contact.
+/// Forces below this share of the run's largest force are round-off of an unloaded contact.
 const ROUND_OFF: f64 = 1e-13;
-/// Patches whose forces differ by no more than this share are of bodies in a row, which pass the
-/// same force on; the figures are those of the first contact of them, on any mesh. Pressures add up
+/// Patches whose forces differ by no more than this share belong to bodies in a row, which pass on
+/// the same force; the figures are those of the first such contact, on any mesh. Pressures add up
 /// to more than their resultant, a hundredth more over 14 degrees to both sides (`t/sin t`).
 const EQUAL: f64 = 0.01;
 
@@ -22,34 +23,35 @@ const EQUAL: f64 = 0.01;
 pub struct ContactFigures {
     /// Largest pressure of a pair.
     pub max_pressure: f64,
-    /// Half width of the largest contact patch.
+    /// Half width of the contact patch with the largest force.
     pub half_width: f64,
-    /// Area of that patch, of the whole; in the plane its width.
+    /// Area of this patch including its mirror images; in the plane its width.
     pub area: f64,
-    /// Accuracy of the half width's reading.
+    /// Accuracy of the half width.
     pub half_width_reading: EdgeReading,
     /// Sum of the contact forces of the model.
     pub force: f64,
-    /// Pressure at the middle of the largest patch (its symmetry plane, where it has one).
+    /// Pressure at the middle of this patch (on its symmetry plane, if it has one).
     pub pole_pressure: f64,
-    /// Begin and end of the patch along the surface.
+    /// Start and end of this patch along the surface.
     pub patch: Option<[f64; 2]>,
-    /// Contact the patch belongs to.
+    /// Contact that this patch belongs to.
     pub contact: usize,
     /// All patches of a solid model, the strongest first.
     pub patches: Vec<ContactPatch>,
 }
 
-/// Pressure of each pair: its force over the integral of its node's shape function, which passes a
-/// uniform pressure exactly. With linear elements it is of first order beside the axis of
-/// revolution, as the displacements there are, whatever the weights: all errors have one sign.
+/// Pressure of each pair: its force divided by the integral of its node's shape function, which
+/// reproduces a uniform pressure exactly. With linear elements the pressure is of first order
+/// beside the axis of revolution, as the displacements there are, whatever the weights: all errors
+/// have one sign.
 pub fn pressures(model: &Model, force: &[f64]) -> Vec<f64> {
     let pairs = model.pairs.iter();
     pairs.zip(force).map(|(pair, r)| r / pair.area).collect()
 }
 
-/// The even continuation of a quantity of the pairs to the axis of revolution, where a contact
-/// reaches it without a pair there.
+/// Extrapolates a quantity of the pairs, as an even function, to the axis of revolution; `None`
+/// unless the contact reaches the axis without a pair on it.
 pub(super) fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -> Option<f64> {
     let axis = contact.axis.as_ref()?;
     let range = contact.range.clone();
@@ -66,16 +68,16 @@ pub(super) fn on_axis(model: &Model, contact: &ContactSurface, values: &[f64]) -
     Some((b * values[near] - a * values[next]) / (b - a))
 }
 
-/// How far a pair overlaps that carries a force, in soft contact.
+/// The overlap of a pair that carries a force in soft contact.
 fn overlap(model: &Model, pair: usize, force: f64) -> f64 {
     let of = &model.pairs[pair];
     let stiffness = model.contacts[of.contact].stiffness;
     stiffness.map_or(0.0, |stiffness| force / (stiffness * of.area))
 }
 
-/// Pairs with what they carry, and the points on the axis that are no pairs: these have no area and
-/// no force, and are numbered after the pairs. Nothing holds their nodes apart: `apart` gives how
-/// far they are from each other, negative where they overlap.
+/// States of all pairs, and of the points on the axis that are no pairs. These points have no area
+/// and no force, and are numbered after the pairs. Nothing holds their nodes apart: `apart` returns
+/// their distance, negative if they overlap.
 pub fn pair_states(
     model: &Model,
     gap: &[f64],
@@ -124,7 +126,7 @@ pub fn pair_states(
     out
 }
 
-/// Figures of the largest contact patch. `scale` is the largest force of the run.
+/// Figures of the contact patch with the largest force; `scale` is the largest force of the run.
 pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigures {
     let pressure = pressures(model, force);
     let axis_pressures = model
@@ -146,7 +148,7 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
         return with_patches(out, patches(model, force, &pressure, vanishing));
     }
     let mut largest = 0.0;
-    // What is no number is none that presses.
+    // A NaN does not count as a force that presses.
     let presses = |k: usize| force[k] > vanishing;
     for (index, contact) in model.contacts.iter().enumerate() {
         let line = line_of(model, contact, presses);
@@ -179,11 +181,11 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
     out
 }
 
-/// The figures of a patch in the plane.
+/// Reads the figures of a patch in the plane.
 fn read_patch(patch: &Patch, out: &mut ContactFigures) {
     let (begin, last) = (patch.begin, patch.end - 1);
     if let Some(turn) = patch.contact.turn.filter(|_| patch.is_whole()) {
-        // All around, it has no ends.
+        // A patch all around a closed surface has no ends.
         let from = patch.line[begin].arc;
         out.patch = Some([from, from + turn]);
         out.half_width = 0.5 * turn;
@@ -225,7 +227,7 @@ fn read_patch(patch: &Patch, out: &mut ContactFigures) {
     };
 }
 
-/// The figures of solids: the half width is the smaller half axis of the strongest patch.
+/// Figures of solids: the half width is the smaller half axis of the strongest patch.
 fn with_patches(mut out: ContactFigures, read: Vec<ReadPatch>) -> ContactFigures {
     let least = read.first().map_or(0.0, |read| read.patch.force) / (1.0 + EQUAL);
     let strong = read.iter().filter(|read| read.patch.force >= least);
@@ -243,7 +245,7 @@ fn with_patches(mut out: ContactFigures, read: Vec<ReadPatch>) -> ContactFigures
     out
 }
 
-/// The sum; of nothing it is 0, where `Iterator::sum` gives -0.
+/// Sum of forces; 0 for an empty list, for which `Iterator::sum` returns -0.
 fn sum(forces: &[f64]) -> f64 {
     forces.iter().fold(0.0, |sum, force| sum + force)
 }
@@ -270,10 +272,11 @@ impl Solver<'_> {
         contact_figures(model, &force, self.scales.force)
     }
 
-    /// The total load of the current state: size of the leading load times its factor; of a force
-    /// the whole's. Where it prescribes displacements, the force that moves its nodes; where it
-    /// changes gaps, the force of the contacts whose gaps these are, and without any load of all
-    /// that interfere.
+    /// The total load of the current state: the size of the leading load times its factor, for a
+    /// force that of the whole model with its mirror images. If the leading load prescribes
+    /// displacements, it is the force that moves its nodes. If it changes gaps, it is the force of
+    /// the contacts with these gaps. If there is no leading load, it is the force of all contacts
+    /// with interference.
     pub fn total_load_size(&self) -> f64 {
         let model = self.structure.model;
         let through = |acts: &dyn Fn(&Pair) -> bool| {
@@ -306,7 +309,8 @@ mod tests {
         Model::new(&Scene::load_with(path, &overrides).unwrap()).unwrap()
     }
 
-    /// An even quadratic of the distance from the axis goes on to it exactly.
+    /// An even quadratic function of the distance from the axis is extrapolated to the axis
+    /// exactly.
     #[test]
     fn the_pressure_on_the_axis_is_the_even_continuation() {
         let model = model(
@@ -330,8 +334,8 @@ mod tests {
         assert!((figures.max_pressure - 7.0).abs() <= 1e-13 * 7.0);
     }
 
-    /// Where the contact has left the axis the continuation is negative: the point there is open
-    /// and carries nothing.
+    /// If the contact has left the axis, the extrapolated pressure is negative: the point on the
+    /// axis is open and carries nothing.
     #[test]
     fn a_point_on_the_axis_carries_no_tension() {
         let model = model(
@@ -340,7 +344,7 @@ mod tests {
         );
         let begins = model.contacts[0].axis.as_ref().unwrap().begins;
         let n = model.pairs.len();
-        // The second pair from the axis alone is closed.
+        // Only the second pair from the axis is closed.
         let (closed, place) = if begins { (1, 0) } else { (n - 2, n) };
         let mut force = vec![0.0; n];
         force[closed] = 1.0;
@@ -354,8 +358,8 @@ mod tests {
         assert!((axis.gap - 0.5).abs() <= 1e-14);
     }
 
-    /// A pressure that is linear along a patch away from all planes of symmetry: at the patch's
-    /// middle it is the line's.
+    /// For a pressure that is linear along a patch away from all planes of symmetry, the pole
+    /// pressure is its value at the middle of the patch.
     #[test]
     fn the_pole_of_a_patch_off_symmetry_is_its_middle() {
         let model = model("contact_patch", &[]);

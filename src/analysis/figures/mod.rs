@@ -1,17 +1,17 @@
-//! What is read off a state.
+//! The figures that are read from a state.
 //!
 //! | file | what | paper |
 //! |---|---|---|
 //! | `measure` | pressure, half width, arc | 5 |
-//! | `contact_edge` | where a plane contact ends | |
+//! | `contact_edge` | the edge of a plane contact | |
 //! | `contact_patch` | a run of closed pairs | |
 //! | `contact_area` | patches of contact between solids | |
 //! | `reading` | stresses and approach of the current state | |
-//! | `dent` | what plastic strains leave of the surfaces | 5.1 |
-//! | `approaches` | how far the bodies of each contact have come together | |
-//! | `reactions` | what acts on each node from outside | |
-//! | `gauges` | what rows of the history have besides | |
-//! | `quality` | how far a state is from equilibrium and from its contact conditions | |
+//! | `dent` | the shape that plastic strains leave in the surfaces | 5.1 |
+//! | `approaches` | the approach of the bodies of each contact | |
+//! | `reactions` | external force on each node | |
+//! | `gauges` | additional columns of the history | |
+//! | `quality` | deviation of a state from equilibrium and from its contact conditions | |
 //! | `at_target` | figures and fields of the state at a target | |
 //! | `deformation` | whether strains and rotations are small | |
 

@@ -1,12 +1,12 @@
-//! How good a state is.
+//! The quality of a state.
 //!
-//! Nothing here takes the solver's word: gaps are those of the displacements, contact forces those
-//! that the stresses leave over on the contact nodes, neither of them clipped. A wrong status shows
-//! as tension or penetration, a wrong condensed matrix or factor as forces out of balance.
+//! No figure relies on the solver's own values. Gaps follow from the displacements, contact forces
+//! from the stresses as the forces left over on contact nodes; neither is clipped. A wrong status
+//! shows as tension or penetration, a wrong condensed matrix or factor as forces out of balance.
 //!
-//! Figures are relative to the largest load and displacement of the run up to here, so that they
-//! keep their meaning where everything is unloaded. Rigid motions of floating bodies, which stress
-//! nothing, are no part of the displacements that stresses and their round-off are held against.
+//! Figures are relative to the largest load and displacement of the run so far, so that they keep
+//! their meaning when everything is unloaded. Rigid body motions of floating bodies, which cause no
+//! stress, do not count in the displacements to which stresses and their round-off are compared.
 
 #[cfg(test)]
 mod tests;
@@ -17,15 +17,15 @@ use crate::linalg::largest;
 use crate::model::Model;
 use crate::results::{Quality, Tolerances};
 
-/// Share of the largest force or displacement that an elastic state may be off: round-off times any
-/// condition that a state is worth having at.
+/// Share of the largest force or displacement by which an elastic state may be off: round-off times
+/// any condition number at which a state is still of use.
 const ROUND_OFF: f64 = 1e-8;
 
-/// What the quality of a state of this model must keep: the tolerances that the scene asks for,
-/// with room for what is measured elsewhere than iterated, and round-off.
+/// The bounds on the quality of a state of this model: the tolerances that the scene asks for, with
+/// room for the difference between measured and iterated quantities, and for round-off.
 pub(in crate::analysis) fn tolerances(model: &Model) -> Tolerances {
     let settings = &model.scene.analysis;
-    // Between events a pair may be beyond its condition by gamma.
+    // Between changes of contact, a gap or a contact force may be negative by gamma.
     let forces = ROUND_OFF
         .max(100.0 * settings.tolerance)
         .max(10.0 * model.scene.program.gamma)
@@ -38,31 +38,32 @@ pub(in crate::analysis) fn tolerances(model: &Model) -> Tolerances {
     }
 }
 
-/// Displacements of all freedoms.
+/// Displacements of all freedoms, with the residuals of their equations.
 pub(in crate::analysis) struct Displacements {
-    /// The whole displacements, rigid motions included.
+    /// The whole displacements, including rigid body motions.
     pub total: Vec<f64>,
-    /// Displacements without the rigid motions of floating bodies; `None` where there are none.
+    /// Displacements without the rigid body motions of floating bodies; `None` if there are no such
+    /// motions.
     deformation: Option<Vec<f64>>,
-    /// Largest `|f - K u|` of the deformation.
+    /// Largest `|f - K u|` of a row, for the deformation.
     residual: f64,
-    /// Largest `|K| |u|` of a row, of the deformation.
+    /// Largest `|K| |u|` of a row, for the deformation.
     terms: f64,
     /// Largest `|f|` of a row.
     load: f64,
-    /// Largest of a row's `|f - K u|` over its `|K| |u| + |f|`.
+    /// Largest quotient of a row's `|f - K u|` and its `|K| |u| + |f|`.
     componentwise_error: f64,
 }
 
 impl Displacements {
-    /// What strains are taken from.
+    /// The displacements from which strains are computed.
     pub(in crate::analysis) fn deformation(&self) -> &[f64] {
         self.deformation.as_ref().unwrap_or(&self.total)
     }
 }
 
 impl Reading<'_, '_> {
-    /// Displacements of the current state. Costs half a full solve and a product with K.
+    /// Finds the displacements of the current state. Costs half a full solve and a product with K.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -71,8 +72,8 @@ impl Reading<'_, '_> {
         let model = self.solver.structure.model;
         let reduced = self.solver.structure.reduced_external(&self.solver.at);
         let mut load = self.solver.total_load();
-        // Against a rigid surface nothing is stiff: what acts on it balances, which out of balance
-        // forces show.
+        // A rigid surface has no stiffness: the forces on it are left out of this balance, and the
+        // forces out of balance show whether they are in equilibrium.
         let rigid = model.freedoms.of_rigid();
         rigid.for_each(|freedom| load[freedom] = 0.0);
         let mut condensed = self.solver.structure.external(&self.solver.at);
@@ -110,8 +111,8 @@ impl Reading<'_, '_> {
         Ok(out)
     }
 
-    /// Quality of the current state, where nothing else of it is wanted. Costs half a full solve
-    /// and the stresses of all elements.
+    /// The quality of the current state, if no other figure of it is wanted. Costs half a full
+    /// solve and the stresses of all elements.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -120,14 +121,14 @@ impl Reading<'_, '_> {
         self.quality_of(&u)
     }
 
-    /// Quality of the current state with its displacements.
+    /// The quality of the current state with the given displacements.
     fn quality_of(&mut self, u: &Displacements) -> crate::Result<Quality> {
         let stresses = self.stresses(u.deformation(), false)?;
         Ok(self.quality(u, stresses.internal, &stresses.reactions))
     }
 
-    /// Quality of the current state with its `internal` forces and the `reactions` on prescribed
-    /// displacements.
+    /// The quality of the current state, given its `internal` forces and the `reactions` on
+    /// prescribed displacements.
     pub(in crate::analysis) fn quality(
         &mut self,
         u: &Displacements,
@@ -137,7 +138,7 @@ impl Reading<'_, '_> {
         let external = self.external_forces();
         let applied = external.iter().fold(0.0f64, |m, (_, f)| m.max(f.abs()));
         self.solver.update_scales();
-        // Reactions measure the load where displacements are prescribed.
+        // If displacements are prescribed, reactions measure the load.
         let scales = &mut self.solver.scales;
         scales.force = scales.force.max(applied).max(largest(reactions));
         scales.displacement = scales.displacement.max(largest(&u.total));
@@ -181,8 +182,9 @@ impl Reading<'_, '_> {
         quality
     }
 
-    /// `|K| |u|` of the current state; where plastic strains stay, of a state as large as the
-    /// largest of the run: they were balanced to the round-off of displacements that may be gone.
+    /// Largest `|K| |u|` of the current state. If plastic strains remain, it is scaled to the
+    /// largest deformation of the run: they were balanced to the round-off of displacements that
+    /// may have vanished.
     fn terms_of_run(&self, u: &Displacements) -> f64 {
         let here = largest(u.deformation());
         if here > 0.0 && self.solver.now.initial.load.largest() > 0.0 {
@@ -192,12 +194,12 @@ impl Reading<'_, '_> {
         }
     }
 
-    /// A force over the largest of the run.
+    /// A force divided by the largest force of the run.
     fn share_of_forces(&self, force: f64) -> f64 {
         ratio(force, self.solver.scales.force)
     }
 
-    /// The applied force of each freedom that one acts on.
+    /// The applied forces, with the freedoms on which they act.
     fn external_forces(&self) -> Vec<(usize, f64)> {
         let loads = self.solver.structure.model.loads.iter();
         let loads = loads.zip(&self.solver.at.factors);
@@ -215,8 +217,8 @@ impl Reading<'_, '_> {
         forces
     }
 
-    /// `|f - K u| / (|K| |u| + |f|)` in infinity norms, `u` and `f` the run's largest deformation
-    /// and force.
+    /// Returns `|f - K u| / (|K| |u| + |f|)` in infinity norms, with `u` and `f` the largest
+    /// deformation and force of the run.
     fn backward_error(&self, u: &Displacements) -> f64 {
         let scale = self.solver.structure.system.norm * self.solver.scales.deformation
             + u.load.max(self.solver.scales.force);

@@ -1,18 +1,18 @@
-//! What acts on each node from outside: loads, supports, prescribed displacements.
+//! External force on each node: from loads, supports and prescribed displacements.
 //!
 //! ```text
 //!     f_node = sum_elements int B' sigma - contact forces
 //! ```
 //!
-//! Forces that go through a tie are those of what its nodes follow. Sums are taken on the control
-//! points of quadratic faces in contact ([`crate::model::ContactBasis`]); what comes out are the
-//! consistent forces on the nodes.
+//! Forces that pass through a tie count on the nodes that the tied node follows. Sums are taken on
+//! the control points of quadratic faces in contact ([`crate::model::ContactBasis`]); the results
+//! are consistent forces on the nodes.
 
 use crate::model::{Model, Slot};
 use crate::space::{Vector, along, dot};
 
-/// Forces on all nodes in global axes, from the internal ones on control points and the forces of
-/// the pairs.
+/// External forces on all nodes in global axes, from the internal forces on control points and the
+/// forces of the pairs.
 pub(super) fn on_nodes(model: &Model, mut forces: Vec<Vector>, of_pairs: &[f64]) -> Vec<f64> {
     for (pair, &r) in model.pairs.iter().zip(of_pairs) {
         forces[pair.slave] = along(forces[pair.slave], r, pair.normal);

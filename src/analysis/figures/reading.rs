@@ -1,4 +1,5 @@
-//! What is read off the current state besides contact pressures: approach, dent, quality.
+//! Figures read from the current state in addition to contact pressures: stresses, approach, dent,
+//! quality.
 
 use crate::analysis::stress::element_stresses::ElementStresses;
 use crate::analysis::stress::piece::{self, Whole};
@@ -11,21 +12,21 @@ use crate::model::{AxisPoint, LoadCase, Magnitude};
 use crate::space::{along, difference, dot};
 use std::collections::BTreeMap;
 
-/// Reads figures off the current state of a structure.
+/// Reader of figures from the current state of a structure.
 pub(in crate::analysis) struct Reading<'s, 'm> {
     pub(in crate::analysis) solver: &'s mut Solver<'m>,
 }
 
 impl<'m> Solver<'m> {
-    /// The current state as it is read.
+    /// Returns a reader of the current state.
     pub(in crate::analysis) fn reading(&mut self) -> Reading<'_, 'm> {
         Reading { solver: self }
     }
 }
 
 impl Reading<'_, '_> {
-    /// What the stresses of all elements amount to, for displacements of the whole model. Where
-    /// ranks share the matrix they share the elements too.
+    /// Sums over the stresses of all elements, for displacements of the whole model. If ranks share
+    /// the matrix, they share the elements too.
     ///
     /// # Errors
     /// Errors of the ranks.
@@ -68,7 +69,7 @@ impl Reading<'_, '_> {
         Ok(stresses)
     }
 
-    /// Distance of the bodies at a point on the axis, for displacements of the whole model.
+    /// Distance between the bodies at a point on the axis, for displacements of the whole model.
     pub fn distance_on_axis(&self, axis: &AxisPoint, u: &[f64]) -> f64 {
         let (freedoms, at) = (&self.solver.structure.model.freedoms, &self.solver.at);
         let of = |node| freedoms.displacement(node, u, &at.factors);
@@ -81,8 +82,8 @@ impl Reading<'_, '_> {
         self.solver.structure.gap_unmoved(pair, at) + opened
     }
 
-    /// How far the loads that vary have brought the bodies together
-    /// ([`crate::results::State::approach`]), for displacements of the whole model.
+    /// The approach of the bodies under the loads that vary ([`crate::results::State::approach`]),
+    /// for displacements of the whole model.
     pub fn approach(&self, u: &[f64]) -> f64 {
         let (structure, factors) = (&self.solver.structure, &self.solver.at.factors);
         let (loads, freedoms) = (&structure.model.loads, &structure.model.freedoms);
@@ -97,7 +98,8 @@ impl Reading<'_, '_> {
         if prescribed {
             driving.retain(|l| l.measures == Magnitude::Displacement);
         }
-        // Sizes and, times these, displacements of the loads on each body.
+        // For each body: the sum of the sizes of its loads, and the sum of their displacements
+        // times their sizes.
         let mut of_body: BTreeMap<u32, [f64; 2]> = BTreeMap::new();
         for load in driving {
             let size = Some(load.driven(structure.unit))

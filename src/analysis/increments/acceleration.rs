@@ -1,7 +1,7 @@
 //! Anderson acceleration of the initial-load iteration.
 //!
-//! The plain iteration maps initial loads `J` to `J(u(J))`. From the last few pairs of iterate and
-//! residual the combination with the smallest residual is taken.
+//! The plain iteration maps initial loads `J` to `J(u(J))`. Anderson acceleration takes the
+//! combination of the last few iterates whose combined residual is smallest.
 //!
 //! # Source
 //! H. F. Walker, P. Ni, *Anderson acceleration for fixed-point iterations* (2011),
@@ -22,12 +22,12 @@ pub struct Anderson {
 }
 
 impl Anderson {
-    /// Forgets everything: the map has changed (statuses, load).
+    /// Forgets all iterates, because the map has changed (statuses, load).
     pub fn restart(&mut self) {
         *self = Anderson::default();
     }
 
-    /// The change of initial loads for the iterate `initial` with residual `residual = J(u) - J`.
+    /// The change of initial loads for the iterate `initial` with the residual `J(u) - J`.
     pub fn change(&mut self, initial: &Trailing, residual: &Trailing) -> Trailing {
         if let Some((x, r)) = &self.last {
             let difference = |a: &Trailing, b: &Trailing| {

@@ -1,4 +1,4 @@
-//! What is accepted: increments, events of contact alone, and the end of a piece.
+//! Acceptance of increments, of changes of contact alone, and of the end of a piece.
 
 use super::outcome::{Increment, STRETCH};
 use super::outgrown::accepted;
@@ -8,8 +8,8 @@ use crate::analysis::structure::solver::{Pace, Solver};
 use crate::contact::Change;
 use crate::error::Result;
 
-/// An increment in which contact alone changed was accepted; the one before it ended at load
-/// factor `from`, and after `solves_before` trailing solves.
+/// Accepts an increment in which contact alone changed. The increment before it ended at load
+/// factor `from`, after `solves_before` trailing solves.
 ///
 /// # Errors
 /// Errors of [`accepted`].
@@ -29,7 +29,7 @@ pub(super) fn contact_step(
     accepted(solver, from, report, arrival)
 }
 
-/// Goes the last bit to `end` with the statuses and plastic strains at hand.
+/// Covers the last bit of the way to `end` with the current statuses and plastic strains.
 pub(in crate::analysis) fn arrive(solver: &mut Solver, end: &LoadPoint) {
     let initial = solver.now.initial.clone();
     solver.now = solver.respond(end, initial);
@@ -39,7 +39,7 @@ pub(in crate::analysis) fn arrive(solver: &mut Solver, end: &LoadPoint) {
     }
 }
 
-/// Takes a found increment: history, state, and the statuses beyond it.
+/// Accepts an increment: commits history and state, and sets the statuses beyond the increment.
 pub(super) fn accept(
     solver: &mut Solver,
     end: &LoadPoint,
@@ -60,7 +60,7 @@ pub(super) fn accept(
         })
         .collect();
     let way = increment.t * start.distance(end);
-    // What a far shorter increment leaves is mostly its round-off.
+    // The change of state over a far shorter increment is mostly round-off.
     let is_known = way > 0.0 && increment.t > 1.0 / STRETCH && !solver.zone.is_idle();
     solver.predictor.pace = is_known.then(|| {
         let mut pace = increment.state.initial.clone();
@@ -82,7 +82,7 @@ pub(super) fn accept(
             solver.cost.counts.contact_changes += 1;
         }
     }
-    // Within gamma of its condition's border a pair may be beyond it by as much.
+    // A gap or a contact force within gamma of zero may be negative by that much.
     for value in solver.now.gap.iter_mut().chain(&mut solver.now.force) {
         *value = value.max(0.0);
     }
@@ -90,8 +90,9 @@ pub(super) fn accept(
     reported.event = describe(&changes);
 }
 
-/// Whether the current state is that of `end`: what another solve would change is round-off. A
-/// state in which nothing has moved yet must be apart; any other was solved for.
+/// Whether the current state is the state at `end`, so that another solve would change only
+/// round-off. A state in which nothing has moved yet was not solved for: it counts if no gap is
+/// negative.
 pub(super) fn rests_at(solver: &Solver, end: &LoadPoint) -> bool {
     let moved = solver.now.u.largest() != 0.0 || solver.now.force.iter().any(|r| *r != 0.0);
     let apart = solver.now.gap.iter().all(|g| *g >= 0.0);
@@ -99,7 +100,7 @@ pub(super) fn rests_at(solver: &Solver, end: &LoadPoint) -> bool {
     solver.at == *end && solver.fresh && solved
 }
 
-/// Whether the way to `end` leads back against the last increment: then the material unloads
+/// Whether the way to `end` leads back against the last increment. The material then unloads
 /// elastically at first.
 pub(super) fn turns_back(solver: &Solver, end: &LoadPoint) -> bool {
     let step = solver.at.step_to(end);

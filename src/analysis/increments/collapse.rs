@@ -1,23 +1,25 @@
-//! Whether an increment that was not found shows a limit load, or only an iteration that did not
-//! converge.
+//! Decides whether an increment that was not found shows a limit load, or only an iteration that
+//! did not converge.
 //!
-//! The increments of associated plasticity minimise a convex energy (Simo and Hughes). Where every
-//! point hardens with a slope of at least `H`, its second derivative, the consistent tangent `S -
-//! K_p`, is nowhere below `H/(3G + H)` of the elastic stiffness `S`: there is one equilibrium under
-//! every load, and an iteration that does not find it has not converged. Beyond a limit load there
-//! is none: displacements grow without bound along a mechanism, in which the tangent has no
-//! stiffness left. The evidence of a collapse is therefore the current stiffness
+//! The increments of associated plasticity minimise a convex energy (Simo and Hughes). If every
+//! point hardens with a slope of at least `H`, the second derivative of the energy, the consistent
+//! tangent `S - K_p`, is at least `H/(3G + H)` of the elastic stiffness `S`. There is then one
+//! equilibrium under every load, and an iteration that does not find it has not converged. Beyond a
+//! limit load there is no equilibrium: displacements grow without bound along a mechanism in which
+//! the tangent has no stiffness left. The evidence of a collapse is therefore the current stiffness
 //!
 //! ```text
 //!     d'(S - K_p) d / d'S d        (elastic: 1, hardening: at least H/(3G + H), limit load: 0)
 //! ```
 //!
-//! at the state that the smallest increment led to, `d` the direction in which the structure moved.
-//! It is an upper bound of the smallest eigenvalue: a stiffness that it shows to be lost is lost.
+//! at the state reached in the smallest increment, with `d` the direction in which the structure
+//! moved. The current stiffness is an upper bound of the smallest eigenvalue: if it shows that
+//! stiffness is lost, it is lost.
 //!
 //! Increments beyond a limit load are given up as soon as the structure flows away along a Newton
-//! direction: without stiffness, and driven as before when it has gone as far along it as no
-//! increment that is held would move it.
+//! direction. It flows away if the direction has no stiffness, and if the same force still drives
+//! the structure after it has gone farther along the direction than any increment in equilibrium
+//! would move it.
 //!
 //! # Source
 //! P. G. Bergan, G. Horrigmoe, B. Krakeland, T. H. Soreide, *Solution techniques for non-linear
@@ -35,20 +37,21 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Settings;
 use crate::substructure::Trailing;
 
-/// Share of the elastic stiffness below which a structure has collapsed: to take up the smallest
-/// increment of the load it would have to move as far as elastically under the whole piece of the
-/// load path.
+/// Share of the elastic stiffness below which a structure counts as collapsed: to take up the
+/// smallest increment of the load, it would have to move as far as it moves elastically under the
+/// whole piece of the load path.
 pub(super) const LOST: f64 = SMALLEST_CUT;
 
-/// Answers of the structure to a direction whose stiffness decides: each is one trailing solve, and
-/// a mechanism stands out among motions of a tenth of the elastic stiffness by a tenth each time.
+/// Most responses of the structure to a direction whose stiffness decides. Each costs one trailing
+/// solve. Each makes a mechanism stand out by a tenth more from motions with a tenth of the elastic
+/// stiffness.
 const MOST_ANSWERS: usize = 8;
 
-/// Share of the force that drives a mechanism that is not yet taken up.
+/// Share of the driving force that must still be out of balance for the structure to flow away.
 const DRIVEN: f64 = 0.5;
 
-/// What no iteration can be sure to get below: the round-off of the forces of the zone's
-/// elements that follow from displacements `u`.
+/// Bound on the accuracy of any iteration: the round-off of the zone elements' forces that follow
+/// from displacements `u`.
 pub(super) fn round_off_of_balance(solver: &Solver, u: &Trailing) -> Result<f64> {
     let partition = &solver.structure.sub.partition;
     let mut all = vec![0.0; partition.n];
@@ -61,24 +64,25 @@ pub(super) fn round_off_of_balance(solver: &Solver, u: &Trailing) -> Result<f64>
     Ok(ROUND_OFF_OF_FORCES * stiffness.largest_terms(&all)?)
 }
 
-/// Whether forces out of balance by the share `floor` leave little open: displacements are off
-/// by no more than `floor` over the stiffness that is left, relative to elastic ones. Beyond a
-/// limit load displacements grow until their round-off hides what is out of balance: there
-/// nothing settles.
+/// Whether a state whose forces are out of balance by the share `floor` is accurate enough:
+/// relative to elastic displacements, its displacements are off by at most `floor` divided by the
+/// remaining stiffness. Beyond a limit load displacements grow until their round-off hides the
+/// forces out of balance; no state is accepted there.
 pub(super) fn settles(solver: &mut Solver, state: &Equilibrium, floor: f64) -> bool {
     floor <= LOOSEST && floor <= LOOSEST * stiffness_left(solver, state, 1)
 }
 
-/// Whether the structure flows away along a Newton direction of an increment to `goal` that it
-/// went to its end (`length` 1, to the `trial` state with its force out of balance): the share
-/// of the elastic stiffness that the direction has there.
+/// Whether the structure flows away along a Newton direction of an increment to `goal`. The step
+/// along the direction had the full `length` 1 and led to the `trial` state with its force out of
+/// balance. Returns the share of the elastic stiffness that the direction has at this state, if it
+/// flows away.
 ///
-/// It does where that is lost and the force that drove it, `driven`, still does when it has
-/// gone so far that the secant stiffness of the increment is lost, too. The energy of the
-/// increment is convex and has fallen all the way: an equilibrium, if there is any, lies
-/// beyond. Where a gap closes on that way, as when a tube is expanded into a sleeve, what it
-/// closes may hold the load, and where back stresses fade the increment has no such energy:
-/// nothing is said.
+/// The structure flows away if this stiffness is lost, and if the driving force `driven` still acts
+/// after the structure has gone so far that the secant stiffness of the increment is lost, too. The
+/// energy of the increment is convex and has fallen all the way, so an equilibrium, if there is
+/// one, lies beyond. If a gap closes on this way, as when a tube is expanded into a sleeve, the
+/// closed pair may hold the load; and if back stresses fade, the increment has no such energy. In
+/// both cases the function returns `None`.
 pub(super) fn flows_away(
     solver: &mut Solver,
     goal: &LoadPoint,
@@ -114,9 +118,9 @@ pub(super) fn flows_away(
     None
 }
 
-/// The error of an increment to `goal`, the smallest that is tried, that was not found:
-/// [`ErrorKind::Collapse`] where the stiffness is lost, else [`ErrorKind::Analysis`] with what
-/// was tried.
+/// The error for the smallest increment that is tried, to `goal`, if it was not found:
+/// [`ErrorKind::Collapse`] if the stiffness is lost, otherwise [`ErrorKind::Analysis`] with an
+/// account of the attempt.
 pub(super) fn not_found(
     solver: &mut Solver,
     settings: &Settings,
@@ -129,7 +133,7 @@ pub(super) fn not_found(
     };
     let residual = attempt.residual;
     let (held, tried) = (solver.at.alpha, goal.alpha);
-    // Round-off disturbs the quotient by about its own share.
+    // Round-off disturbs the quotient by about its own relative size.
     if left <= LOST && attempt.round_off <= LOST {
         return Error::new(
             ErrorKind::Collapse,
@@ -156,10 +160,11 @@ pub(super) fn not_found(
     ))
 }
 
-/// Share of the elastic stiffness that the tangent at a state has in the direction in which the
-/// structure moves there from the last state that was held; not a number where the iteration
-/// left all numbers. The direction is answered by the structure some times, each time with the
-/// forces it loses: what of it has stiffness left weighs less each time (power iteration).
+/// Share of the elastic stiffness that the tangent at a state has, in the direction in which the
+/// structure moves from its last state in equilibrium to this state; NaN if the iterate has
+/// overflowed. The response to the forces that softening takes off the direction is found `answers`
+/// times. Each time, the parts of the direction that still have stiffness weigh less (power
+/// iteration).
 fn stiffness_left(solver: &mut Solver, state: &Equilibrium, answers: usize) -> f64 {
     let mut load = solver.structure.sub.zeros();
     solver.out_of_balance_at(state, &mut load);
@@ -181,7 +186,7 @@ fn stiffness_left(solver: &mut Solver, state: &Equilibrium, answers: usize) -> f
     left
 }
 
-/// Why an increment was not found whose numbers went beyond all bounds, and what to do.
+/// The message for an increment that was not found because its numbers overflowed, with advice.
 fn no_number(held: f64, tried: f64, iterations: usize) -> String {
     format!(
         "not converged: load factor {held:.9} is the last that was held, at {tried:.9} (the \

@@ -1,5 +1,5 @@
-//! Moving along a straight piece of the load path, one increment at a time, until its end, a
-//! measured value or first yield.
+//! Moves along a straight piece of the load path, one increment at a time, until the end of the
+//! piece, a value of a measured quantity, or first yield.
 
 use super::elastic::ElasticDrive;
 use super::plastic::PlasticDrive;
@@ -13,15 +13,15 @@ use serde::{Deserialize, Serialize};
 /// A drive along a straight piece of the load path, between two increments.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Drive {
-    /// Contact changes alone.
+    /// Drive on which only contact changes.
     Elastic(Box<ElasticDrive>),
-    /// The material may yield.
+    /// Drive on which the material may yield.
     Plastic(PlasticDrive),
 }
 
 impl Drive {
-    /// The next increment, or the end of the drive. `recovery` is looked at for first yield where
-    /// the drive is watched for that.
+    /// Takes the next increment, or reports the end of the drive. `recovery` is used if the drive
+    /// is watched for first yield.
     ///
     /// # Errors
     /// Errors of [`ElasticDrive::step`] and [`PlasticDrive::step`].
@@ -39,12 +39,12 @@ impl Drive {
         }
     }
 
-    /// Whether first yield ends it.
+    /// Whether first yield ends the drive.
     pub fn watches_yield(&self) -> bool {
         matches!(self, Drive::Elastic(drive) if drive.watches_yield)
     }
 
-    /// Fixed increments that were taken on the piece.
+    /// Number of fixed increments taken on the piece so far.
     pub fn taken(&self) -> usize {
         match self {
             Drive::Elastic(_) => 0,
@@ -52,7 +52,7 @@ impl Drive {
         }
     }
 
-    /// The monitored quantity at the last increment.
+    /// The monitored quantity at the end of the last increment.
     pub fn monitored(&self) -> Option<f64> {
         match self {
             Drive::Elastic(drive) => drive.monitored,

@@ -1,4 +1,4 @@
-//! Elastic drives: contact alone changes, from event to event, on the dense matrix only.
+//! Elastic drives: contact alone changes, from event to event, and only the dense matrix is needed.
 
 use super::acceptance::{contact_step, rests_at};
 use super::step::{Arrival, MONITOR_ACCURACY, Monitor, Step, crosses, describe, is_hit};
@@ -12,11 +12,11 @@ use crate::root::{self, Accuracy};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Share of the largest force that springs bear once their body has moved by ten times the
+/// Springs bear this share of the largest force once their body has moved by ten times the
 /// deformation.
 const MOVES_FAR: f64 = 1e-7;
 
-/// Follows contact along a straight piece of the load path with the plastic strains frozen.
+/// Follows contact along a straight piece of the load path, with frozen plastic strains.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ElasticPath {
     start: LoadPoint,
@@ -25,7 +25,7 @@ pub struct ElasticPath {
 }
 
 impl ElasticPath {
-    /// A piece from the solver's current state to `end`.
+    /// The piece from the solver's current state to `end`.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
@@ -53,22 +53,22 @@ impl ElasticPath {
         })
     }
 
-    /// Goes to the next event, at most to share `t` of the piece; the solver's gaps and forces
-    /// follow.
+    /// Goes to the next event, but not beyond share `t` of the piece. The gaps and forces of the
+    /// solver are updated.
     pub fn advance(&mut self, solver: &mut Solver, t: f64) -> PathEnd {
         let outcome = self.path.advance(&mut solver.tableau, t);
         self.write(solver);
         outcome
     }
 
-    /// Goes to share `t` of the piece with the current statuses: they must hold there.
+    /// Goes to share `t` of the piece with the current statuses, which must hold there.
     pub fn go_back(&mut self, solver: &mut Solver, t: f64) {
         self.path.state_at(&mut solver.tableau, t);
         self.write(solver);
     }
 
-    /// Settles the statuses beyond an event. Where the last contact of a body was lost, a new piece
-    /// begins on the other side of its gaps.
+    /// Sets the statuses that hold beyond an event. If the last contact of a body was lost, a new
+    /// piece begins after the body has moved across its gaps.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
@@ -82,8 +82,8 @@ impl ElasticPath {
         Ok(())
     }
 
-    /// Goes back to where the monitored quantity, `was` at share `from` and `is` here, is zero
-    /// within `accuracy`.
+    /// Goes back to the share of the piece at which the monitored quantity is zero within
+    /// `accuracy`. Its value is `was` at share `from`, and `is` at the current share.
     ///
     /// # Errors
     /// Errors of the monitor.
@@ -105,12 +105,12 @@ impl ElasticPath {
         Ok(())
     }
 
-    /// Where the piece starts.
+    /// Load point at which the piece starts.
     pub fn start(&self) -> &LoadPoint {
         &self.start
     }
 
-    /// Share of the piece that lies behind.
+    /// Share of the piece that was covered so far.
     pub fn t(&self) -> f64 {
         self.path.t
     }
@@ -128,23 +128,23 @@ impl ElasticPath {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ElasticDrive {
     path: ElasticPath,
-    /// Whether first yield ends it.
+    /// Whether first yield ends the drive.
     pub(in crate::analysis) watches_yield: bool,
-    /// The monitored quantity at the last increment.
+    /// The monitored quantity at the end of the last increment.
     pub(in crate::analysis) monitored: Option<f64>,
-    /// Whether the statuses beyond the last event are still to be settled.
+    /// Whether the statuses beyond the last event are still to be set.
     at_event: bool,
-    /// Stresses at the last increment, where first yield is watched for; taken again where they
-    /// are not known.
+    /// Stresses at the end of the last increment, if first yield is watched for; sampled again if
+    /// they are not known.
     #[serde(skip)]
     samples: Option<Samples>,
 }
 
 impl ElasticDrive {
-    /// Begins a drive from the current state to `end`, or to first yield with `recovery`.
+    /// Begins a drive from the current state to `end`, or to first yield if `recovery` is given.
     ///
     /// # Errors
-    /// A load that drives a body away from every contact; those of the monitor.
+    /// A load that drives a body away from every contact; errors of the monitor.
     pub fn begin(
         solver: &mut Solver,
         end: &LoadPoint,
@@ -182,7 +182,7 @@ impl ElasticDrive {
     /// Goes to the next event on the way to `end`.
     ///
     /// # Errors
-    /// A load that drives a body away from every contact; those of the monitor and of
+    /// A load that drives a body away from every contact; errors of the monitor and of
     /// [`super::outgrown::accepted`].
     pub fn step(
         &mut self,
@@ -239,8 +239,8 @@ impl ElasticDrive {
         }
     }
 
-    /// Goes to `end` elastically, or to first yield with `recovery`; nobody is notified of the
-    /// increments.
+    /// Goes to `end` elastically, or to first yield if `recovery` is given. The increments are not
+    /// reported.
     ///
     /// # Errors
     /// Errors of [`ElasticDrive::step`].

@@ -1,9 +1,9 @@
 //! One elastoplastic increment: equilibrium iteration and step length together (paper, chapter 4).
 //!
-//! The unknowns are the initial loads `J`. For given `J` displacements, gaps and contact forces
-//! follow from one trailing solve (4.6); the flow rule gives `J(u)` back, and `J(u) - J` is the
-//! true out-of-balance force of the stresses. While it is brought to zero the increment is scaled
-//! so that it ends at the next change of contact (4.17, 4.22).
+//! The unknowns are the initial loads `J`. For given `J`, displacements, gaps and contact forces
+//! follow from one trailing solve (4.6). The flow rule returns `J(u)`, and `J(u) - J` is the true
+//! out-of-balance force of the stresses. While this force is brought to zero, the increment is
+//! scaled so that it ends at the next change of contact (4.17, 4.22).
 
 use super::acceleration::Anderson;
 use super::collapse::{flows_away, round_off_of_balance, settles};
@@ -21,23 +21,24 @@ use crate::analysis::zone::points::Evaluation;
 use crate::scene::PlasticIteration;
 use crate::substructure::Trailing;
 
-/// Accuracy (energy norm) of every Newton direction. Where points begin or cease to yield
+/// Accuracy (energy norm) of every Newton direction. When points begin or cease to yield,
 /// convergence is linear, however exact the directions are: forcing terms that follow the residual
 /// cost a tenth more trailing solves for 4 % fewer material evaluations.
 const FORCING: f64 = 0.05;
-/// Iterations of the unaccelerated or Anderson iteration count for this many of Newton's limit.
+/// The plain and the Anderson iteration may take this many times Newton's limit of iterations.
 const CHEAP_ITERATIONS: usize = 100;
-/// Share of the largest gap or force by which a pair may be beyond the border of its condition.
+/// Share of the largest gap or force by which a gap or force at the border may be negative.
 const BORDER: f64 = 1e-8;
-/// Share of the increment that is as good as none, where equilibrium at the start is asked for.
+/// Share of the increment below which its length counts as zero, so that equilibrium is sought at
+/// the start.
 const AT_START: f64 = 1e-9;
-/// Most that a change of state may be stretched in increments to the end of their piece, all of one
-/// run after the other: where they are of equal length in the root of the load the last is some
+/// Largest factor by which a change of state may be stretched over a run of increments that end at
+/// the end of their piece. If they are of equal length in the root of the load, the last is some
 /// thirty times as long as the first.
 const STRETCH_OF_LONG: f64 = 1e2;
 
-/// Goes from the current state towards `end`, at most to share `most` of the way. A state that is
-/// known `ahead` predicts the increment.
+/// Searches for the increment from the current state towards `end`, at most to share `most` of the
+/// way. If a state `ahead` is known, the increment is predicted from it.
 pub(super) fn increment(
     solver: &mut Solver,
     rules: Rules,
@@ -48,12 +49,12 @@ pub(super) fn increment(
     Iteration::begin(solver, rules, (end, most), (ends_at, search), ahead)?.run()
 }
 
-/// The search for one increment: what it starts from, and its iterate.
+/// The search for one increment: its start, and the current iterate.
 struct Iteration<'i, 'm> {
     solver: &'i mut Solver<'m>,
     rules: Rules<'i>,
     end: &'i LoadPoint,
-    /// Largest share of the piece.
+    /// Largest share of the piece that the increment may cover.
     most: f64,
     ends_at: EndsAt,
     search: Search,
@@ -61,51 +62,51 @@ struct Iteration<'i, 'm> {
     start: LoadPoint,
     /// Equilibrium at the start.
     before: Equilibrium,
-    /// Gaps and forces there that must stay positive.
+    /// Gaps and forces at the start that must stay positive.
     base: Vec<f64>,
-    /// Pairs that no step length watches.
+    /// Pairs that do not limit the step length.
     exempt: Vec<usize>,
     /// Share of the piece at the end of the iterate, `Delta alpha` of the paper.
     t: f64,
-    /// The iterate: equilibrium there with the initial loads so far.
+    /// The iterate: equilibrium at share `t` with the current initial loads.
     state: Equilibrium,
     /// Force out of balance of the iterate, `J(u) - J`.
     balance: Trailing,
-    /// What the material answered to the iterate, where a line search has asked it.
+    /// Result of evaluating the material at the iterate, if a line search has done so.
     known: Option<Evaluation>,
-    /// Room for the iterates that a line search tries.
+    /// Work space for the iterates that a line search tries.
     trial: (Equilibrium, Trailing),
-    /// Material evaluations.
+    /// Number of material evaluations.
     iterations: usize,
-    /// The smallest residual so far, and after how many evaluations.
+    /// The smallest residual so far, and the number of evaluations after which it was found.
     best: (f64, usize),
     /// Share by which Newton's tangent is damped towards the elastic stiffness.
     damping: f64,
     /// Factor by which the change of state was stretched since its loads were eliminated.
     stretched: f64,
-    /// Whether round-off may still decide that forces balance.
+    /// Whether forces may still be accepted as balanced to round-off.
     may_settle: bool,
     rounds: Rounds,
     anderson: Anderson,
     length: LengthSearch,
 }
 
-/// What an iterate shows.
+/// Findings about one iterate.
 struct Look {
     evaluation: Evaluation,
-    /// The largest force, which residuals are measured against.
+    /// The largest force, by which residuals are divided.
     scale: f64,
-    /// Out-of-balance force over the force scale.
+    /// Out-of-balance force divided by the force scale.
     residual: f64,
     limit: StepLimit,
-    /// Whether its length is right: at the next change of contact, or at the end of the piece.
+    /// Whether the length is right: at the next change of contact, or at the end of the piece.
     has_arrived: bool,
-    /// Whether the residual is hardly below the best so far.
+    /// Whether the residual is hardly less than the best so far.
     has_stalled: bool,
 }
 
 impl<'i, 'm> Iteration<'i, 'm> {
-    /// The first iterate, scaled to the change of contact that its prediction shows.
+    /// Sets up the first iterate, scaled to the change of contact that the prediction shows.
     fn begin(
         solver: &'i mut Solver<'m>,
         rules: Rules<'i>,
@@ -123,7 +124,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
             None => Prediction::of_rates(solver, (end, most), newton, !follows),
         };
         let base = positive_values(solver.tableau.open(), &before.gap, &before.force);
-        // A pair whose opening would set a body free cannot open: its force may come down to the
+        // A pair whose opening would set a body free cannot open: its force may fall to the
         // round-off of zero.
         let mut exempt = solver.border.clone();
         exempt.extend((0..base.len()).filter(|&k| solver.tableau.would_free(k)));
@@ -193,7 +194,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
         matches!(self.ends_at, EndsAt::NextChange { .. })
     }
 
-    /// `gamma_u` and `gamma_R` of the paper (4.18, 4.23), which are one number here.
+    /// The tolerances `gamma_u` and `gamma_R` of the paper (4.18, 4.23), which are one number here.
     fn gamma(&self) -> f64 {
         match self.ends_at {
             EndsAt::NextChange { gamma } => gamma,
@@ -201,21 +202,21 @@ impl<'i, 'm> Iteration<'i, 'm> {
         }
     }
 
-    /// What must stay positive in the iterate: gaps of open pairs, forces of closed ones (4.8,
-    /// 4.9).
+    /// The values of the iterate that must stay positive: gaps of open pairs, forces of closed ones
+    /// (4.8, 4.9).
     fn values(&self) -> Vec<f64> {
         let state = &self.state;
         positive_values(self.solver.tableau.open(), &state.gap, &state.force)
     }
 
-    /// How far the iterate may go until contact changes (4.14 to 4.21).
+    /// The factor on the iterate at which contact changes (4.14 to 4.21).
     fn limit(&self) -> StepLimit {
         let open = self.solver.tableau.open();
         step_limit(open, &self.base, &self.values(), &self.exempt)
     }
 
-    /// The force that the stresses of the iterate leave out of balance, and how far the iterate is
-    /// from its change of contact.
+    /// Computes the out-of-balance force of the iterate, and its distance from the change of
+    /// contact.
     fn evaluate(&mut self) -> Look {
         let evaluation = match self.known.take() {
             Some(evaluation) => evaluation,
@@ -254,8 +255,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
         }
     }
 
-    /// Whether the forces of the iterate balance, to the tolerance or to their round-off, and the
-    /// round-off where that was asked for.
+    /// Whether the forces of the iterate balance, to the tolerance or to their round-off. Also
+    /// returns the round-off, if it was needed.
     fn judge(&mut self, look: &Look) -> Result<(bool, f64), NoIncrement> {
         let is_balanced = look.residual <= self.rules.settings.tolerance;
         if is_balanced || !look.has_stalled || !self.may_settle {
@@ -270,8 +271,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
         Ok((is_balanced, floor))
     }
 
-    /// Changes the statuses that the iterate shows to be wrong, where the increment ends at the end
-    /// of its piece; whether there were any.
+    /// Changes the statuses that the iterate shows to be wrong, if the increment ends at the end of
+    /// its piece. Returns whether there were any.
     fn settle_contact(&mut self) -> Result<bool, NoIncrement> {
         if self.ends_at != EndsAt::EndOfPiece {
             return Ok(false);
@@ -279,7 +280,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
         settle_contact(self.solver, self.end, &mut self.state, &mut self.rounds)
     }
 
-    /// Whether the loads of the change of state are to be eliminated anew.
+    /// Whether the loads of the change of state must be eliminated again.
     fn is_stretched_far(&self) -> bool {
         let most = if self.follows() {
             STRETCH
@@ -289,7 +290,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
         self.stretched > most
     }
 
-    /// Eliminates the initial loads of the iterate anew.
+    /// Eliminates the initial loads of the iterate again.
     fn eliminate_anew(&mut self) {
         self.stretched = 1.0;
         let (structure, cost) = (&self.solver.structure, &mut self.solver.cost);
@@ -298,7 +299,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
         self.state = self.solver.respond(&point, initial);
     }
 
-    /// The increment that the iterate is.
+    /// Returns the increment that the converged iterate is.
     fn found(self, look: Look, floor: f64) -> Result<Increment, NoIncrement> {
         let gamma = self.gamma();
         if self.follows() {
@@ -326,7 +327,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
         })
     }
 
-    /// An error where the iteration leads nowhere, or was asked to stop.
+    /// Returns an error if the iteration makes no progress, or was asked to stop.
     fn give_up(&mut self, look: &Look) -> Result<(), NoIncrement> {
         if !look.has_stalled {
             self.best = (look.residual, self.iterations);
@@ -337,7 +338,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
         let settings = self.rules.settings;
         let newton = settings.plastic_iteration == PlasticIteration::Newton;
         let is_stuck = newton && self.iterations - self.best.1 >= self.search.patience;
-        // The change comes ever nearer the start, within what states are known to: at once.
+        // The change of contact moves ever nearer to the start, to within the accuracy of states:
+        // it happens at once.
         let is_at_start = self.follows() && self.t <= settings.tolerance;
         if is_stuck && is_at_start && look.limit.share <= 1.0 + self.gamma() {
             return Err(NoIncrement::WrongStatus(look.limit.pairs.clone()));
@@ -370,7 +372,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
         }
     }
 
-    /// The next iterate at the same length.
+    /// Computes the next iterate at the same length.
     fn correct(&mut self, look: &Look) -> Result<(), NoIncrement> {
         let (direction, length) = match self.rules.settings.plastic_iteration {
             PlasticIteration::Newton => self.newton(look)?,
@@ -390,15 +392,15 @@ impl<'i, 'm> Iteration<'i, 'm> {
         Ok(())
     }
 
-    /// Newton's direction, and how far along it; the direction of the plain iteration where
-    /// Newton's leads nowhere.
+    /// Newton's direction and the step length along it; the direction of the plain iteration if
+    /// Newton's does not lower the energy.
     fn newton(&mut self, look: &Look) -> Result<(Equilibrium, f64), NoIncrement> {
         let keep = 1.0 - self.damping;
         let direction = self.solver.solve_tangent(&self.balance, FORCING, keep);
         let searched = (&self.state, &direction, &self.balance);
         let Some((length, evaluation)) = line_search(self.solver, searched, &mut self.trial) else {
-            // The elastic stiffness bounds the tangent from above: the plain step always lowers the
-            // energy.
+            // The elastic stiffness is an upper bound of the tangent, so the plain step always
+            // lowers the energy.
             self.damping = next_damping(self.damping, 0.0);
             return Ok((self.solver.direction(self.balance.clone()), 1.0));
         };
@@ -425,7 +427,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
             return Ok(());
         }
         let (t, most, together) = (self.t, self.most, self.search.together);
-        // Far-off predictions are followed carefully: the response is not linear.
+        // If the change is predicted to be far off, the length is changed in moderation: the
+        // response is not linear.
         let goal = (reach.clamp(0.1, 4.0) * t).min(most);
         if !together && t <= AT_START * most && goal < t {
             return Err(NoIncrement::Jumps);
@@ -453,7 +456,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
         Ok(())
     }
 
-    /// Factor on the iterate that brings it to the next change or to the end.
+    /// Factor on the iterate that takes it to the next change of contact or to the end.
     fn reach(&self, limit: &StepLimit) -> f64 {
         if limit.share * self.t >= self.most * (1.0 - AT_END) {
             self.most / self.t
@@ -462,8 +465,9 @@ impl<'i, 'm> Iteration<'i, 'm> {
         }
     }
 
-    /// Pairs that began at the border of their condition and end beyond it: their rate was right at
-    /// the start and turned within the increment, where no step limit watches it.
+    /// Pairs that began at the border, with a gap or force of zero, and end with a negative one.
+    /// Their rate was right at the start and turned within the increment; no step limit watches
+    /// them.
     fn crosses_border(&self, tolerance: f64, force_scale: f64) -> Vec<usize> {
         let state = &self.state;
         let largest_gap = state.gap.iter().fold(0.0f64, |m, g| m.max(*g));
@@ -479,8 +483,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
     }
 }
 
-/// Newton's tangent is damped towards the elastic stiffness after a short step and freed again
-/// after full ones.
+/// The next damping of Newton's tangent: more towards the elastic stiffness after a short step,
+/// less after full steps.
 fn next_damping(damping: f64, length: f64) -> f64 {
     if length < 0.5 {
         f64::min(4.0 * damping.max(0.01), 0.6)

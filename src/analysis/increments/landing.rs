@@ -1,4 +1,4 @@
-//! The last increment again, so that it ends where a monitored quantity is zero.
+//! Repeats the last increment so that it ends where a monitored quantity is zero.
 
 use super::acceptance::accept;
 use super::step::{IncrementReport, MONITOR_ACCURACY, Monitor, SMALLEST_CUT};
@@ -11,8 +11,8 @@ use crate::root::{self, Accuracy};
 use std::cell::Cell;
 
 impl Stepper<'_, '_> {
-    /// Repeats the increment from the state `from` so that it ends where the monitored quantity,
-    /// `was` there and `is` now, is zero.
+    /// Repeats the increment from the state `from` so that it ends at the zero of the monitored
+    /// quantity, whose value is `was` in the state `from`, and `is` in the current state.
     pub(super) fn land(
         &mut self,
         end: &LoadPoint,
@@ -23,7 +23,7 @@ impl Stepper<'_, '_> {
     ) -> Result<()> {
         let reached = from.at.share_of(&self.solver.at, end);
         let last = Cell::new(-1.0);
-        // Trials lie close together: each is predicted from those before.
+        // Trial increments end close together: each is predicted from those before.
         let mut known = vec![(0.0, from.equilibrium.clone())];
         if self.kept_statuses(from) {
             known.push((reached, self.solver.now.clone()));
@@ -33,7 +33,7 @@ impl Stepper<'_, '_> {
             self.solver.predictor.pace = None;
             let goal = from.at.towards(end, t);
             let mut ahead = (known.len() > 1).then(|| (goal.clone(), between(&mut known, t)));
-            // An increment may be cut short: the way to the goal then takes several.
+            // An increment may be cut short; several increments are then needed to reach the goal.
             loop {
                 let (increment, _) = self.find_increment(&goal, 1.0, SMALLEST_CUT, ahead.take())?;
                 let arrived = increment.t >= 1.0;
@@ -58,8 +58,8 @@ impl Stepper<'_, '_> {
         Ok(())
     }
 
-    /// Whether the increment just taken had the statuses that it began with from `from`; those
-    /// beyond its end may be others.
+    /// Whether the increment just taken had the same statuses as the state `from` throughout; the
+    /// statuses beyond its end may differ.
     fn kept_statuses(&self, from: &State) -> bool {
         let mut open = self.solver.tableau.open().to_vec();
         for &k in &self.solver.border {
@@ -69,8 +69,8 @@ impl Stepper<'_, '_> {
     }
 }
 
-/// The state at `t` on the parabola through the nearest three of the known ones; states add up to
-/// states, the statuses being the same.
+/// The state at `t` on the parabola through the three nearest known states. With equal statuses,
+/// linear combinations of states are states.
 fn between(known: &mut [(f64, Equilibrium)], t: f64) -> Equilibrium {
     known.sort_by(|a, b| (a.0 - t).abs().total_cmp(&(b.0 - t).abs()));
     let nearest = &known[..known.len().min(3)];

@@ -1,21 +1,21 @@
-//! How far along a Newton direction.
+//! The length of a step along a Newton direction.
 
 use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::analysis::structure::solver::Solver;
 use crate::analysis::zone::points::Evaluation;
 use crate::substructure::Trailing;
 
-/// Cuts of a line search.
+/// Most cuts of the length in a line search.
 const BACKTRACKS: usize = 12;
-/// Share of the slope at the start to which the slope beyond a minimum may grow: nearly the
-/// minimum.
+/// Share of the slope at the start that the slope beyond a minimum may have, so that the minimum is
+/// nearly reached.
 const OVERSHOOT: f64 = 0.1;
 
-/// Length along a Newton direction. The energy of the increment is convex and the
-/// out-of-balance force times the direction is the negative of its slope: while that has not
-/// turned, the energy has fallen all the way. A length that overshoots is cut by the secant.
-/// `None` where the direction leads nowhere; else `trial` holds the state there and the force
-/// out of balance.
+/// Finds the step length along a Newton direction. The energy of the increment is convex, and its
+/// slope is the negative product of the out-of-balance force and the direction. As long as the
+/// slope has not changed its sign, the energy has fallen all the way. A length that overshoots is
+/// cut by the secant. Returns `None` if the direction does not lower the energy; otherwise `trial`
+/// holds the state at the end of the step and the force out of balance.
 pub(super) fn line_search(
     solver: &mut Solver,
     (state, direction, balance): (&Equilibrium, &Equilibrium, &Trailing),
@@ -34,7 +34,7 @@ pub(super) fn line_search(
         if there >= -OVERSHOOT * slope {
             return Some((length, evaluation));
         }
-        // Not a number: far too long.
+        // The slope is NaN: the step is far too long.
         let share = slope / (slope - there);
         length *= if share.is_finite() {
             share.clamp(0.01, 0.9)

@@ -1,26 +1,26 @@
-//! Along a straight piece of the load path, increment by increment.
+//! Progress along a straight piece of the load path, increment by increment.
 //!
 //! | file | what | paper |
 //! |---|---|---|
-//! | `step` | what a drive is told and answers | |
-//! | `outcome` | how an increment may end, and what a search for one comes to | 4.18, 4.23 |
+//! | `step` | settings and results of a step of a drive | |
+//! | `outcome` | how an increment may end, and the result of the search for one | 4.18, 4.23 |
 //! | `outgrown` | contact that reaches the end of its candidates | |
-//! | `acceptance` | what is accepted: increments and events | |
+//! | `acceptance` | acceptance of increments and changes of contact | |
 //! | `yield_load` | the load at first yield | 3.13, 3.14 |
 //! | `elastic` | pieces on which contact alone changes | 3.9, 3.10 |
 //! | `stretch` | stretches of an elastoplastic drive on which nothing yields | |
-//! | `step_length` | how much of an increment contact allows | 4.8 to 4.22 |
+//! | `step_length` | the share of an increment that contact allows | 4.8 to 4.22 |
 //! | `search` | equilibrium and length at once, or one after the other | 4.17, 4.22 |
-//! | `line_search` | how far along a Newton direction | |
-//! | `tangent` | the elastoplastic tangent, solved on the elastic factor | |
-//! | `tangent_by_factor` | the tangent solved on a factor of its own | |
+//! | `line_search` | the length of a step along a Newton direction | |
+//! | `tangent` | the elastoplastic tangent, solved with the elastic factor | |
+//! | `tangent_by_factor` | the tangent, solved with a factor of its own | |
 //! | `acceleration` | Anderson's acceleration of the initial loads | |
-//! | `prediction` | the rates that an increment is predicted by | 4.5 |
+//! | `prediction` | the rates from which an increment is predicted | 4.5 |
 //! | `settling` | contact at the end of an increment whose end is given | 4.8, 4.9 |
 //! | `collapse` | limit load, or an iteration that did not converge | |
 //! | `increment` | one elastoplastic increment | 4.4 to 4.23 |
-//! | `stepping` | statuses that come out wrong, increments that do not converge | |
-//! | `landing` | the last increment again, to where a quantity is zero | |
+//! | `stepping` | correction of wrong statuses, and increments that do not converge | |
+//! | `landing` | repetition of the last increment, up to the zero of a quantity | |
 //! | `plastic` | elastoplastic drives | |
 //! | `drive` | a drive of either kind | |
 

@@ -1,62 +1,62 @@
-//! How an increment may end, and what a search for one comes to.
+//! The ways in which an increment may end, and the results of the search for one.
 
 use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::error::Error;
 
-/// Most that a change of state may be stretched before its loads are eliminated anew: load and
-/// eliminated load are rounded apart, by `eps` of the whole, and that grows with the change. It
-/// stays below 1e-12, a hundredth of the tightest tolerance.
+/// Largest factor by which a change of state may be stretched before its loads are eliminated
+/// again. Load and eliminated load are rounded separately, by `eps` of the whole, and the
+/// difference grows with the change. It stays below 1e-12, a hundredth of the tightest tolerance.
 pub(super) const STRETCH: f64 = 1e4;
 
-/// How an increment may end.
+/// The ways in which an increment may end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum EndsAt {
     /// The increment ends at the next change of contact, within `gamma` (4.18, 4.23), or at the end
     /// of the piece.
     NextChange {
-        /// Relative tolerance.
+        /// Relative tolerance on the length of the increment.
         gamma: f64,
     },
-    /// The increment ends at the end of the piece, statuses changing with the iterates
+    /// The increment ends at the end of the piece; statuses change with the iterates
     /// ([`super::settling::settle_contact`]).
     EndOfPiece,
-    /// The increment ends at the end of the piece, statuses frozen.
+    /// The increment ends at the end of the piece; statuses are frozen.
     EndOfPieceFrozen,
 }
 
 /// An increment that was found.
 #[derive(Debug, Clone)]
 pub struct Increment {
-    /// Share of the piece at its end.
+    /// Share of the piece at the end of the increment.
     pub t: f64,
-    /// Equilibrium at its end.
+    /// Equilibrium at the end of the increment.
     pub state: Equilibrium,
     /// Pairs that change at the end of the increment.
     pub changes: Vec<usize>,
-    /// Material evaluations.
+    /// Number of material evaluations.
     pub iterations: usize,
-    /// Out-of-balance force over the force scale.
+    /// Out-of-balance force divided by the force scale.
     pub residual: f64,
-    /// Guard elements that yield: the zone is too small.
+    /// Number of guard elements that yield; the zone is too small if there are any.
     pub guard_yields: usize,
     /// Factor by which the prediction was stretched since its loads were eliminated.
     pub stretched: f64,
 }
 
-/// Why no increment was found.
+/// The reason why no increment was found.
 #[derive(Debug)]
 pub enum NoIncrement {
-    /// The statuses at the end of a fixed increment come back to what they were: no set of them is
-    /// right to round-off.
+    /// No set of statuses at the end of a fixed increment is right to round-off: the same sets come
+    /// back.
     Undecided,
-    /// These pairs violate their condition at once: their statuses are wrong.
+    /// The given pairs violate their condition at once: their statuses are wrong.
     WrongStatus(Vec<usize>),
-    /// The start is not in balance: points there are beyond their yield stress, and as they yield a
-    /// pair changes, however little the load does.
+    /// The start is not in balance: points there are beyond yield, and as they yield a pair changes
+    /// its status, however short the increment is.
     Jumps,
     /// The iteration did not converge.
     NotConverged(Box<Attempt>),
-    /// These pairs, at the border of their condition at the start, end beyond it.
+    /// The given pairs begin with a gap or force of zero and end with a negative one.
     Crossed(Vec<usize>),
     /// The caller asked to stop.
     Stopped,
@@ -73,15 +73,16 @@ impl From<Error> for NoIncrement {
 /// An increment that was tried and did not converge.
 #[derive(Debug)]
 pub struct Attempt {
-    /// The last iterate.
+    /// The last iterate of the attempt.
     pub state: Equilibrium,
-    /// Material evaluations.
+    /// Number of material evaluations.
     pub iterations: usize,
-    /// Out-of-balance force of the last iterate over the force scale.
+    /// Out-of-balance force of the last iterate, divided by the force scale.
     pub residual: f64,
-    /// What round-off leaves out of balance at the start of the increment, over the force scale.
+    /// Out-of-balance force that round-off leaves at the start of the increment, divided by the
+    /// force scale.
     pub round_off: f64,
-    /// Share of the elastic stiffness along a mechanism in which it flows away
-    /// ([`super::collapse::flows_away`]), where it was seen to.
+    /// Share of the elastic stiffness along a mechanism in which the structure flows away
+    /// ([`super::collapse::flows_away`]), if one was found.
     pub mechanism: Option<f64>,
 }

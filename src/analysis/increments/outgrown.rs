@@ -1,20 +1,20 @@
-//! A contact that reaches the end of its candidates where the bodies go on: no result beyond it is
-//! to be believed.
+//! A contact that reaches the end of its candidate pairs although its bodies extend further: no
+//! result beyond this load is valid.
 
 use super::step::{Arrival, IncrementReport, Step};
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Kind;
 
-/// Share of the largest contact force below which the force of a pair is that of one about to open
-/// or just closed.
+/// Share of the largest contact force below which a pair counts as about to open or just closed.
 const VANISHING: f64 = 1e-7;
 
-/// The step that an accepted increment is; the one before it ended at load factor `from`.
+/// Completes the step for an accepted increment; the increment before it ended at load factor
+/// `from`.
 ///
 /// # Errors
-/// A load that drives a body away from every contact; [`ErrorKind::Outgrown`] where contact has
-/// reached an end of the candidates beyond which the bodies go on.
+/// A load that drives a body away from every contact; [`ErrorKind::Outgrown`] if contact has
+/// reached an end of the candidates beyond which the bodies extend.
 pub(in crate::analysis) fn accepted(
     solver: &mut Solver,
     from: f64,
@@ -34,7 +34,7 @@ pub(in crate::analysis) fn accepted(
     }
 }
 
-/// The pair at an open end of a contact that carries force.
+/// The first pair at an open end of a contact that carries force.
 fn outgrown_at(solver: &Solver) -> Option<usize> {
     let force = &solver.now.force;
     let carries = |k: usize| {
@@ -62,7 +62,8 @@ fn outgrown(solver: &Solver, pair: usize, reached: f64) -> Error {
         .filter_map(|t| t.load_factor)
         .fold(0.0f64, |m, f| m.max(f.abs()));
     let ratio = largest / reached.abs();
-    // Mean pressure only rises with the load, so that the area of contact rises no faster.
+    // The mean pressure never falls as the load rises, so the area of contact grows no faster than
+    // the load.
     let wider = match model.kind {
         Kind::Axisymmetric | Kind::Solid => ratio.sqrt(),
         _ => ratio,

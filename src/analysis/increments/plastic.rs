@@ -1,4 +1,5 @@
-//! Elastoplastic drives: increments that end at the next change of contact, or fixed ones.
+//! Elastoplastic drives: increments that end at the next change of contact, or increments of fixed
+//! length.
 
 use super::acceptance::{accept, arrive, contact_step, rests_at, turns_back};
 use super::outgrown::accepted;
@@ -12,40 +13,40 @@ use crate::scene::Stepping;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Share of a piece of the load path below which what is left of it is round-off. Unloaded to zero,
-/// the last pair's force is that of the load and of the iteration's imbalance: where it vanishes
-/// means nothing there.
+/// Share of a piece of the load path below which the rest of the piece is round-off. When a body is
+/// unloaded to zero, the last pair's force consists of the load and of the imbalance of the
+/// iteration; the place where it vanishes then has no meaning.
 const ARRIVED: f64 = 1e-9;
 
 /// An elastoplastic drive between two increments.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct PlasticDrive {
-    /// Distance to the end at the start.
+    /// Distance from the start of the drive to its end.
     whole: f64,
-    /// Distance that the next increment is trusted with: after one that did not converge the next
-    /// ones are short, and grow again while they succeed.
+    /// Longest distance that the next increment may cover. After an increment that did not
+    /// converge, the next ones are short; they grow again as long as they succeed.
     trust: f64,
-    /// Fixed increments that were taken on the piece.
+    /// Number of fixed increments taken on the piece so far.
     pub(in crate::analysis) taken: usize,
-    /// The monitored quantity at the last increment.
+    /// The monitored quantity at the end of the last increment.
     pub(in crate::analysis) monitored: Option<f64>,
     ahead: Ahead,
 }
 
-/// What is known of the stretch ahead.
+/// Knowledge about the stretch of the path ahead.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 enum Ahead {
-    /// Nothing is known of it.
+    /// Nothing is known about the stretch ahead.
     Unknown,
-    /// Nothing has yielded on it so far.
+    /// Nothing has yielded on the stretch so far.
     Elastic(Box<ElasticStretch>),
-    /// The material yields.
+    /// The material yields on the stretch ahead.
     Plastic,
 }
 
 impl PlasticDrive {
-    /// Begins a drive from the current state to `end`, of whose piece `taken` fixed increments were
-    /// taken already.
+    /// Begins a drive from the current state to `end`; `taken` fixed increments were already taken
+    /// on the piece.
     ///
     /// # Errors
     /// Errors of the monitor and of [`super::outgrown::accepted`].
@@ -58,12 +59,13 @@ impl PlasticDrive {
         solver.refresh();
         solver.update_scales();
         if solver.scales.force == 0.0 {
-            // Nothing acts yet: residuals are measured against what the end of the piece applies.
+            // No force acts yet: residuals are measured against the load at the end of the piece.
             solver.scales.force = solver.structure.external(end).largest();
         }
         if turns_back(solver, end) {
             solver.assume_elastic();
-            // The first elastoplastic increment after elastic ones that watch for first yield.
+            // This is the first elastoplastic increment after elastic increments that watched for
+            // first yield.
             let begins = solver.predictor.last_step.iter().all(|step| *step == 0.0);
             if begins {
                 solver.predictor.flow.begins(&solver.at);
@@ -89,11 +91,11 @@ impl PlasticDrive {
         }))
     }
 
-    /// The next increment on the way to `end`.
+    /// Takes the next increment on the way to `end`.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Collapse`] with the load factor that was held; statuses that cycle;
-    /// those of the monitor and of [`super::outgrown::accepted`].
+    /// [`crate::ErrorKind::Collapse`] with the last load factor in equilibrium; statuses that
+    /// cycle; errors of the monitor and of [`super::outgrown::accepted`].
     pub fn step(
         &mut self,
         solver: &mut Solver,
@@ -123,7 +125,8 @@ impl PlasticDrive {
         self.increment(solver, end, monitor, rules)
     }
 
-    /// The next event of a stretch on which nothing yields; `None` where there is none.
+    /// Goes to the next event of a stretch on which nothing yields; `None` if the material yields
+    /// on the way.
     fn follow(
         &mut self,
         solver: &mut Solver,
@@ -145,7 +148,7 @@ impl PlasticDrive {
         Ok(step)
     }
 
-    /// An elastoplastic increment.
+    /// Takes one elastoplastic increment.
     fn increment(
         &mut self,
         solver: &mut Solver,
@@ -168,7 +171,8 @@ impl PlasticDrive {
         };
         let (from, solves) = (solver.at.alpha, solver.cost.counts.trailing_solves);
         let (open, border) = (solver.tableau.open().to_vec(), solver.border.clone());
-        // Only a search for the place of the target goes back behind an accepted increment.
+        // The state before the increment is needed only if the increment is repeated to land on a
+        // target.
         let before = monitor.map(|_| solver.state());
         let smallest = SMALLEST_CUT * self.whole / distance;
         let (increment, cut) =

@@ -1,4 +1,4 @@
-//! What an increment is predicted by: the rates of state with the share of the piece.
+//! The prediction of an increment: rates of the state with respect to the share of the piece.
 
 use super::outcome::NoIncrement;
 use super::step_length::{positive_values, step_limit};
@@ -6,18 +6,19 @@ use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
 
-/// Accuracy (energy norm) of the tangent that predicts an increment: what yields anew on the way
-/// changes more than that.
+/// Accuracy (energy norm) of the tangent solve that predicts an increment. Points that begin to
+/// yield within the increment change the response by more than that.
 const PREDICTION: f64 = 0.02;
 
-/// A change of contact in this last share of a piece counts as its end: the target comes first.
+/// A change of contact in this last share of a piece counts as the end of the piece: the target
+/// comes first.
 pub(super) const AT_END: f64 = 1e-9;
-/// A share of the increment below this means that a pair changes at once.
+/// A pair changes at once if the share of the increment up to its change is below this.
 pub(super) const AT_ONCE: f64 = 1e-12;
-/// Share of the largest rate below which a rate beyond a border is round-off.
+/// Share of the largest rate below which the rate of a violated condition is round-off.
 const BEYOND: f64 = 1e-9;
 
-/// Changes of the state over the whole piece, as they begin.
+/// Changes of the state over the whole piece, at the rates that hold at its start.
 pub(super) struct Prediction {
     pub(super) rates: Equilibrium,
     /// Factor by which the rates were stretched since their loads were eliminated.
@@ -25,9 +26,10 @@ pub(super) struct Prediction {
 }
 
 impl Prediction {
-    /// Rates that are elastic (4.5), plus plastic where points yield. The plastic part goes on as
-    /// in the last increment; after none it is that of the `tangent`, if that is asked for. An
-    /// increment that `is_long`, over the share `most` of the piece, stretches it.
+    /// Predicts the rates: elastic ones (4.5), plus a plastic part if points yield. The plastic
+    /// part continues as in the last increment. After no increment it is that of the `tangent`, if
+    /// the tangent is asked for. An increment that `is_long`, over the share `most` of the piece,
+    /// stretches the plastic part.
     pub(super) fn of_rates(
         solver: &mut Solver,
         (end, most): (&LoadPoint, f64),
@@ -46,8 +48,8 @@ impl Prediction {
         if let Some(pace) = pace {
             initial.add(solver.at.distance(end), &pace.initial);
         }
-        // `now` may have been in equilibrium with other statuses, or off by gamma: its own statuses
-        // decide.
+        // The current state may have been in equilibrium with other statuses, or be off by gamma;
+        // its present statuses decide.
         let mut rates = solver.respond(end, initial);
         rates.add(-1.0, &solver.now);
         if needs_tangent {
@@ -59,7 +61,7 @@ impl Prediction {
         Prediction { rates, stretched }
     }
 
-    /// Rates that lead to a state which is known already, statuses being the same.
+    /// Rates that lead to a known state with the same statuses.
     pub(super) fn secant(
         solver: &Solver,
         end: &LoadPoint,
@@ -74,8 +76,8 @@ impl Prediction {
         }
     }
 
-    /// The share of the piece at which contact changes by the prediction, at most `most`: from the
-    /// values at the start, some pairs being exempt.
+    /// The share of the piece, at most `most`, at which contact changes according to the
+    /// prediction. `base` holds the values at the start; the pairs in `exempt` do not count.
     ///
     /// # Errors
     /// Pairs that change at once.
@@ -103,7 +105,7 @@ impl Prediction {
         })
     }
 
-    /// Pairs at the border of their condition whose rates lead beyond it.
+    /// Pairs that start with a gap or force of zero and whose rates make it negative.
     fn wrong_at_border(&self, solver: &Solver, values: &[f64]) -> Vec<usize> {
         let largest = |of: &[f64]| of.iter().fold(0.0f64, |m, value| m.max(value.abs()));
         let [gap, force] = [&self.rates.gap, &self.rates.force].map(|of| largest(of));

@@ -1,35 +1,37 @@
-//! How an increment is looked for: at once, then step by step.
+//! The ways to search for an increment: equilibrium and length at once, or one after the other.
 
-/// Share of the best residual so far that counts as progress.
+/// Progress means that the residual falls below this share of the best one so far.
 pub const PROGRESS: f64 = 0.7;
 
-/// How equilibrium and the length of an increment that ends at a change of contact are found.
+/// The way in which equilibrium and the length of an increment that ends at a change of contact are
+/// found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
     /// Whether equilibrium and length are searched together: each iterate is scaled to the change
-    /// (4.17, 4.22). An iterate far out of balance shows the change too early, and scaled to it, it
-    /// may do so again and again. Otherwise one follows the other: equilibrium at a length, then
-    /// the next length, between those that were too short and too long.
+    /// of contact (4.17, 4.22). An iterate far out of balance shows the change too early and,
+    /// scaled to it, may do so again and again. Otherwise one follows the other: equilibrium at a
+    /// length, then the next length, between lengths that were too short and lengths that were too
+    /// long.
     pub together: bool,
-    /// Newton's iteration is given up when the residual has not fallen below the share [`PROGRESS`]
-    /// of the best for so many iterations.
+    /// Newton's iteration is given up after this many iterations in which the residual has not
+    /// fallen below the share [`PROGRESS`] of the best one.
     pub patience: usize,
 }
 
 impl Search {
-    /// The first that is tried.
+    /// The search that is tried first.
     pub const FIRST: Search = Search {
         together: true,
         patience: 15,
     };
-    /// Where that fails.
+    /// The search that is tried if the first one fails.
     pub const APART: Search = Search {
         together: false,
         ..Search::FIRST
     };
 
-    /// Before an increment is given up: the energy falls with every step, so that the iteration
-    /// ends at an equilibrium or, where there is none, goes on until no stiffness is left.
+    /// The search made before an increment is given up. The energy falls with every step, so the
+    /// iteration either ends at an equilibrium or goes on until no stiffness is left.
     pub fn to_the_end(self) -> Self {
         Search {
             patience: usize::MAX,

@@ -6,14 +6,15 @@ use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
 use crate::contact;
 
-/// Share of the largest gap or force by which a pair violates its condition.
+/// Share of the largest gap or force by which a negative gap or force violates the contact
+/// condition.
 const WRONG: f64 = 1e-9;
-/// Rounds of status changes without progress after which they change one by one.
+/// Number of rounds of status changes without progress after which pairs change one by one.
 const PATIENCE: usize = 6;
 
-/// How many of the statuses that are wrong change in a round: all while that makes them fewer, or
-/// has done so in the last few rounds, else the least index alone (finite for a given load:
-/// Habetler and Kostreva 1978, doi:10.1137/0316011).
+/// Decides how many of the wrong statuses change in a round. All change as long as that reduces
+/// their number, or has done so in the last few rounds; otherwise only the least index changes
+/// (finite for a given load: Habetler and Kostreva 1978, doi:10.1137/0316011).
 #[derive(Debug)]
 pub(super) struct Rounds {
     fewest: usize,
@@ -30,7 +31,7 @@ impl Default for Rounds {
 }
 
 impl Rounds {
-    /// Number of pairs to change, of so many that are wrong.
+    /// Number of pairs to change if `wrong` pairs have a wrong status.
     pub(in crate::analysis) fn take(&mut self, wrong: usize) -> usize {
         if wrong < self.fewest {
             *self = Rounds {
@@ -44,14 +45,16 @@ impl Rounds {
     }
 }
 
-/// Changes the statuses that an iterate shows to be wrong, and gives it the gaps and forces of
-/// the others; whether there were any. Half a trailing solve if so.
+/// Changes the statuses that an iterate shows to be wrong, and gives the iterate the gaps and
+/// forces of the new statuses. Returns whether any were wrong; if so, it costs half a trailing
+/// solve.
 ///
-/// Once in each Newton iterate, whose gaps and forces are those of the tangent: the primal-dual
-/// active set method (M. Hintermüller, K. Ito, K. Kunisch 2002, doi:10.1137/S1052623401383558).
-/// To solve contact to the end each time, with the plastic flow at hand as a load, would answer
-/// like the elastic body: near a limit load, not at all. So it is where bodies would be set
-/// free alone; and the least index alone changes where all at once do not make them fewer.
+/// Each Newton iterate, with the gaps and forces of the tangent, is treated once: the primal-dual
+/// active set method (M. Hintermüller, K. Ito, K. Kunisch 2002, doi:10.1137/S1052623401383558). If
+/// contact were solved to the end each time, with the present plastic flow as a load, the response
+/// would be that of the elastic body; near a limit load this would not converge. Contact is solved
+/// to the end only if every change would set a body free. Only the least index changes if changing
+/// all at once does not reduce their number.
 pub(super) fn settle_contact(
     solver: &mut Solver,
     point: &LoadPoint,
@@ -65,7 +68,7 @@ pub(super) fn settle_contact(
     let take = rounds.take(wrong.len());
     let tableau = &mut solver.tableau;
     if take > 1 {
-        // Closing first keeps bodies held.
+        // Pairs that close are treated first, which keeps bodies held.
         wrong.sort_by_key(|&k| !tableau.open()[k]);
     }
     let changes = (wrong.iter().filter(|&&k| tableau.flip(k)))
@@ -83,7 +86,7 @@ pub(super) fn settle_contact(
     Ok(true)
 }
 
-/// Pairs whose condition a state violates.
+/// Pairs whose contact condition a state violates.
 pub(super) fn wrong_at_end(solver: &Solver, state: &Equilibrium) -> Vec<usize> {
     let (gap, force) = (&state.gap, &state.force);
     let largest_force = (force.iter()).fold(solver.scales.force, |m, r| m.max(*r));

@@ -1,4 +1,4 @@
-//! What a drive along a straight piece of the load path is told, and what it answers.
+//! Settings and results of a drive along a straight piece of the load path.
 
 use crate::analysis::stress::recovery::Peak;
 use crate::analysis::structure::solver::Solver;
@@ -6,38 +6,39 @@ use crate::contact::Change;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::{Program, Settings, Stepping};
 
-/// An accepted increment.
+/// Report on an accepted increment.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct IncrementReport {
-    /// What ended the increment.
+    /// Description of the event that ended the increment.
     pub event: String,
-    /// Material evaluations.
+    /// Number of material evaluations.
     pub iterations: usize,
-    /// Trailing solves.
+    /// Number of trailing solves.
     pub trailing_solves: usize,
     /// Relative out-of-balance force.
     pub residual: f64,
 }
 
-/// A measured quantity that ends a drive when it changes sign.
+/// A measured quantity that ends a drive when it changes its sign.
 pub type Monitor<'a> = dyn Fn(&mut Solver) -> Result<f64> + 'a;
 
-/// How a drive ended.
+/// The way in which a drive ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Arrival {
     /// The drive ended at the end of the piece.
     End,
-    /// Where the monitored quantity is zero.
+    /// The drive ended where the monitored quantity is zero.
     Monitor,
     /// The drive ended at first yield.
     Yield(Peak),
-    /// A guard element yields: the zone must grow, the last increment was not taken.
+    /// The drive ended because a guard element yields: the zone must grow, and the last increment
+    /// was not taken.
     ZoneTooSmall,
-    /// The load factor has left the range that the zone was chosen for.
+    /// The drive ended because the load factor has left the range for which the zone was chosen.
     ZoneOutgrown,
 }
 
-/// What a step of a drive came to.
+/// Result of one step of a drive.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Step {
     /// The increment that was accepted, if one was.
@@ -56,30 +57,30 @@ impl Step {
     }
 }
 
-/// How increments are taken.
+/// Settings by which increments are taken.
 #[derive(Clone, Copy)]
 pub struct Rules<'a> {
     /// Solver settings.
     pub settings: &'a Settings,
-    /// How increments are chosen.
+    /// The way in which increments are chosen.
     pub stepping: Stepping,
-    /// The program: the tolerances and numbers of increments.
+    /// The program, with its tolerances and numbers of increments.
     pub program: &'a Program,
     /// Absolute load factor up to which the zone was chosen.
     pub zone_until: f64,
-    /// Asked between iterations: true stops the run at the last accepted increment.
+    /// Called between iterations; true stops the run at the last accepted increment.
     pub stop: &'a dyn Fn() -> bool,
 }
 
-/// Accuracy with which a monitored quantity (of order 1) is landed on, and relative accuracy of the
-/// place.
+/// Accuracy to which a monitored quantity (of order 1) is brought to its zero, and relative
+/// accuracy of the place of the zero.
 pub(in crate::analysis) const MONITOR_ACCURACY: f64 = 1e-10;
-/// Share of a piece of the load path below which increments are not cut: the load has passed the
-/// limit load, which is then known to this share.
+/// Share of a piece of the load path below which increments are not cut. If one this short is not
+/// found, the load has passed the limit load, which is then known to this share.
 pub(super) const SMALLEST_CUT: f64 = 1e-6;
 
-/// Whether a drive begins where the monitored quantity is zero already: on the way it would not
-/// change its sign there.
+/// Whether the monitored quantity is zero at the start of a drive. Along the drive it would then
+/// not change its sign.
 pub(super) fn is_hit(monitored: Option<f64>) -> bool {
     monitored.is_some_and(|value| value.abs() <= MONITOR_ACCURACY)
 }
@@ -94,7 +95,7 @@ pub fn stopped() -> Error {
     Error::new(ErrorKind::Stopped, "stopped on request")
 }
 
-/// What ended an increment, in words.
+/// Describes the changes of contact that ended an increment.
 pub fn describe(changes: &[Change]) -> String {
     let words: Vec<String> = changes
         .iter()
@@ -116,7 +117,7 @@ pub fn describe(changes: &[Change]) -> String {
 mod tests {
     use super::*;
 
-    /// Pairs count from 1 in words, whichever way they change.
+    /// Descriptions count pairs from 1, whether the pairs close or open.
     #[test]
     fn events_name_their_pairs() {
         let one = [Change::Closes(0), Change::Opens(3)];

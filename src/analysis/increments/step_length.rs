@@ -1,23 +1,24 @@
-//! The step length: how much of an increment contact allows.
+//! The step length: the share of an increment that contact allows.
 //!
-//! For pair `k` let `v` be what must stay positive, the gap of an open pair or the force of a
-//! closed one. Over the increment it falls from `v` to `v + dv`. The paper's ratios are
-//! `psi_u = max_k |dv/v|` over the open pairs (4.16) and `psi_R`, the largest over the closed ones
-//! (4.20). The increment is scaled by `1/psi`, `psi` the larger of the two (4.17, 4.22), and ends
-//! where that is 1 to `gamma` (4.18, 4.23).
+//! For pair `k` let `v` be the value that must stay positive: the gap of an open pair or the force
+//! of a closed one. Over the increment it changes from `v` to `v + dv`. The paper's ratios are
+//! `psi_u = max_k |dv/v|` over the open pairs whose gap falls (4.16), and `psi_R`, the
+//! corresponding maximum over the closed pairs (4.20). The increment is scaled by `1/psi`, with
+//! `psi` the larger of the two (4.17, 4.22). It has the right length when `psi` is 1 to within
+//! `gamma` (4.18, 4.23).
 
-/// What contact states about an increment.
+/// The limit that contact sets to an increment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepLimit {
     /// `1/psi`: the share of the increment at which the first pair changes; infinite if none would
     /// (4.12, 4.13).
     pub share: f64,
-    /// The pairs that change there, ties together.
+    /// The pairs that change at this share; ties change together.
     pub pairs: Vec<usize>,
 }
 
 impl StepLimit {
-    /// No pair changes.
+    /// The limit if no pair changes.
     pub fn none() -> Self {
         StepLimit {
             share: f64::INFINITY,
@@ -26,10 +27,10 @@ impl StepLimit {
     }
 }
 
-/// Pairs whose share differs by less than this from the smallest change together.
+/// Pairs change together if their shares differ by less than this, relative to the smallest.
 const TIE: f64 = 1e-7;
 
-/// What must stay positive: gaps of open pairs (4.8), forces of closed ones (4.9).
+/// The values that must stay positive: gaps of open pairs (4.8), forces of closed ones (4.9).
 pub fn positive_values(open: &[bool], gap: &[f64], force: &[f64]) -> Vec<f64> {
     let pairs = open.iter().zip(gap.iter().zip(force));
     pairs
@@ -38,9 +39,9 @@ pub fn positive_values(open: &[bool], gap: &[f64], force: &[f64]) -> Vec<f64> {
 }
 
 /// Share of the increment up to the first change. `before` and `after` are the values `v` and
-/// `v + dv`; pairs in `border` are at zero already and are left out.
+/// `v + dv`. Pairs in `border` are at zero already and are left out.
 pub fn step_limit(open: &[bool], before: &[f64], after: &[f64], border: &[usize]) -> StepLimit {
-    // Gaps that fall (4.14) and forces that do (4.19) are zero there (4.15, 4.21).
+    // Falling gaps (4.14) and falling forces (4.19) are zero at this share (4.15, 4.21).
     let share = |k: usize| {
         if after[k] < before[k] && !border.contains(&k) {
             before[k] / (before[k] - after[k])
@@ -52,7 +53,7 @@ pub fn step_limit(open: &[bool], before: &[f64], after: &[f64], border: &[usize]
         let pairs = (0..before.len()).filter(|&k| open[k] == status);
         pairs.map(share).fold(f64::INFINITY, f64::min)
     };
-    // 1/psi_u of the open pairs (4.16) and 1/psi_R of the closed ones (4.20).
+    // The values 1/psi_u of the open pairs (4.16) and 1/psi_R of the closed ones (4.20).
     let [inverse_psi_u, inverse_psi_r] = [true, false].map(least_of);
     let smallest = inverse_psi_u.min(inverse_psi_r);
     if smallest.is_infinite() {
@@ -66,13 +67,13 @@ pub fn step_limit(open: &[bool], before: &[f64], after: &[f64], border: &[usize]
     }
 }
 
-/// The search for the length of an increment: the iteration `t <- goal(t)` of the paper (4.17,
-/// 4.22), relaxed where it would swing about its end.
+/// The search for the length of an increment: the iteration `t <- goal(t)` of the paper
+/// (4.17, 4.22), relaxed if it would oscillate about its solution.
 ///
-/// The goal is found as if the response were linear. Where yielding spreads it is not: with the
-/// slope `s` of the goal the error of `t` is multiplied by `s` at each step, and `s` comes near -1
-/// and beyond as the material loses its stiffness. The secant through the last two goals gives `s`;
-/// `1/(1 - s)` of the way leads to where `t = goal(t)`.
+/// The goal is computed as if the response were linear. If yielding spreads, it is not: with the
+/// slope `s` of the goal, the error of `t` is multiplied by `s` in each step, and `s` approaches -1
+/// and passes it as the material loses its stiffness. The secant through the last two goals
+/// estimates `s`; the share `1/(1 - s)` of the way leads to the solution of `t = goal(t)`.
 ///
 /// # Source
 /// B. M. Irons, R. C. Tuck (1969), A version of the Aitken accelerator for computer iteration,
@@ -80,7 +81,7 @@ pub fn step_limit(open: &[bool], before: &[f64], after: &[f64], border: &[usize]
 #[derive(Debug, Clone, Copy)]
 pub struct LengthSearch {
     last: Option<[f64; 2]>,
-    /// Lengths that were too short and too long.
+    /// The longest length that was too short, and the shortest that was too long.
     bounds: [f64; 2],
 }
 
@@ -93,13 +94,13 @@ impl Default for LengthSearch {
     }
 }
 
-/// Least share of the way to the goal that an iteration takes: a goal that jumps has no slope to go
-/// by.
+/// Least share of the way to the goal that an iteration takes. If the goal jumps, its slope means
+/// nothing.
 const LEAST_RELAXATION: f64 = 0.1;
 
 impl LengthSearch {
-    /// The share of the way from `t` to `goal` that is to be gone; all of it while the goal does
-    /// not swing.
+    /// The share of the way from `t` to `goal` to be taken; 1 as long as the goal does not
+    /// oscillate.
     pub fn relaxation(&mut self, t: f64, goal: f64) -> f64 {
         let slope = match self.last.replace([t, goal]) {
             Some([t0, goal0]) if t != t0 => (goal - goal0) / (t - t0),
@@ -108,9 +109,9 @@ impl LengthSearch {
         (1.0 / (1.0 - slope.min(0.0))).max(LEAST_RELAXATION)
     }
 
-    /// The length after `t`, at which equilibrium showed `goal`: where the secant leads, inside of
-    /// what is known to be too short and too long. After the first that is too long comes
-    /// `shortest`.
+    /// The length to be tried after `t`, at which equilibrium showed `goal`. The secant is
+    /// followed, inside the bounds of lengths known to be too short and too long. After the first
+    /// length that is too long, `shortest` is tried.
     pub fn between(&mut self, t: f64, goal: f64, shortest: f64) -> f64 {
         self.bounds[usize::from(goal < t)] = t;
         let next = t + self.relaxation(t, goal) * (goal - t);
@@ -143,7 +144,8 @@ mod tests {
         assert_eq!(search.relaxation(0.7, 0.8), 1.0);
     }
 
-    /// A goal that falls steeply beyond the change, as where a body loses its stiffness.
+    /// The goal falls steeply beyond the change of contact, as it does when a body loses its
+    /// stiffness.
     #[test]
     fn a_length_is_found_between_bounds() {
         let goal = |t: f64| {
@@ -162,7 +164,8 @@ mod tests {
         assert!((t - 0.3).abs() < 1e-12, "{t}");
     }
 
-    /// Within 1e-7 of a step, what it is known to, and no further.
+    /// Changes within 1e-7 of a step of each other, the accuracy to which they are known, are a
+    /// tie; others are not.
     #[test]
     fn changes_one_after_the_other_are_no_tie() {
         for (apart, together) in [(1e-8, 2), (1e-6, 1), (1e-5, 1)] {

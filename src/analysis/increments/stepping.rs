@@ -1,4 +1,5 @@
-//! Finding an increment: wrong statuses are corrected, increments that do not converge are cut.
+//! The search for an increment: wrong statuses are corrected, increments that do not converge are
+//! cut.
 
 use super::collapse::not_found;
 use super::increment::increment;
@@ -14,41 +15,44 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Stepping;
 use std::collections::HashSet;
 
-/// Cut factor after an increment that did not converge.
+/// Factor by which an increment that did not converge is shortened.
 const CUT: f64 = 0.25;
-/// Share of an increment below which equilibrium and length are no longer searched together: three
-/// cuts cost less than a search apart where they help, and where they do not, more do not either.
+/// Share of an increment below which equilibrium and length are no longer searched together. If
+/// cutting helps, three cuts cost less than a separate search; if they do not help, further cuts do
+/// not either.
 const CUT_TOGETHER: f64 = 0.02;
-/// Status corrections at one point of the path before they are taken to cycle.
+/// Number of status corrections at one point of the path after which statuses count as cycling.
 const MOST_CORRECTIONS: usize = 60;
 
-/// Cuts of an increment in which a pair goes back over the border it began at.
+/// Most cuts of an increment at whose start a pair has a gap or force of zero that becomes
+/// negative.
 const MOST_CROSSINGS: usize = 2;
 
-/// What was tried for one increment, and what is tried next.
+/// Record of the attempts at one increment, and settings of the next attempt.
 struct Tries {
-    /// Share of the way that was asked for, and the smallest that is tried.
+    /// Share of the way that was asked for; `smallest` is the smallest share that is tried.
     left: f64,
     smallest: f64,
-    /// Share of the way that is tried.
+    /// Share of the way for the next attempt.
     most: f64,
-    /// Corrections of statuses, and cuts where a pair went back over its border.
+    /// Number of status corrections; `crossings` counts cuts made because a pair that began at zero
+    /// became negative.
     corrections: usize,
     crossings: usize,
-    /// Statuses that were corrected.
+    /// Sets of statuses that were corrected.
     seen: Vec<Vec<bool>>,
-    /// Statuses at the start, and pairs at the border of their condition there.
+    /// Statuses at the start; `border` holds the pairs with a gap or force of zero there.
     open: Vec<bool>,
     border: Vec<usize>,
     usual: Stepping,
-    /// How the increment is chosen; where no statuses are right at its end it is followed from
-    /// change to change.
+    /// Stepping of the next attempt. If no set of statuses is right at the end of the increment,
+    /// the path is followed from change to change.
     stepping: Stepping,
     search: Search,
 }
 
 impl Tries {
-    /// Nothing was tried yet.
+    /// The record before the first attempt.
     fn new(solver: &Solver, usual: Stepping, left: f64, smallest: f64) -> Self {
         Tries {
             left,
@@ -77,7 +81,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
         Stepper { solver, rules }
     }
 
-    /// See [`increment`].
+    /// Searches for one increment, see [`increment`].
     fn increment(
         &mut self,
         end: &LoadPoint,
@@ -88,10 +92,10 @@ impl<'s, 'm> Stepper<'s, 'm> {
         increment(self.solver, self.rules, (end, most), how, ahead)
     }
 
-    /// An increment with statuses that are right at its start (events) or at its end (steps).
-    /// Increments that do not converge are cut, searched with equilibrium and length apart and cut
-    /// again, down to the share `smallest`; returns whether any was. A state that is known `ahead`
-    /// predicts the first that is tried.
+    /// Finds an increment with statuses that are right at its start (events) or at its end (steps).
+    /// An increment that does not converge is cut, then searched with equilibrium and length apart,
+    /// and cut again, down to the share `smallest`. Returns the increment and whether it was cut.
+    /// If a state `ahead` is known, the first attempt is predicted from it.
     pub(super) fn find_increment(
         &mut self,
         end: &LoadPoint,
@@ -115,7 +119,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
         }
     }
 
-    /// Looks for an increment in the way that is to be tried next.
+    /// Makes the next attempt at an increment.
     fn try_once(
         &mut self,
         tries: &Tries,
@@ -134,10 +138,10 @@ impl<'s, 'm> Stepper<'s, 'm> {
         })
     }
 
-    /// Changes what is tried next after a try that found no increment.
+    /// Changes the settings of the next attempt after an attempt that found no increment.
     ///
     /// # Errors
-    /// What no other try is worth while for.
+    /// Failures after which no other attempt is worthwhile.
     fn try_otherwise(
         &mut self,
         tries: &mut Tries,
@@ -145,8 +149,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         why: NoIncrement,
     ) -> Result<()> {
         match why {
-            // The rate of a pair at its border turned within the increment: a shorter one shows
-            // where, unless it turned at the very begin.
+            // The rate of a pair with a gap or force of zero turned within the increment. A shorter
+            // increment shows where, unless it turned at the very start.
             NoIncrement::Crossed(_) if tries.crossings < MOST_CROSSINGS => {
                 tries.crossings += 1;
                 tries.most *= CUT;
@@ -154,7 +158,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
             NoIncrement::WrongStatus(pairs) | NoIncrement::Crossed(pairs) => {
                 self.correct_statuses(tries, &pairs);
             }
-            // Contact at the end of a short increment is solved whatever happens on the way.
+            // Contact at the end of a short increment is solved, whatever happens on the way.
             NoIncrement::Jumps => tries.corrections = MOST_CORRECTIONS,
             NoIncrement::Stopped => return Err(stopped()),
             NoIncrement::Failed(error) => return Err(error),
@@ -166,8 +170,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
             }
             NoIncrement::Undecided => return Err(self.not_settled(end, tries.most)),
             NoIncrement::NotConverged(attempt) => {
-                // The points yield as in the state that failed: its tangent, often singular, must
-                // not predict the next.
+                // The points yield as in the state that failed. The tangent of that state is often
+                // singular and must not predict the next increment.
                 self.solver.assume_elastic();
                 self.after_no_convergence(tries, end, &attempt)?;
             }
@@ -175,8 +179,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         Ok(())
     }
 
-    /// Changes the statuses of pairs that were wrong: all at once; one alone (the least index) once
-    /// a set of statuses has come back.
+    /// Changes the statuses of pairs that were wrong: all at once, or only the least index if a set
+    /// of statuses has come back.
     fn correct_statuses(&mut self, tries: &mut Tries, pairs: &[usize]) {
         tries.corrections += 1;
         let open = self.solver.tableau.open().to_vec();
@@ -192,20 +196,22 @@ impl<'s, 'm> Stepper<'s, 'm> {
         }
     }
 
-    /// What is tried after an increment that did not converge: a shorter one, or another search.
+    /// Chooses the next attempt after an increment that did not converge: a shorter one, or another
+    /// search.
     ///
     /// # Errors
-    /// Errors of [`not_found`], where nothing is left to try.
+    /// Errors of [`not_found`], if nothing is left to try.
     fn after_no_convergence(
         &mut self,
         tries: &mut Tries,
         end: &LoadPoint,
         attempt: &Attempt,
     ) -> Result<()> {
-        // Written so that a way of no length, of which nothing is a share, ends here too.
+        // This comparison is written so that a way of length zero, whose shares are NaN, also ends
+        // here.
         let worth_cutting = CUT * tries.most >= tries.smallest;
         let cut_enough = !worth_cutting || tries.most < CUT_TOGETHER * tries.left;
-        // Where the structure flows away no other search at this length helps.
+        // If the structure flows away, no other search at this length helps.
         let flows = attempt.mechanism.is_some();
         if tries.stepping == Stepping::Auto {
             self.solver.restore_statuses(&tries.open, &tries.border);
@@ -230,7 +236,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
         } else {
             let goal = self.solver.at.towards(end, tries.most);
             let error = not_found(self.solver, self.rules.settings, &goal, attempt);
-            // Close to a limit load no length may be right: a fixed one needs none.
+            // Close to a limit load no length may be right; a fixed length needs no search.
             let undecided = error.kind() == ErrorKind::Analysis;
             if !(undecided && events && tries.usual != Stepping::Steps) {
                 return Err(error);
@@ -241,7 +247,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         Ok(())
     }
 
-    /// A pair that cannot open must not be in tension: the load would carry its body away.
+    /// Refuses an increment in which a pair that cannot open is in tension: the load would carry
+    /// its body away.
     fn refuse_free_motion(&self, increment: &Increment) -> Result<()> {
         let force = &increment.state.force;
         match (0..force.len()).find(|&k| {
@@ -252,15 +259,16 @@ impl<'s, 'm> Stepper<'s, 'm> {
         }
     }
 
-    /// An increment at whose end contact is solved in one iteration with the plastic flow.
+    /// Finds an increment at whose end contact is solved together with the plastic flow, in one
+    /// iteration.
     fn solve_together(
         &mut self,
         (end, most): (&LoadPoint, f64),
         search: Search,
         ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> std::result::Result<Increment, NoIncrement> {
-        // The end of the increment is the end of a piece of its own: a pair that closes has no gap
-        // there, whatever gap it had.
+        // The end of the increment is made the end of a piece of its own: a pair that closes has no
+        // gap there, whatever gap it had.
         let goal = self.solver.at.towards(end, most);
         let increment = self.increment(&goal, 1.0, (EndsAt::EndOfPiece, search), ahead)?;
         self.solver.border.clear();
@@ -271,8 +279,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         })
     }
 
-    /// Solves an increment as [`Stepper::solve_together`] does; if that does not converge, goes
-    /// through contact statuses and solves the plastic flow anew for each set of them.
+    /// Solves an increment as [`Stepper::solve_together`] does. If that does not converge, goes
+    /// through sets of contact statuses and solves the plastic flow again for each.
     fn solve_step(
         &mut self,
         (end, most): (&LoadPoint, f64),
@@ -373,8 +381,9 @@ pressure = 1.0
 targets = [{ load_factor = 1.0 }]
 "#;
 
-    /// Statuses that come back: the increment is followed from change to change with the statuses
-    /// it began with; where that does not settle either, the load factor that was held is named.
+    /// If statuses come back, the increment is followed from change to change with the statuses at
+    /// its start. If that does not settle either, the error names the last load factor in
+    /// equilibrium.
     #[test]
     fn statuses_that_come_back_end_by_name() {
         let scene = Scene::parse(TWO_BLOCKS, "blocks.toml").unwrap();

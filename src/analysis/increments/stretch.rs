@@ -1,11 +1,11 @@
 //! Stretches of an elastoplastic drive on which nothing yields: unloading and reloading.
 //!
-//! They are followed on the dense contact matrix, event by event. This is the same path as that of
+//! They are followed on the dense contact matrix, event by event. The path is the same as that of
 //! elastoplastic increments in which nothing yields. Initial loads are constant, so the first half
-//! of a trailing solve is linear in the load factor and done once for all events; each event costs
-//! the second half and one look at all points of the zone. That look suffices: between two events
-//! strains are linear in the load factor and von Mises' stress is a convex function of them, so
-//! where both ends lie within the yield surface all between does.
+//! of a trailing solve is linear in the load factor and done once for all events. Each event costs
+//! the second half of a solve and one check of all points of the zone. This check suffices: between
+//! two events strains are linear in the load factor, and von Mises' stress is a convex function of
+//! them. If both ends lie within the yield surface, so does all between.
 
 use super::elastic::ElasticPath;
 use super::outgrown::accepted;
@@ -21,20 +21,20 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct ElasticStretch {
     path: ElasticPath,
-    /// Pairs of the last event.
+    /// Pairs that changed at the last event.
     border: Vec<usize>,
-    /// Statuses beyond it.
+    /// Statuses beyond the last event.
     open: Vec<bool>,
-    /// Eliminated loads; they follow from the path.
+    /// Eliminated loads, which are computed from the path.
     #[serde(skip)]
     loads: Option<EliminatedPath>,
 }
 
-/// First half of the trailing solves along a path.
+/// Eliminated loads along a path: the first half of the trailing solves.
 #[derive(Debug, Clone)]
 struct EliminatedPath {
     start: Trailing,
-    /// Change over the whole piece.
+    /// Change of the eliminated loads over the whole piece.
     change: Trailing,
 }
 
@@ -61,7 +61,7 @@ impl EliminatedPath {
 }
 
 impl ElasticStretch {
-    /// The start of a stretch on the way to `end`, if there can be one.
+    /// Begins a stretch on the way to `end`; `None` if there cannot be one.
     pub fn begin(solver: &mut Solver, end: &LoadPoint) -> Option<Self> {
         if solver.now.force.iter().all(|r| *r == 0.0) {
             return None;
@@ -84,8 +84,9 @@ impl ElasticStretch {
         })
     }
 
-    /// Goes to the next event. Without an increment the next piece yields, and the last event is
-    /// the current state; without a stretch this is the last event of it.
+    /// Goes to the next event. If no step is returned, the material yields before it, and the last
+    /// event is the current state. If no stretch is returned, this was the last event of the
+    /// stretch.
     ///
     /// # Errors
     /// Errors of the monitor and of [`super::outgrown::accepted`].
@@ -138,22 +139,22 @@ impl ElasticStretch {
             .collect();
         self.open = solver.tableau.open().to_vec();
         if self.path.turn(solver).is_err() {
-            // No rates beyond this event: elastoplastic increments find out why.
+            // No rates were found beyond this event: elastoplastic increments find out why.
             set_statuses(solver, &self.open, self.border);
             let step = accepted(solver, from.alpha, report, None)?;
             return Ok((Some(step), None));
         }
         self.open = solver.tableau.open().to_vec();
         if self.path.t() == 0.0 {
-            // A new piece began: its loads are others.
+            // A new piece began, with other loads.
             self.loads = None;
         }
         let step = accepted(solver, from.alpha, report, None)?;
         Ok((Some(step), Some(self)))
     }
 
-    /// Puts displacements to where the path is; what the stresses there leave out of balance, over
-    /// the force scale, and `None` where a point yields.
+    /// Updates the displacements to the current point of the path. Returns the out-of-balance force
+    /// of the stresses divided by the force scale; `None` if a point yields.
     fn elastic_residual(&mut self, solver: &mut Solver, end: &LoadPoint) -> Option<f64> {
         let start = self.path.start();
         let loads = self
@@ -180,7 +181,7 @@ impl ElasticStretch {
     }
 }
 
-/// Gives pairs these statuses, and the state that belongs to them.
+/// Gives the pairs the statuses `open`, and updates the state accordingly.
 fn set_statuses(solver: &mut Solver, open: &[bool], border: Vec<usize>) {
     for (k, &open) in open.iter().enumerate() {
         if solver.tableau.open()[k] != open {

@@ -1,23 +1,23 @@
 //! The elastoplastic tangent, solved by conjugate gradients on the factored elastic stiffness.
 //!
 //! With `K_p = sum_g w_g B' (D - D_ep) B` the tangent is `S - K_p`. Preconditioned with `S` itself
-//! (one trailing solve), its condition is that of the material: `(3G + H)/H` at worst, and the
-//! product with `S` is never needed because `S p` follows from the recurrence of the search
+//! (one trailing solve), its condition number is that of the material: `(3G + H)/H` at worst. The
+//! product with `S` is never needed, because `S p` follows from the recurrence of the search
 //! directions.
 //!
-//! Closed pairs constrain the search to `B u = 0`: forces `B' c`, of a pair of nodes `(-c, c)`, do
-//! no work and move nothing. No step takes them from the residual, and each would multiply their
-//! round-off by its length, by orders in a few steps where little stiffness is left: they are taken
-//! off and kept apart.
+//! Closed pairs constrain the search to `B u = 0`. Forces `B' c`, which act on a pair of nodes as
+//! `(-c, c)`, do no work and move nothing. No step removes them from the residual, and each step
+//! would multiply their round-off by its length, by orders of magnitude in a few steps if little
+//! stiffness is left. They are therefore subtracted and kept apart.
 //!
 //! # Source
 //! N. I. M. Gould, M. E. Hribar, J. Nocedal, *On the solution of equality constrained quadratic
 //! programming problems arising in optimization* (2001), section 6 (the growth of the part of the
 //! residual that the constraints carry, and its removal), doi:10.1137/S1064827598345667.
 //!
-//! Back stresses that fade make the tangent unsymmetric where flow turns. It is then solved by
-//! conjugate residuals that keep the last few directions (Orthomin), with the same preconditioner
-//! and the same work for each: S. C. Eisenstat, H. C. Elman, M. H. Schultz (1983),
+//! Fading back stresses make the tangent unsymmetric if flow turns. It is then solved by conjugate
+//! residuals that keep the last few directions (Orthomin), with the same preconditioner and the
+//! same work per direction: S. C. Eisenstat, H. C. Elman, M. H. Schultz (1983),
 //! doi:10.1137/0720023.
 
 use crate::analysis::structure::equilibrium::Equilibrium;
@@ -26,19 +26,20 @@ use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 use std::collections::VecDeque;
 
-/// Most iterations of a solve: enough for perfect plasticity near collapse; a solve that needs more
+/// Most iterations of a solve: enough for perfect plasticity near collapse. A solve that needs more
 /// has no useful direction.
 pub(super) const MOST: usize = 400;
-/// Share of the elastic stiffness of a direction that is its round-off.
+/// Share of a direction's elastic stiffness that is round-off.
 pub(super) const SINGULAR: f64 = 1e-14;
-/// Steps of conjugate gradients that cost as much as a direction with a factor of the tangent: that
-/// takes two or three steps, each with two products, and the elastic answer to what they found.
+/// Number of conjugate gradient steps that cost as much as a direction found with a factor of the
+/// tangent: such a direction takes two or three steps, each with two products, and the elastic
+/// response to their result.
 pub(super) const DIRECT: usize = 6;
-/// Directions that conjugate residuals keep: an elastoplastic solve takes some ten.
+/// Number of directions that conjugate residuals keep: an elastoplastic solve takes about ten.
 const KEPT: usize = 20;
 
-/// A residual, or what the tangent makes of a direction: a load `r` with its elastic answer `S^-1
-/// r`, and the forces in it that closed pairs carry alone.
+/// A residual, or the product of the tangent with a direction: a load `r` with its elastic response
+/// `S^-1 r`, and the forces in it that closed pairs alone carry.
 struct Answered {
     change: Equilibrium,
     carried: Vec<f64>,
@@ -52,14 +53,14 @@ impl Answered {
         }
     }
 
-    /// `r' S^-1 r'` of two.
+    /// The product `r_1' S^-1 r_2` of two loads.
     fn dot(&self, other: &Answered) -> f64 {
         self.change.initial.load.dot(&other.change.u)
     }
 }
 
 impl Solver<'_> {
-    /// The direction of initial loads `initial`, closed pairs staying closed.
+    /// The elastic response to initial loads `initial`, closed pairs staying closed.
     pub fn direction(&mut self, initial: Trailing) -> Equilibrium {
         let mut out = Equilibrium::none(&initial, self.now.gap.len());
         out.initial.load = initial;
@@ -68,14 +69,14 @@ impl Solver<'_> {
     }
 
     /// Newton's direction: solves `(S - keep K_p) du = residual` to `tolerance` (energy norm,
-    /// relative). The initial loads of the direction are `S du`, what the direction asks the
-    /// plastic strains to become. `keep = 1` is the tangent, 0 the plain iteration; in between the
-    /// condition is at most `1/(1 - keep)`, also where the material has no stiffness left.
+    /// relative). The initial loads of the direction are `S du`: the change of initial loads that
+    /// the direction asks for. `keep = 1` is the tangent, 0 the plain iteration. In between, the
+    /// condition number is at most `1/(1 - keep)`, even if the material has no stiffness left.
     ///
     /// The search directions carry their gaps, forces and eliminated loads along, and the last
-    /// preconditioned residual `z = S^-1 r` is taken as a step of the plain iteration on top:
-    /// besides the iteration's trailing solves the direction costs half a solve. In the iteration
-    /// the second halves go through the part of the zone that counts.
+    /// preconditioned residual `z = S^-1 r` is added as a step of the plain iteration. In addition
+    /// to the iteration's trailing solves, the direction therefore costs half a solve. In the
+    /// iteration, the second halves pass only through the part of the zone that counts.
     pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
         let part = self.part_that_counts(residual);
         let at_rest = (residual.clone(), self.structure.sub.zeros());
@@ -99,9 +100,9 @@ impl Solver<'_> {
         self.complete_direction(total, &left)
     }
 
-    /// Conjugate gradients on the elastic factor, from the direction so far and what is left of the
-    /// residual, until that is below `size`; false where a factor of the tangent would have cost
-    /// less.
+    /// Conjugate gradients on the elastic factor, starting from the direction so far and the
+    /// remaining residual, until the residual is below `size`. Returns false if a factor of the
+    /// tangent would have cost less.
     fn conjugate_gradients(
         &mut self,
         (total, z): (&mut Equilibrium, &mut Answered),
@@ -139,9 +140,8 @@ impl Solver<'_> {
         true
     }
 
-    /// Conjugate residuals on the elastic factor, for a tangent that is not symmetric: from the
-    /// direction so far, until what is left of the residual is below `size`; false where a factor
-    /// of the tangent would have cost less.
+    /// Conjugate residuals on the elastic factor, for an unsymmetric tangent, starting from the
+    /// residual, until the rest of it is below `size`.
     fn conjugate_residuals(
         &mut self,
         mut z: Answered,
@@ -151,7 +151,8 @@ impl Solver<'_> {
     ) -> Equilibrium {
         let mut softened = self.structure.sub.zeros();
         let mut total = Equilibrium::none(&softened, z.carried.len());
-        // Directions with what the tangent makes of them, and its size squared.
+        // The directions, each with its product with the tangent, and the squared size of that
+        // product.
         let mut kept: VecDeque<(Equilibrium, Answered, f64)> = VecDeque::new();
         for _ in 0..MOST {
             let rz = z.dot(&z);
@@ -183,7 +184,7 @@ impl Solver<'_> {
         self.complete_direction(total, &z)
     }
 
-    /// The elastic answer to a load.
+    /// The elastic response to a load.
     fn answer(&mut self, load: Trailing, part: &ZonePart) -> Answered {
         let mut change = Equilibrium::none(&load, self.now.gap.len());
         change.initial.load = load;
@@ -193,14 +194,14 @@ impl Solver<'_> {
         Answered { change, carried }
     }
 
-    /// What directions add up to, the residual that is left taken as a step on top.
+    /// Completes a sum of search directions, with the remaining residual taken as a further step.
     fn complete_direction(&mut self, mut total: Equilibrium, left: &Answered) -> Equilibrium {
         total.add(1.0, &left.change);
         let contact = &mut total.initial.load.contact;
         let rows = &self.structure.model.rows;
         rows.add_forces(&left.carried, |i, force| contact[i] += force);
         for (k, c) in left.carried.iter().enumerate() {
-            // Compressive forces hold the nodes of a pair apart.
+            // Compressive forces push the two nodes of a pair apart.
             total.initial.forces[k] -= c;
             total.force[k] -= c;
         }
@@ -210,15 +211,15 @@ impl Solver<'_> {
         total
     }
 
-    /// Takes the forces `-B' c` that closed pairs carry alone off a load and adds them to
+    /// Subtracts the forces `-B' c` that closed pairs alone carry from a load, and adds them to
     /// `carried`.
     pub(super) fn take_what_closed_pairs_carry(&self, load: &mut Trailing, carried: &mut [f64]) {
         let rows = &self.structure.model.rows;
         rows.take_carried(&mut load.contact, carried, self.tableau.open());
     }
 
-    /// Where the displacements of search directions enter a tangent solve: where the material
-    /// yields and where the residual acts.
+    /// The part of the zone whose displacements count in a tangent solve: where the material
+    /// yields, and where the residual acts.
     fn part_that_counts(&self, residual: &Trailing) -> ZonePart {
         let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
         self.zone.mark_active(&mut marks);

@@ -1,19 +1,19 @@
-//! The tangent of the zone, factored: where conjugate gradients on the elastic factor take many
+//! The factored tangent of the zone, used when conjugate gradients on the elastic factor take many
 //! steps.
 //!
 //! ```text
 //!     M = S - (1 - LEFT) K_p      of the iterate at which it was factored
 //! ```
 //!
-//! is factored in the pattern of the zone's own factor ([`FactoredTangent`]); all else of the model
-//! stays condensed as it is. It solves the tangents of the iterates that follow as preconditioner:
-//! their difference from `M` is that of the points that yield and of their normals. Perfectly
-//! plastic material near its limit load leaves `S - K_p` singular; `M >= LEFT S` is not.
+//! is factored in the pattern of the zone's own factor ([`FactoredTangent`]); the rest of the model
+//! stays condensed as it is. The factor is the preconditioner for the tangents of later iterates,
+//! which differ from `M` in the points that yield and in their normals. In perfectly plastic
+//! material near its limit load `S - K_p` is singular; `M >= LEFT S` is not.
 //!
-//! When it pays is decided from operations, not from time: steps of conjugate gradients are bought
-//! one by one until they have cost what a factor would have, which comes at most twice as dear as
-//! the better choice, whatever follows. It is forgotten with its increment: a run that goes on from
-//! a checkpoint finds the next one as the run before it would have.
+//! Operations, not times, decide when a factor pays. Conjugate gradient steps are taken one by one
+//! until they have cost as much as a factor; the total is at most twice the cost of the better
+//! choice, whatever follows. The factor is forgotten at the end of its increment, so a run resumed
+//! from a checkpoint finds the next increment as the original run would have.
 //!
 //! # Source
 //! A. R. Karlin, M. S. Manasse, L. Rudolph, D. D. Sleator (1988), *Competitive snoopy caching*,
@@ -28,13 +28,13 @@ use crate::contact::springs::with_springs;
 use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 
-/// Share of the elastic stiffness that stays in the factored tangent where flow takes all. Between
-/// what counts as lost in a collapse ([`super::collapse`]), so that a mechanism is far
-/// softer than all else, and the root of that, so that what is stiff does not hide it: the
-/// geometric mean of the two.
+/// Share of the elastic stiffness that stays in the factored tangent where flow takes off all of
+/// it. It must exceed the share that counts as lost in a collapse ([`super::collapse`]), so that a
+/// mechanism is far softer than all else, and be less than the root of that share, so that stiff
+/// motions do not hide the mechanism: it is the geometric mean of the two.
 const LEFT: f64 = 3.162_277_660_168_379_5e-5;
 
-/// A search direction and its load, and room for what products with it are made of.
+/// A search direction and its load, with work space for products.
 struct SearchDirection {
     u: Trailing,
     load: Trailing,
@@ -43,8 +43,8 @@ struct SearchDirection {
 }
 
 impl Solver<'_> {
-    /// Takes note of a step of conjugate gradients beyond what one with a factor takes: whether it
-    /// is still cheaper than a factor.
+    /// Counts a step of conjugate gradients beyond the number that a direction with a factor takes.
+    /// Returns whether further steps are still cheaper than a factor.
     pub(super) fn may_go_on_without_factor(&mut self) -> bool {
         if self.tangent.is_none() {
             self.tangent = FactoredTangent::new(&self.structure).map(Box::new);
@@ -56,8 +56,8 @@ impl Solver<'_> {
         tangent.is_refused || !tangent.is_paid()
     }
 
-    /// Factors the tangent of the last evaluated state, of whose softening a share `keep` counts;
-    /// false where it has no factor.
+    /// Factors the tangent of the last evaluated state, with the share `keep` of its softening.
+    /// Returns false if it has no factor.
     pub(super) fn factor_tangent(&mut self, keep: f64) -> bool {
         let Some(mut tangent) = self.tangent.take() else {
             return false;
@@ -69,7 +69,7 @@ impl Solver<'_> {
         is_factored
     }
 
-    /// The tableau of a tangent that is factored anew.
+    /// Factors the tangent again and returns its tableau; `None` if it has no factor.
     fn factored_tableau(&mut self, tangent: &mut FactoredTangent, keep: f64) -> Option<Tableau> {
         let share = (1.0 - LEFT) * keep;
         let softened = &mut tangent.softened;
@@ -94,8 +94,9 @@ impl Solver<'_> {
         }
     }
 
-    /// Displacements that solve the tangent, by conjugate gradients on the factored one, from some
-    /// at which a load is left; the factor is renewed where that pays. `None` where there is none.
+    /// Solves the tangent by conjugate gradients preconditioned with the factored tangent, starting
+    /// from a remaining load and the displacements so far. Returns the displacements. The factor is
+    /// renewed if that pays; `None` if there is no factor.
     pub(super) fn solve_by_factor(
         &mut self,
         so_far: (Trailing, Trailing),
@@ -121,9 +122,10 @@ impl Solver<'_> {
         done.then_some(u)
     }
 
-    /// Steps until one lowers the energy by no more than the share `tolerance` squared of what all
-    /// do: conjugate gradients measure that whatever they are preconditioned with (M. R. Hestenes,
-    /// E. Stiefel 1952, doi:10.6028/jres.049.044). False where another factor would have cost less.
+    /// Takes steps until one lowers the energy by no more than the share `tolerance` squared of the
+    /// total decrease. Conjugate gradients measure this whatever their preconditioner (M. R.
+    /// Hestenes, E. Stiefel 1952, doi:10.6028/jres.049.044). Returns false if another factor would
+    /// have cost less.
     fn steps_by_factor(
         &mut self,
         tangent: &mut FactoredTangent,
@@ -180,8 +182,8 @@ impl Solver<'_> {
         true
     }
 
-    /// What the tangent has less than the factored one along a direction: forces in `lost`, and the
-    /// work of these.
+    /// Difference of the factored tangent and the current tangent along a direction: writes the
+    /// forces to `lost` and returns their work.
     fn softer(&mut self, tangent: &FactoredTangent, p: &mut SearchDirection, keep: f64) -> f64 {
         self.zone.softening_times(&p.u, &mut p.lost);
         self.zone.kept_softening_times(&p.u, &mut p.other);
@@ -191,8 +193,8 @@ impl Solver<'_> {
         p.lost.dot(&p.u)
     }
 
-    /// The direction in which displacements, where they count, are `u`: what the structure answers
-    /// to the residual and to what the flow along `u` adds to it.
+    /// The direction whose displacements, in the part that counts, are `u`: the elastic response to
+    /// the residual plus the forces that flow along `u` adds.
     pub(super) fn direction_along(
         &mut self,
         u: &Trailing,

@@ -1,9 +1,9 @@
 //! The load at first yield (paper, chapter 3).
 //!
-//! Exact: along the piecewise linear path of contact events the stress at any point is linear
-//! between two events, von Mises' stress convex; the first event with a ratio above 1 brackets the
-//! yield load, found there to round-off. Secant: the paper's (3.14), each iterate a contact problem
-//! solved from scratch, with a bracket.
+//! Exact: along the piecewise linear path of contact events, the stress at any point is linear
+//! between two events, and von Mises' stress is convex. The first event with a ratio above 1
+//! brackets the yield load, which is then found to round-off. Secant: the paper's (3.14), with a
+//! bracket; each iterate is a contact problem solved from scratch.
 
 use crate::analysis::stress::recovery::{Peak, Recovery, Samples};
 use crate::analysis::structure::solver::Solver;
@@ -13,19 +13,20 @@ use std::convert::Infallible;
 
 /// Relative accuracy of the yield load.
 const ACCURACY: f64 = 1e-14;
-/// Share by which a ratio may be below 1 and still be that of first yield: far above [`ACCURACY`],
+/// Share by which a ratio may be below 1 and still count as first yield: far above [`ACCURACY`],
 /// far below any jump.
 const BEFORE: f64 = 1e-9;
-/// Accuracy of the yield load by the secant: each stress is that of a contact problem of its own.
+/// Accuracy of the yield load found by the secant, for which each stress comes from a contact
+/// problem of its own.
 const SECANT_ACCURACY: Accuracy = Accuracy {
     value: 1e-13,
     place: ACCURACY,
 };
-/// Load factor beyond which no yield load is looked for.
+/// Largest load factor at which a yield load is looked for.
 const LARGEST: f64 = 1e100;
 
-/// Finds `s` in `[0, 1]` with a recovered stress ratio of 1 between two sampled stress fields,
-/// linear in between. The ratio is at most 1 at `s = 0`, at least 1 at `s = 1`.
+/// Finds `s` in `[0, 1]` at which the recovered stress ratio is 1, between two sampled stress
+/// fields and linear in between. The ratio must be at most 1 at `s = 0` and at least 1 at `s = 1`.
 pub fn yield_share(
     solver: &Solver,
     recovery: &mut Recovery,
@@ -42,8 +43,8 @@ pub fn yield_share(
     let mut found = None;
     let mut beyond = |s: f64| {
         let peak = at(s);
-        // On a coarse mesh the recovered maximum may jump where another place is searched: what
-        // yields is what lies beyond the jump.
+        // On a coarse mesh the recovered maximum may jump if another place is searched: the point
+        // that yields is the maximum beyond the jump.
         if peak.is_some_and(|p| p.ratio >= 1.0 - BEFORE) {
             found = peak;
         }
@@ -62,11 +63,11 @@ pub fn peak_here(solver: &mut Solver, recovery: &mut Recovery) -> Option<Peak> {
     recovery.peak(solver.structure.model, &samples)
 }
 
-/// The yield load by the paper's secant (3.14) up to a load beyond yield, and between the last
-/// two by bracketing. The state at yield becomes the current one.
+/// Finds the yield load: the paper's secant (3.14) up to a load beyond yield, then bracketing
+/// between the last two loads. The state at yield becomes the current state.
 ///
 /// # Errors
-/// Where the stress does not grow with the load.
+/// Fails if the stress does not grow with the load.
 pub fn secant_yield_load(solver: &mut Solver, recovery: &mut Recovery) -> Result<(f64, Peak)> {
     let mut peak = None;
     let mut excess = |alpha: f64| -> Result<f64> {

@@ -20,7 +20,7 @@ impl Analysis {
     /// Assembles the model.
     ///
     /// # Errors
-    /// Errors of [`assemble`]; `Input` where the directory that the scene starts from is missing,
+    /// Errors of [`assemble`]; `Input` if the directory that the scene starts from is missing,
     /// damaged, or of another mesh or version.
     pub fn new(mut model: Model, backend: Backend) -> Result<Self> {
         let start = Instant::now();

@@ -1,4 +1,4 @@
-//! Figures that a target of the load program waits for, read off a state on the way.
+//! Figures for which a target of the load program waits, read from a state on the way.
 
 use super::unloading::Unloading;
 use crate::analysis::figures::measure::ContactFigures;
@@ -10,8 +10,8 @@ use crate::scene::{Target, TargetFigure};
 use std::cell::Cell;
 use std::rc::Rc;
 
-/// Share of the wanted dent by which the one that plastic strains leave now may be off before the
-/// load is taken off to see: yielding on the way back changes a dent by far less.
+/// Share of the wanted dent by which the dent of the present plastic strains may differ before
+/// unloading is computed. Yielding on unloading changes a dent by far less than this.
 const NEAR: f64 = 0.25;
 
 /// A figure that a target waits for.
@@ -19,16 +19,16 @@ const NEAR: f64 = 0.25;
 pub(super) struct Awaited<'m> {
     model: &'m Model,
     figure: TargetFigure,
-    /// The value that it is to have.
+    /// The value of the figure at the target.
     pub(super) value: f64,
-    /// The body whose figure it is, where one is named.
+    /// The body to which the figure belongs, if the target names one.
     body: Option<usize>,
-    /// The contact, where one is named.
+    /// The contact to which the figure belongs, if the target names one.
     contact: Option<usize>,
 }
 
 impl<'m> Awaited<'m> {
-    /// What a target waits for; `None` where that is no figure.
+    /// The figure for which a target waits; `None` if it waits for none.
     ///
     /// # Errors
     /// A body that the mesh does not have.
@@ -50,13 +50,13 @@ impl<'m> Awaited<'m> {
         }))
     }
 
-    /// Name of the figure that is awaited.
+    /// Name of the awaited figure.
     pub(super) fn key(&self) -> &'static str {
         self.figure.key()
     }
 
-    /// Value of the figure in the current state; of a dent what the plastic strains leave now. A
-    /// full solve for the approach, half a trailing one for a dent.
+    /// Value of the figure in the current state; for a dent, the dent of the present plastic
+    /// strains. Costs a full solve for the approach, half a trailing solve for a dent.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -84,8 +84,9 @@ impl<'m> Awaited<'m> {
         })
     }
 
-    /// Value of the figure in the current state as the target means it: of a dent what is left once
-    /// the load factor has gone back to zero. Notes where yielding on that way leaves the zone.
+    /// Value of the figure in the current state in the sense of the target: for a dent, the dent
+    /// that is left after the load factor has returned to zero. Sets `unloads_outside` if yielding
+    /// on unloading leaves the zone.
     fn as_meant(&self, solver: &mut Solver, unloads_outside: &Cell<bool>) -> Result<f64> {
         let here = self.here(solver)?;
         let is_near = (here - self.value).abs() <= NEAR * self.value;
@@ -102,7 +103,7 @@ impl<'m> Awaited<'m> {
         }
     }
 
-    /// Function that vanishes where the figure has its value, of order 1.
+    /// Function of order 1 that vanishes when the figure has its target value.
     pub(super) fn monitor(self, unloads_outside: Rc<Cell<bool>>) -> Box<Monitor<'m>> {
         Box::new(move |solver: &mut Solver| {
             Ok(self.as_meant(solver, &unloads_outside)? / self.value - 1.0)

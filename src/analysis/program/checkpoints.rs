@@ -1,5 +1,5 @@
-//! What a checkpoint of a run holds, and how it is written: what does not change any more in files
-//! of its own.
+//! The contents of a checkpoint of a run, and how they are written: parts that do not change any
+//! more go into files of their own.
 
 use super::path::PathSampler;
 use super::position::{Position, Start};
@@ -11,30 +11,31 @@ use crate::error::Result;
 use crate::results::{HistoryRow, PathPoint, Results};
 use serde::{Deserialize, Serialize};
 
-/// A run between two steps.
+/// The record of a run between two steps.
 #[derive(Serialize, Deserialize)]
 pub(super) struct RunRecord {
     pub(super) position: Position,
     pub(super) solver: SolverRecord,
     pub(super) parts: Parts,
-    /// Rows and points of the path since the last state.
+    /// Rows of the history since the last state, and (`path`) points of the path since then.
     pub(super) history: Vec<HistoryRow>,
     pub(super) path: Vec<PathPoint>,
     pub(super) sampler: PathSampler,
     pub(super) resumed: usize,
 }
 
-/// Parts of a checkpoint that do not change any more, in files of their own.
+/// Parts of a checkpoint that do not change any more, each in a file of its own.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Parts {
-    /// States that were reached, with the rows and points of the path up to the last of them.
+    /// States that were reached, with the rows and points of the path up to the last of these
+    /// states.
     pub(super) states: Vec<PartId>,
-    /// How many states and rows that are.
+    /// Number of states in these parts, and (`n_rows`) number of rows.
     n_states: usize,
     n_rows: usize,
-    /// What the zone follows the load by.
+    /// Predicted spread of yielding, by which the zone follows the load.
     pub(super) spread: Option<PartId>,
-    /// Where the way to the target at hand starts.
+    /// State at the start of the way to the current target.
     pub(super) start: Option<PartId>,
 }
 
@@ -48,11 +49,11 @@ impl Parts {
 /// Writes the checkpoints of a run.
 pub(super) struct CheckpointWriter {
     pub(super) store: Store,
-    /// Increments from one checkpoint to the next, and since the last.
+    /// Number of increments from one checkpoint to the next, and (`since`) since the last one.
     pub(super) every: usize,
     pub(super) since: usize,
     pub(super) parts: Parts,
-    /// Fingerprint of the factor, and after how many factorisations.
+    /// Fingerprint of the factor, with the number of factorisations after which it was computed.
     pub(super) fingerprint: Option<(usize, u128)>,
     pub(super) failed: bool,
 }
@@ -69,7 +70,7 @@ impl CheckpointWriter {
         }
     }
 
-    /// The way to the next target starts elsewhere.
+    /// Drops the stored start, because the way to the next target starts from another state.
     pub(super) fn forget_start(&mut self) {
         self.parts.start = None;
     }
@@ -90,7 +91,7 @@ impl CheckpointWriter {
         let parts = &mut self.parts;
         let n_rows = results.history.len();
         if results.states.len() > parts.n_states {
-            // Rows of the way at hand may be taken back.
+            // Rows of the present way to a target may still be taken back.
             let end = start.map_or(n_rows, |start| start.rows);
             let states = &results.states[parts.n_states..];
             let rows = &results.history[parts.n_rows..end];

@@ -1,12 +1,14 @@
-//! Programs of cycles: what each leaves, and whether the next would leave the same.
+//! Programs of cycles: the plastic flow of each cycle, and whether the next one would leave the
+//! same.
 //!
-//! The change of the plastic strains over a cycle is compared, point by point, with that over the
-//! cycle before. Where the differences `r_k` fall like a geometric series, the cycles to come
-//! change it by `r_k q/(1 - q)`, `q = r_k/r_(k-1)`: a cycle is steady once both are a small share
-//! of what flowed in the first one. The flow that is left in the end is that of the last cycle less
-//! the change of the cycles to come: where nothing is left, plastic flow dies out, however slowly;
-//! else it goes on in every cycle, however small it is. The same holds for growth. A cycle in which
-//! nothing flows is steady at once. The states of a program are those of one more cycle.
+//! The change of the plastic strains over a cycle is compared, point by point, with the change over
+//! the cycle before. If the differences `r_k` fall like a geometric series, the cycles to come
+//! alter the change by `r_k q/(1 - q)`, `q = r_k/r_(k-1)`. A cycle is steady once both values are a
+//! small share of the flow of the first cycle. The flow that remains in the end is that of the last
+//! cycle minus the alteration by the cycles to come. If none remains, plastic flow dies out,
+//! however slowly; otherwise it goes on in every cycle, however small it is. The same holds for
+//! growth. A cycle in which nothing flows is steady at once. The states reported for a program come
+//! from one more cycle.
 
 use crate::analysis::zone::history::History;
 use crate::analysis::zone::packed;
@@ -15,23 +17,25 @@ use crate::model::Model;
 use crate::results::{CycleOutcome, CycleRow, Cycles, EndState};
 use serde::{Deserialize, Serialize};
 
-/// The flow of a cycle over what the cycles to come will take off it is 1 where flow dies out in a
-/// geometric series, and infinite where it is the same in each cycle. Up to this ratio it counts as
-/// dying out: points of the structure do so at different rates.
+/// Bound on the flow of a cycle, divided by the flow that the cycles to come will take off it. This
+/// ratio is 1 if flow dies out in a geometric series, and infinite if it is the same in each cycle.
+/// Up to this bound flow counts as dying out: the rates differ between the points of the structure.
 const DIES_OUT: f64 = 1.5;
-/// Above this ratio it counts as lasting; between the two another cycle is run.
+/// Ratio above which flow counts as lasting; between [`DIES_OUT`] and this ratio another cycle is
+/// run.
 const LASTS: f64 = 2.0;
 
-/// The cycles so far.
+/// Record of the cycles so far.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct CycleRecord {
     rows: Vec<CycleRow>,
-    /// Outcome of the last cycle, once that was like the next.
+    /// Outcome of the last cycle, once it was like the next one would be.
     outcome: Option<CycleOutcome>,
-    /// Whether the last cycle left its states.
+    /// Whether the states of the last cycle were taken.
     is_over: bool,
-    /// Elements of the zone at its end, with the histories of their points, what it changed of
-    /// them, and how much more or less than the cycle before.
+    /// Elements of the zone at the end of the last cycle. `points` are the histories of their
+    /// points, `change` is the change over this cycle, `difference` the largest difference from the
+    /// cycle before.
     elements: Vec<usize>,
     #[serde(with = "packed::history")]
     points: Vec<PlasticState<6>>,
@@ -43,18 +47,18 @@ pub(super) struct CycleRecord {
 }
 
 impl CycleRecord {
-    /// Whether the cycle at hand, of at most so many, leaves its states.
+    /// Whether the states of the current cycle are taken, in a program of at most `most` cycles.
     pub(super) fn is_last(&self, most: usize) -> bool {
         self.is_over || self.outcome.is_some() || self.rows.len() + 1 >= most
     }
 
-    /// How many lie behind.
+    /// Number of cycles completed so far.
     pub(super) fn n_done(&self) -> usize {
         self.rows.len()
     }
 
-    /// A cycle ended with these histories of the zone's elements; `steady` is the share of the
-    /// largest flow of the first cycle that counts as none.
+    /// Records the end of a cycle, with the histories of the zone's elements. `steady` is the share
+    /// of the largest flow of the first cycle that counts as none.
     fn end(&mut self, elements: &[usize], points: Vec<PlasticState<6>>, steady: f64) {
         let stride = points.len() / elements.len().max(1);
         let of_now = |known: &[PlasticState<6>]| aligned(known, &self.elements, elements, stride);
@@ -78,12 +82,13 @@ impl CycleRecord {
         self.rows.push(row);
         self.place = elements.get(growth.0 / stride.max(1)).copied().unwrap_or(0);
         (self.elements, self.points, self.change) = (elements.to_vec(), points, change);
-        // Once steady, another cycle leaves the states: round-off does not take that back.
+        // Once a cycle was steady, another cycle provides the states; round-off does not revoke
+        // this.
         self.outcome = self.judge(row, before, steady).or(self.outcome);
     }
 
-    /// What a cycle that is like the next amounts to, the differences of it and of the one before
-    /// from theirs being known.
+    /// Judges the last cycle: the outcome if it is like the next one would be, `None` otherwise.
+    /// `before` is the difference of the cycle before from its predecessor.
     fn judge(&self, row: CycleRow, before: Option<f64>, steady: f64) -> Option<CycleOutcome> {
         let first = self.rows[0].flow;
         if row.flow == 0.0 {
@@ -96,14 +101,14 @@ impl CycleRecord {
         let (now, before) = (self.difference?, before?);
         let ahead = match now < before {
             true => now * now / (before - now),
-            // No more than an iteration leaves.
+            // The difference is no larger than the error of an iteration.
             false if now <= steady * small => now,
             false => f64::INFINITY,
         };
         if now.max(ahead) > small {
             return None;
         }
-        // No more than an iteration leaves.
+        // A flow below this is no larger than the error of an iteration.
         let none = steady * small;
         let dies_out = |size: f64| size <= DIES_OUT * ahead + none;
         let lasts = |size: f64| size > LASTS * ahead + none;
@@ -118,9 +123,9 @@ impl CycleRecord {
         }
     }
 
-    /// Takes note of the end of a cycle of a program of at most so many, with these histories of
-    /// the elements of the zone: whether another follows. The first one began with what an earlier
-    /// run left, `start`.
+    /// Records the end of a cycle of a program of at most `most` cycles, with the histories of the
+    /// zone's elements. Returns whether another cycle follows. The first cycle began in the state
+    /// `start` of an earlier run, if there was one.
     pub(super) fn begin_next(
         &mut self,
         (most, steady): (usize, f64),
@@ -142,7 +147,7 @@ impl CycleRecord {
         !was_last
     }
 
-    /// What the cycles came to, where the program has them.
+    /// The outcome of the cycles; `None` if the program has no cycles.
     pub(super) fn outcome(&self, model: &Model) -> Option<Cycles> {
         if model.scene.program.cycles == 1 {
             return None;
@@ -158,7 +163,7 @@ impl CycleRecord {
         })
     }
 
-    /// Cycles begin with what is left of an earlier run.
+    /// Sets the state before the first cycle to the state left by an earlier run.
     fn begin_with(&mut self, start: &EndState) {
         self.points = History::from(start).points;
         self.change = vec![PlasticState::default(); self.points.len()];
@@ -166,8 +171,8 @@ impl CycleRecord {
     }
 }
 
-/// Plastic states of the elements of another zone, taken over from the zone before: zero in
-/// elements that were not in it.
+/// Plastic states for the elements `to` of a zone, taken from those of another zone's elements
+/// `from`; zero in elements that were not in that zone.
 fn aligned(
     known: &[PlasticState<6>],
     from: &[usize],
@@ -190,14 +195,14 @@ fn difference(a: &PlasticState<6>, b: &PlasticState<6>) -> PlasticState<6> {
     }
 }
 
-/// `sqrt(2/3 e:e)` of a strain with engineering shear.
+/// The equivalent strain `sqrt(2/3 e:e)` of a strain with engineering shear.
 fn size(strain: &[f64; 6]) -> f64 {
     let [normal, shear] = [&strain[..3], &strain[3..]];
     let square = |part: &[f64]| part.iter().map(|e| e * e).sum::<f64>();
     (2.0 / 3.0 * (square(normal) + 0.5 * square(shear))).sqrt()
 }
 
-/// The largest value over points, and where.
+/// The largest value over points, with the index of its point.
 fn largest(points: &[PlasticState<6>], of: impl Fn(&PlasticState<6>) -> f64) -> (usize, f64) {
     let values = points.iter().map(of).enumerate();
     values.fold(
@@ -210,7 +215,8 @@ fn largest(points: &[PlasticState<6>], of: impl Fn(&PlasticState<6>) -> f64) -> 
 mod tests {
     use super::*;
 
-    /// Flow under tension and under shear: shear strains are engineering ones.
+    /// The size of a strain is its equivalent strain, both in tension and in shear (engineering
+    /// shear strains).
     #[test]
     fn the_size_of_flow_is_the_equivalent_strain() {
         assert!((size(&[1.0, -0.5, -0.5, 0.0, 0.0, 0.0]) - 1.0).abs() < 1e-15);
@@ -218,7 +224,7 @@ mod tests {
         assert!((shear - 1.0).abs() < 1e-15, "{shear}");
     }
 
-    /// Cycles of one element with two points whose plastic strains along x the closure says.
+    /// Cycles of one element with two points, whose plastic strains along x the closure returns.
     fn outcome(cycles: usize, strain: impl Fn(usize) -> [f64; 2]) -> (Option<CycleOutcome>, usize) {
         let mut record = CycleRecord::default();
         let (mut before, mut equivalent) = ([0.0; 2], [0.0; 2]);
@@ -239,7 +245,7 @@ mod tests {
         (None, cycles)
     }
 
-    /// What still changes slowly is not steady, however little a single cycle changes.
+    /// A change that goes on slowly is not steady, however little a single cycle changes.
     #[test]
     fn a_cycle_is_steady_once_those_to_come_change_little() {
         assert_eq!(outcome(5, |_| [0.0; 2]), (Some(CycleOutcome::Elastic), 1));
@@ -247,21 +253,21 @@ mod tests {
         assert_eq!(at_once, (Some(CycleOutcome::ElasticShakedown), 2));
         let even = outcome(9, |k| [0.01 + 0.001 * k as f64, 0.0]);
         assert_eq!(even, (Some(CycleOutcome::Ratchetting), 3));
-        // Flow that falls by a hundredth in each cycle: after 600 of them a thousandth is ahead.
+        // Flow falls by a hundredth in each cycle: after 600 cycles a thousandth is still to come.
         let slow = |k: usize| [1.0 - 0.99f64.powi(k as i32), 0.0];
         let (found, cycles) = outcome(2000, slow);
         assert_eq!(found, Some(CycleOutcome::ElasticShakedown));
         assert!((600..800).contains(&cycles), "{cycles}");
-        // Growth that is a thousandth of the first flow in each cycle, for ever.
+        // Growth in each cycle is a thousandth of the first flow, for ever.
         let little = outcome(50, |k| [1.0 + 2e-4 * k as f64, 0.0]);
         assert_eq!(little, (Some(CycleOutcome::Ratchetting), 3));
-        // Growth that falls to a rate: the rate is what is left.
+        // Growth falls to a constant rate, which is what remains.
         let (found, cycles) = outcome(200, |k| [1e-3 * k as f64 - 0.5f64.powi(k as i32), 0.0]);
         assert_eq!(found, Some(CycleOutcome::Ratchetting));
         assert!((9..14).contains(&cycles), "{cycles}");
     }
 
-    /// A zone that grows: what was in none had no plastic strain.
+    /// If the zone grows, elements that were in no earlier zone had no plastic strain.
     #[test]
     fn cycles_of_another_zone_are_compared_element_by_element() {
         let point = |equivalent: f64| PlasticState {

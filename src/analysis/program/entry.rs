@@ -1,4 +1,5 @@
-//! What a caller runs: the whole program, from a checkpoint on, or up to first yield.
+//! The functions that a caller runs: the whole program, its rest from a checkpoint on, or up to
+//! first yield.
 
 use super::assembled::Analysis;
 use super::position::Purpose;
@@ -10,7 +11,7 @@ use crate::error::Result;
 use crate::progress::Observer;
 use crate::results::{Incomplete, Results};
 
-/// Runs to the end, or as far as it goes.
+/// Runs to the end, or as far as possible.
 fn complete(mut run: Run) -> Result<Results> {
     let outcome = run.execute();
     let mut results = run.finish();
@@ -28,9 +29,9 @@ fn complete(mut run: Run) -> Result<Results> {
 }
 
 impl Analysis {
-    /// Runs the whole load program. A run that fails after increments were accepted returns what
-    /// was computed, with [`Results::incomplete`] set. The observer sees every accepted increment,
-    /// and may stop the run there:
+    /// Runs the whole load program. A run that fails after increments were accepted returns the
+    /// results so far, with [`Results::incomplete`] set. The observer sees every accepted
+    /// increment, and may stop the run there:
     ///
     /// ```
     /// use brinell::progress::{Flow, Observer};
@@ -61,14 +62,15 @@ impl Analysis {
         results.map_err(|error| words::of_deck(&self.model.scene, error))
     }
 
-    /// As [`Analysis::run`], and writes checkpoints on the way: should the process be killed,
-    /// [`Analysis::resume`] goes on from the last. The results are those of [`Analysis::run`] to
-    /// the last bit. A checkpoint that is there already is replaced by the first.
+    /// Runs the program as [`Analysis::run`] does, and writes checkpoints on the way: if the
+    /// process is killed, [`Analysis::resume`] continues from the last one. The results are those
+    /// of [`Analysis::run`] to the last bit. An existing checkpoint is replaced by the first one of
+    /// this run.
     ///
     /// # Errors
-    /// As [`Analysis::run`]; `Input` where another run is writing there; `Io` where the first
-    /// checkpoint cannot be written (a later one that cannot be ends the run like any other
-    /// failure).
+    /// As [`Analysis::run`]; `Input` if another run is writing to the same directory; `Io` if the
+    /// first checkpoint cannot be written (a later one that cannot be written ends the run like any
+    /// other failure).
     pub fn run_with_checkpoints(
         &mut self,
         checkpoints: &Checkpoints,
@@ -80,15 +82,15 @@ impl Analysis {
         complete(run.with_checkpoints(store, checkpoints.interval()))
     }
 
-    /// Goes on from the last checkpoint and writes further ones. The results are those of a run
-    /// that was never stopped, to the last bit where the factorisation is the same to the last bit
-    /// (else [`Results::warnings`] says so); `timings` add up. Counts are those of the one run, the
-    /// factorisations done again left out.
+    /// Continues from the last checkpoint and writes further ones. The results are those of an
+    /// uninterrupted run, to the last bit if the factorisation is the same to the last bit
+    /// (otherwise [`Results::warnings`] says so); `timings` add up. Counts are those of a single
+    /// run; repeated factorisations are left out.
     ///
     /// # Errors
-    /// As [`Analysis::run_with_checkpoints`]; `Input` where the checkpoint is damaged, of another
-    /// version, or of another scene, mesh or backend, naming what differs; `Io` where there is
-    /// none.
+    /// As [`Analysis::run_with_checkpoints`]; `Input` if the checkpoint is damaged, of another
+    /// version, or of another scene, mesh or backend, naming what differs; `Io` if there is no
+    /// checkpoint.
     pub fn resume(
         &mut self,
         checkpoints: &Checkpoints,
@@ -100,7 +102,7 @@ impl Analysis {
         complete(run)
     }
 
-    /// The yield load only.
+    /// Finds the yield load only.
     ///
     /// ```
     /// use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent,

@@ -1,8 +1,8 @@
 //! The load program: preload, first yield, then target after target.
 //!
-//! It is a sequence of steps over a [`super::position::Position`] and the state of the structure; a
-//! step ends at the next accepted increment or at a target. A checkpoint is what stands between two
-//! steps.
+//! The program is a sequence of steps over a [`super::position::Position`] and the state of the
+//! structure. A step ends at the next accepted increment or at a target. A checkpoint holds the
+//! position and the state between two steps.
 
 use super::assembled::Analysis;
 use super::position::{Purpose, Stage};
@@ -24,7 +24,7 @@ use crate::scene::{Stepping, Target, Unit};
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-/// What a step of the program came to.
+/// Result of a step of the program.
 pub(super) enum Event {
     /// An increment was accepted: the next row of the history.
     Increment(HistoryRow),
@@ -33,7 +33,7 @@ pub(super) enum Event {
 }
 
 impl<'m, 'o> Run<'m, 'o> {
-    /// A run at its start.
+    /// Sets up a run at its start.
     ///
     /// # Errors
     /// Errors of [`Solver::new`].
@@ -86,10 +86,10 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(run)
     }
 
-    /// Goes through the program, event by event, with a checkpoint where one is due.
+    /// Goes through the program, event by event, and writes a checkpoint whenever one is due.
     ///
     /// # Errors
-    /// Errors of [`Run::next`]; [`stopped`] where the observer asks for that.
+    /// Errors of [`Run::next`]; [`stopped`] if the observer asks for that.
     pub(super) fn execute(&mut self) -> Result<()> {
         match self.position.stage {
             Stage::Preload { .. } if !self.position.stops.is_empty() => {
@@ -112,10 +112,11 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(())
     }
 
-    /// The next event; `None` at the end of the program.
+    /// Goes to the next event; `None` at the end of the program.
     ///
     /// # Errors
-    /// A load that is not held, an iteration that did not converge, a target that is out of reach.
+    /// A load without equilibrium, an iteration that did not converge, a target that is out of
+    /// reach.
     pub(super) fn next(&mut self) -> Result<Option<Event>> {
         loop {
             if let Some(&stop) = self.position.stops.first() {
@@ -146,10 +147,11 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
-    /// Another increment may be taken.
+    /// Checks that another increment may be taken.
     ///
     /// # Errors
-    /// `Analysis` where the run has taken `program.max_increments`, with what it has reached.
+    /// `Analysis` if the run has taken `program.max_increments`, with a report on what it has
+    /// reached.
     fn within_bound(&self) -> Result<()> {
         let program = &self.model().scene.program;
         let taken = self.results.history.len();
@@ -175,7 +177,7 @@ impl<'m, 'o> Run<'m, 'o> {
         )))
     }
 
-    /// Passes an event on; whether the run goes on after it.
+    /// Passes an event to the observer and the results. Returns whether the run continues.
     fn record(&mut self, event: Event) -> bool {
         let row = match event {
             Event::Increment(row) => row,
@@ -185,7 +187,7 @@ impl<'m, 'o> Run<'m, 'o> {
             }
         };
         let flow = self.observer.increment(&row, self.position.fraction);
-        // Rows may have been taken back since.
+        // Rows may have been taken back since the last increment.
         let (path, rows) = (&mut self.results.path, self.results.history.len());
         while path.last().is_some_and(|point| point.increment > rows) {
             path.pop();
@@ -195,8 +197,8 @@ impl<'m, 'o> Run<'m, 'o> {
         flow == Flow::Continue && !self.observer.stop_requested()
     }
 
-    /// Takes the next step on the straight piece to a load factor; the row of the increment, if
-    /// there was one.
+    /// Takes the next step on the straight piece to a load factor. Returns the row of the
+    /// increment, if there was one.
     fn advance(&mut self, stop: f64) -> Result<Option<HistoryRow>> {
         let end = self.solver.structure.point(stop);
         let plastic = self.increments_are_plastic();
@@ -234,13 +236,13 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(row)
     }
 
-    /// Whether the material has yielded, and may.
+    /// Whether the material has yielded, and may yield in this run.
     fn increments_are_plastic(&self) -> bool {
         self.position.first_yield.is_behind && !self.zone.choice.elements.is_empty()
     }
 
-    /// Begins the drive to the end of a straight piece. Wherever it leaves what the search for the
-    /// yield load went through it is watched for first yield.
+    /// Begins the drive to the end of a straight piece. The drive is watched for first yield as
+    /// soon as it leaves the range of load factors that the search for the yield load covered.
     fn begin_drive(&mut self, end: &LoadPoint) -> Result<Step> {
         let begun = if self.increments_are_plastic() {
             let (taken, monitor) = (self.position.taken, self.monitor.as_deref());
@@ -268,7 +270,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
-    /// The next step of a drive.
+    /// Takes the next step of a drive.
     fn step(&mut self, mut drive: Drive, end: &LoadPoint) -> Result<Step> {
         let scene = &self.solver.structure.model.scene;
         let observer = &*self.observer;
@@ -294,7 +296,7 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(step)
     }
 
-    /// What follows from the end of a drive to the load factor `stop`.
+    /// Updates the position after the end of a drive to the load factor `stop`.
     fn arrive(&mut self, stop: f64, arrival: Arrival) -> Result<()> {
         let drive = self.position.drive.take();
         let taken = std::mem::take(&mut self.position.taken);
@@ -325,7 +327,7 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(())
     }
 
-    /// The row of an accepted increment.
+    /// The history row of an accepted increment.
     fn row(&self, report: &IncrementReport) -> HistoryRow {
         let solver = &self.solver;
         let figures = solver.contact_figures();
@@ -348,8 +350,8 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
-    /// Puts the structure where the program begins: nothing acts, and what an earlier run left in
-    /// the material is there.
+    /// Puts the structure into the state in which the program begins: no loads, and the plastic
+    /// strains that an earlier run left in the material.
     fn begin(&mut self) -> Result<()> {
         starting::begin(&mut self.solver)?;
         self.position.first_yield.is_behind |= self.model().start.is_some();
@@ -357,7 +359,7 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(())
     }
 
-    /// Applies constant loads and interference, before the load factor leaves zero.
+    /// Applies constant loads and interference before the load factor leaves zero.
     fn begin_preload(&mut self) {
         let end = self.solver.structure.point(0.0);
         let has_interference = self.model().pairs.iter().any(|p| p.interference != 0.0);
@@ -371,8 +373,8 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
-    /// After the preload: first yield and the zone for the program. A preload under which the
-    /// material was not seen to yield, and does, is applied again.
+    /// Finds first yield and the zone of the program after the preload. The preload is applied
+    /// again if the material turns out to yield under it although this was not noticed.
     fn prepare(&mut self, again: bool) -> Result<()> {
         let program = &self.model().scene.program;
         let required = self.purpose == Purpose::YieldLoad

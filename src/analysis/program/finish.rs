@@ -1,4 +1,4 @@
-//! What a run leaves at its end, wherever that is.
+//! The results of a run at its end, wherever it ended.
 
 use super::run::Run;
 use super::stopwatch::TimeRow;
@@ -10,15 +10,15 @@ use crate::model::Model;
 use crate::number::significant;
 use crate::results::{Quality, Results, Sizes, State, Status, Tolerances};
 
-/// Lower bound of the condition from which it is estimated without being asked for: six digits of a
-/// displacement may be left.
+/// Lower bound of the condition number above which the condition number is estimated without being
+/// asked for: six digits of a displacement may be left.
 const DOUBTFUL: f64 = 1e10;
 
-/// States with their quality, that at first yield among them.
+/// States with their quality, including the state at first yield.
 type JudgedStates = Vec<(String, Quality)>;
 
 impl Run<'_, '_> {
-    /// The results as far as they go.
+    /// Completes the results of the run, as far as it came.
     pub(super) fn finish(mut self) -> Results {
         self.position.seconds.switch(TimeRow::States);
         let model = self.solver.structure.model;
@@ -42,7 +42,7 @@ impl Run<'_, '_> {
             || !results.inaccurate.is_empty()
             || results.condition > DOUBTFUL
         {
-            // A figure besides the results: a solve that fails leaves it out.
+            // The estimate is an additional figure: if its solve fails, it is left out.
             let structure = &self.solver.structure;
             let estimate = structure.sub.condition_estimate(model, structure.system);
             results.condition_estimate = estimate.ok();
@@ -74,14 +74,14 @@ impl Run<'_, '_> {
         results.warnings.push(text);
     }
 
-    /// Warns where forces balance to round-off only.
+    /// Warns if forces balance only to round-off.
     fn tell_of_round_off(
         &mut self,
         results: &mut Results,
         judged: &JudgedStates,
         tolerances: &Tolerances,
     ) {
-        // An elastic state is not iterated: its forces are off by what round-off leaves.
+        // An elastic state is not iterated: its forces are out of balance by round-off.
         let excused = judged.iter().filter_map(|(_, q)| q.excused(tolerances));
         let floor = excused.fold(self.solver.scales.round_off, f64::max);
         if floor > 0.0 {
@@ -95,8 +95,8 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Warns of strains and rotations that are not small, and of what is left out where the scene
-    /// asks for large ones.
+    /// Warns of strains and rotations that are not small, and of the effects left out if the scene
+    /// asks for large deformations.
     fn tell_of_deformation(&mut self, results: &mut Results) {
         let model = self.solver.structure.model;
         if let Some(text) = self.position.deformation.warning() {
@@ -115,7 +115,7 @@ impl Run<'_, '_> {
         }
     }
 
-    /// Warns of the figures of states that miss their tolerances.
+    /// Warns of states whose figures of quality miss their tolerances.
     fn tell_of_inaccuracy(
         &mut self,
         results: &mut Results,
@@ -135,7 +135,7 @@ impl Run<'_, '_> {
         }
     }
 
-    /// The effects with what they took, and the time table.
+    /// Adds the effects, with their time and memory, and the time table.
     fn add_effects(mut self, results: &mut Results) {
         let model = self.solver.structure.model;
         let first_yield = self.position.first_yield;
@@ -143,7 +143,7 @@ impl Run<'_, '_> {
         results.effects = effects(model, yields, model.start.as_ref());
         let structure = &self.solver.structure;
         let bytes = [structure.sub.contact_bytes(), self.solver.zone.bytes()];
-        // To give back their memory takes its time, too.
+        // Freeing the memory of the solver takes time, too.
         drop((self.solver, self.zone));
         let seconds = &mut self.position.seconds;
         seconds.switch(TimeRow::States);
@@ -169,9 +169,9 @@ impl Run<'_, '_> {
     }
 }
 
-/// Warnings of contacts none of whose pairs is closed in any state.
+/// Warnings about contacts none of whose pairs is closed in any state.
 fn never_closed(model: &Model, states: &[State]) -> Vec<String> {
-    // Of each contact that is open in every state the smallest gap, and the state.
+    // For each contact that is open in every state: the smallest gap, and the state with this gap.
     let mut nearest: Vec<Option<(f64, &str)>> = vec![None; model.contacts.len()];
     let mut closed = vec![false; model.contacts.len()];
     for state in states {

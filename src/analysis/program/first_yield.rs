@@ -1,4 +1,4 @@
-//! First yield of the program: where it lies, and that the zone did not miss it.
+//! First yield of the program: its load and place, and a check that the zone did not miss it.
 
 use super::position::Purpose;
 use super::run::{DOUBLINGS, Run, ZONE_ATTEMPTS};
@@ -12,19 +12,19 @@ use crate::error::{Error, Result};
 use crate::results::YieldPoint;
 use crate::scene::{Unit, YieldMethod};
 
-/// What a search for first yield came to.
+/// Result of a search for first yield.
 pub(super) enum YieldSearch {
     /// First yield at this load factor.
     Found(f64, Peak),
     /// Nothing yields up to the program's largest load factor.
     Nothing,
-    /// Something else than what was searched yields: a choice that holds it.
+    /// Yielding begins outside the zone that was searched; the choice holds the place.
     Outside(Choice),
 }
 
 impl Run<'_, '_> {
-    /// Finds the yield load on the path of growing load factor and comes back to the start. True
-    /// where the material yields under the preload already, which was gone through as if elastic.
+    /// Finds the yield load on the path of growing load factor and returns to the start. Returns
+    /// true if the material yields under the preload already, which was passed as if elastic.
     pub(super) fn find_yield(&mut self, required: bool) -> Result<bool> {
         let unit_is_yield = self.model().scene.program.unit == Unit::Yield;
         if self.position.first_yield.is_behind {
@@ -90,21 +90,21 @@ impl Run<'_, '_> {
         ))
     }
 
-    /// Puts an elastic state back, also after the zone was chosen anew.
+    /// Restores an elastic state, even after the zone was changed.
     fn come_back(&mut self, origin: &State) {
         let solver = &mut self.solver;
         solver.restore_elastic(origin);
-        // Where nothing acts yet the displacements are zero; a body held by contact alone must not
-        // be moved to it.
+        // Without any loads the displacements are zero, and a body held by contact alone must not
+        // be moved.
         solver.fresh = origin.equilibrium.u.largest() == 0.0;
         solver.now.u.fill(0.0);
         solver.refresh();
         self.position.first_yield.is_behind = false;
     }
 
-    /// First yield along the path of growing load factor, up to the largest the program asks for
-    /// unless yield is required. At the end of each straight piece, where the stresses of a load
-    /// that turns back are largest, those outside the zone are looked at too.
+    /// Searches for first yield along the path of growing load factor, up to the program's largest
+    /// factor unless yield is required. At the end of each straight piece, where the stresses of a
+    /// load that turns back are largest, the stresses outside the zone are checked, too.
     fn exact_yield(&mut self, required: bool) -> Result<YieldSearch> {
         let limit = if required {
             None
@@ -143,7 +143,7 @@ impl Run<'_, '_> {
         )))
     }
 
-    /// A load factor of the size of the yield load: one contact solve at factor 1.
+    /// Estimates a load factor of the order of the yield load, from one contact solve at factor 1.
     pub(super) fn first_load_estimate(&mut self) -> Result<f64> {
         let before = self.solver.state();
         let point = self.solver.structure.point(1.0);
@@ -156,14 +156,14 @@ impl Run<'_, '_> {
             _ => None,
         };
         self.solver.restore_elastic(&before);
-        // Stress grows at least like the cube root of the load (point contact): aim beyond,
-        // doubling goes on from there.
+        // Stress grows at least like the cube root of the load (point contact). The estimate aims
+        // beyond yield; doubling continues from there.
         Ok(estimate
             .filter(|r| r.is_finite() && *r > 0.0)
             .map_or(1.0, |r| 1.2 / r.min(r * r)))
     }
 
-    /// The material yields here.
+    /// Records that the material yields in the current state.
     pub(super) fn record_yield(&mut self, peak: Peak) {
         let figures = self.solver.contact_figures();
         self.position.first_yield.is_behind = true;
@@ -178,8 +178,8 @@ impl Run<'_, '_> {
         });
     }
 
-    /// Up to first yield nothing outside the zone may be beyond yield: else the zone missed the
-    /// place, and a better one is returned.
+    /// Checks, up to first yield, whether any element outside the zone is beyond yield. If so, the
+    /// zone missed the place, and a better choice is returned.
     fn missed_outside(&mut self) -> Result<Option<Choice>> {
         if self.zone.choice.holds_all(self.model()) {
             return Ok(None);

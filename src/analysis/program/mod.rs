@@ -2,23 +2,23 @@
 //!
 //! | file | what | paper |
 //! |---|---|---|
-//! | `stopwatch` | what the time of a run was spent on | |
-//! | `cycles` | what each cycle leaves, and whether the next would leave the same | |
-//! | `position` | where the program is between two steps | |
+//! | `stopwatch` | how the time of a run was spent | |
+//! | `cycles` | the flow of each cycle, and whether the next cycle would leave the same | |
+//! | `position` | the position of the program between two steps | |
 //! | `path` | the path between increments | |
-//! | `checkpoints` | what a checkpoint holds | |
+//! | `checkpoints` | the contents of a checkpoint | |
 //! | `run` | a structure on its way through the program | 5.1 |
 //! | `zone_changes` | the zone follows the load | |
-//! | `first_yield` | where first yield lies | 3.13, 3.14 |
-//! | `unloading` | what unloading would leave | |
+//! | `first_yield` | the load and place of first yield | 3.13, 3.14 |
+//! | `unloading` | the state that unloading would leave | |
 //! | `awaited` | figures that a target waits for | |
 //! | `target_search` | the load factor at which a target is met | |
 //! | `targets` | from the current load to the next target | |
-//! | `finish` | what a run leaves at its end | |
+//! | `finish` | the results of a run at its end | |
 //! | `execution` | the program, event by event | |
-//! | `restart` | going on from a checkpoint | |
+//! | `restart` | resuming from a checkpoint | |
 //! | `assembled` | a model with its assembled system | 3.1 |
-//! | `scout` | the elastic stress by a coarser mesh | |
+//! | `scout` | the elastic stress from a coarser mesh | |
 //! | `entry` | what a caller runs | |
 
 pub(super) mod assembled;

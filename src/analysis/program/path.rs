@@ -1,16 +1,16 @@
-//! The path between two rows of the history, where its figures bend.
+//! The path between two rows of the history, in places where its figures bend.
 //!
-//! From one change of contact to the next forces change evenly where nothing yields, and nearly so
-//! elsewhere. Maximum pressure and half width follow from the forces, but not evenly: where the
-//! largest force passes from one pair to another, or the edge of the contact moves within an
-//! element. What they are between two rows costs no solve.
+//! From one change of contact to the next, forces change linearly if nothing yields, and nearly so
+//! otherwise. Maximum pressure and half width follow from the forces, but not linearly: the largest
+//! force may pass from one pair to another, and the edge of the contact moves within an element.
+//! Their values between two rows cost no solve.
 
 use crate::analysis::figures::measure::contact_figures;
 use crate::analysis::structure::solver::Solver;
 use crate::results::{HistoryRow, PathPoint};
 use serde::{Deserialize, Serialize};
 
-/// The last row of the history, and the contact forces there.
+/// The last row of the history, and the contact forces at that row.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct PathSampler {
     row: HistoryRow,
@@ -19,16 +19,16 @@ pub(super) struct PathSampler {
 
 /// Share of a figure within which its path counts as straight.
 const STRAIGHT: f64 = 1e-3;
-/// Halvings of a quarter of the way.
+/// Number of times that a quarter of the way may be halved.
 const HALVINGS: usize = 3;
 
-/// A point: how much of the way lies behind, maximum pressure, half width, and what that may be
-/// off by where the reading of a patch in space wavers more than a line bends.
+/// Figures at a point: the share of the way that lies behind, maximum pressure, half width, and the
+/// uncertainty of the half width if its reading (a patch in space) varies more than a line bends.
 type PathFigures = [f64; 4];
 
 impl PathSampler {
-    /// Takes note of the next row, at which the solver is; the points on the way to it that a
-    /// curve needs.
+    /// Takes over the next row, which belongs to the solver's current state. Returns the points on
+    /// the way to it that a curve needs.
     pub(super) fn advance(&mut self, solver: &Solver, row: &HistoryRow) -> Vec<PathPoint> {
         if solver.structure.model.pairs.is_empty() {
             return Vec::new();
@@ -42,8 +42,9 @@ impl PathSampler {
             },
         );
         let pressed = |forces: &[f64]| forces.iter().any(|force| *force > 0.0);
-        // Where nothing is pressed at an end all forces are in proportion to the load. After rows
-        // were taken back nothing is known of the way to the first new one.
+        // If no pair carries a force at one end, all forces are proportional to the load. After
+        // rows were taken back, the forces at the start of the way to the first new row are not
+        // known.
         let follows = from.row.increment + 1 == row.increment;
         if !follows || !pressed(&from.forces) || !pressed(&self.forces) {
             return Vec::new();
@@ -75,7 +76,7 @@ impl PathSampler {
     }
 }
 
-/// The points between two ends without which a curve through them would be wrong.
+/// The points between two ends that a curve through them needs.
 fn bends(ends: [PathFigures; 2], figures: &impl Fn(f64) -> PathFigures) -> Vec<PathFigures> {
     let quarters = [0.25, 0.5, 0.75].map(figures);
     if quarters.iter().all(|point| is_straight(ends, *point)) {
@@ -92,7 +93,8 @@ fn bends(ends: [PathFigures; 2], figures: &impl Fn(f64) -> PathFigures) -> Vec<P
     out
 }
 
-/// Adds the points between two ends that lie off the line between them, down to `halvings`.
+/// Adds the points between two ends that lie off the line between them, in up to `halvings`
+/// halvings.
 fn halve(
     ends: [PathFigures; 2],
     figures: &impl Fn(f64) -> PathFigures,
@@ -111,7 +113,7 @@ fn halve(
     halve([middle, ends[1]], figures, halvings - 1, out);
 }
 
-/// Whether a point lies on the line between two.
+/// Whether a point lies on the line between two points.
 fn is_straight([from, to]: [PathFigures; 2], point: PathFigures) -> bool {
     let share = (point[0] - from[0]) / (to[0] - from[0]);
     [(1, 0.0), (2, point[3])].into_iter().all(|(k, wavers)| {
@@ -128,11 +130,11 @@ mod tests {
     #[test]
     fn a_curve_has_the_points_that_it_needs() {
         let even = |t: f64| [t, 2.0 + t, 1.0, 0.0];
-        // A bend of 0.02 that may be one of the reading.
+        // The path bends by 0.02, which may be an error of the reading.
         let wavering = |t: f64| [t, 2.0 + t, 1.0 + 0.08 * t * (1.0 - t), 0.03];
         assert!(bends([wavering(0.0), wavering(1.0)], &wavering).is_empty());
         assert!(bends([even(0.0), even(1.0)], &even).is_empty());
-        // A kink on the way, and a curve.
+        // One path has a kink, the other is a curve.
         let kink = |t: f64| [t, (t - 0.3).abs(), 1.0, 0.0];
         let curve = |t: f64| [t, 1.0, t.sqrt(), 0.0];
         for path in [&kink as &dyn Fn(f64) -> PathFigures, &curve] {

@@ -1,4 +1,4 @@
-//! Where the load program is between two steps.
+//! The position of the load program between two steps.
 
 use super::cycles::CycleRecord;
 use super::stopwatch::Stopwatch;
@@ -9,46 +9,47 @@ use crate::analysis::structure::state::State;
 use crate::results::YieldPoint;
 use serde::{Deserialize, Serialize};
 
-/// Where the load program is between two steps: with the state of the structure, and that at the
-/// start of the way to the target, all that the program still does depends on.
+/// The position of the load program between two steps. The rest of the program depends only on this
+/// position, on the state of the structure, and on the state at the start of the way to the target.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct Position {
-    /// Part of the program.
+    /// Current part of the program.
     pub(super) stage: Stage,
-    /// Targets that were reached, of the cycle at hand.
+    /// Number of targets reached in the current cycle.
     pub(super) target: usize,
-    /// The cycles behind.
+    /// Record of the cycles completed so far.
     pub(super) cycles: CycleRecord,
-    /// Zones that were too small for the target at hand.
+    /// Number of zones that were too small for the current target.
     pub(super) attempt: usize,
-    /// The search for the target at hand, where it is no load factor.
+    /// The search for the current target, if the target is not a load factor.
     pub(super) search: Option<TargetSearch>,
-    /// Load factors at the ends of the straight pieces ahead, that of the piece at hand first.
+    /// Load factors at the ends of the straight pieces ahead, beginning with the current piece.
     pub(super) stops: Vec<f64>,
-    /// The drive along that piece.
+    /// The drive along the current piece.
     pub(super) drive: Option<Drive>,
-    /// Fixed increments that were taken on it before the zone was changed.
+    /// Number of fixed increments taken on the current piece before the zone was changed.
     pub(super) taken: usize,
-    /// Absolute load factor up to which the zone was chosen, where it follows the load.
+    /// Absolute load factor up to which the zone was chosen, if the zone follows the load.
     pub(super) zone_until: f64,
-    /// What is known of first yield.
+    /// Knowledge about first yield.
     pub(super) first_yield: FirstYield,
-    /// Share of the program that was reported to lie behind: it never falls.
+    /// Share of the program that was reported as done: it never falls.
     pub(super) fraction: f64,
-    /// What the time was spent on.
+    /// Time spent so far, by row of the time table.
     pub(super) seconds: Stopwatch,
-    /// How far from small the states are.
+    /// Largest deformation of the states, to be compared with small deformations.
     pub(super) deformation: Deformation,
 }
 
-/// What is asked of a run.
+/// The purpose of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::analysis) enum Purpose {
     /// The whole program.
     Program,
     /// The load at first yield.
     YieldLoad,
-    /// The stress by which a finer mesh chooses its zone: it ends at first yield, too.
+    /// The stress from which a finer mesh chooses its zone; a run for this purpose also ends at
+    /// first yield.
     Zone,
 }
 
@@ -76,26 +77,26 @@ impl Default for Stage {
 /// A search for the load factor at which a quantity has its target value.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct TargetSearch {
-    /// Load factor that the way at hand leads to.
+    /// Load factor to which the current way leads.
     pub(super) end: f64,
-    /// Ways that were taken.
+    /// Number of ways tried.
     pub(super) rounds: usize,
     /// Whether the load factor grows.
     pub(super) upward: bool,
-    /// Size that the quantity is measured against.
+    /// Size by which the quantity is divided.
     pub(super) scale: f64,
-    /// Distance to the target at the start.
+    /// Distance of the quantity from its target value at the start.
     pub(super) at_first: f64,
 }
 
 impl TargetSearch {
-    /// Share of the way that lies behind where the monitored quantity has a value.
+    /// Share of the way that lies behind, for a value of the monitored quantity.
     pub(super) fn share_behind(&self, monitored: f64) -> f64 {
         within_0_and_1(1.0 - monitored.abs() / self.at_first)
     }
 }
 
-/// What is known of first yield.
+/// Knowledge about first yield.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct FirstYield {
     /// Whether the material has yielded, so that increments are elastoplastic.
@@ -106,7 +107,7 @@ pub(super) struct FirstYield {
     pub(super) elastic_range: [f64; 2],
     /// Place and load at which first yield was found.
     pub(super) point: Option<YieldPoint>,
-    /// Places at which the stress is watched on the way to first yield.
+    /// Points at which the stress is watched on the way to first yield.
     pub(super) watched: Watched,
 }
 
@@ -118,17 +119,18 @@ impl FirstYield {
     }
 }
 
-/// Where the way to a target starts: it is taken anew if the zone was too small for it.
+/// The start of the way to a target. The way is repeated from there if the zone was too small for
+/// it.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Start {
     pub(super) state: State,
     pub(super) first_yield: FirstYield,
-    /// Increments that were accepted before.
+    /// Number of increments accepted before the start.
     pub(super) rows: usize,
 }
 
-/// Share of the way between two load factors that lies behind; changes of contact lie evenly in the
-/// factor's power `power`.
+/// Share of the way between two load factors that lies behind. Changes of contact are spread evenly
+/// over the factor to the power `power`.
 pub(super) fn share_of_way(alpha: f64, from: f64, to: f64, power: f64) -> f64 {
     if from == to {
         return 1.0;

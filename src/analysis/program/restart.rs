@@ -1,9 +1,9 @@
-//! Checkpoints of a run, and going on from them.
+//! Checkpoints of a run, and resuming from them.
 //!
-//! A checkpoint is the position in the program with the state of the structure. What follows from
-//! the model (the factor, the condensed loads and matrices, the places of freedoms) is computed
-//! again: the same operations on the same numbers. Writing one changes nothing in the run, so that
-//! results do not depend on whether and how often that is done.
+//! A checkpoint is the position in the program with the state of the structure. Everything that
+//! follows from the model (the factor, the condensed loads and matrices, the places of freedoms) is
+//! computed again, by the same operations on the same numbers. Writing a checkpoint changes nothing
+//! in the run, so results do not depend on whether, or how often, checkpoints are written.
 
 use super::assembled::Analysis;
 use super::checkpoints::{CheckpointWriter, RunRecord};
@@ -20,7 +20,7 @@ use crate::results::{HistoryRow, PathPoint, Results, State};
 use std::time::Instant;
 
 impl<'m, 'o> Run<'m, 'o> {
-    /// This run, writing a checkpoint at every `every`-th increment.
+    /// Returns this run, set up to write a checkpoint at every `every`-th increment.
     pub(super) fn with_checkpoints(self, store: Store, every: usize) -> Self {
         Run {
             checkpoints: Some(CheckpointWriter::new(store, every)),
@@ -28,9 +28,9 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
-    /// Writes a checkpoint where one is due after an increment: at every so many, and one more
-    /// where the run is `stopping`. A run does not end because that fails, its results are worth
-    /// more; it says so, once.
+    /// Writes a checkpoint if one is due: after the set number of increments, and once more if the
+    /// run is `stopping`. A failure to write does not end the run, whose results are worth more; it
+    /// is reported once.
     pub(super) fn write_checkpoint(&mut self, new_increments: usize, stopping: bool) {
         let Some(writer) = &mut self.checkpoints else {
             return;
@@ -53,7 +53,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
-    /// The run that the last checkpoint is of.
+    /// Sets up the run from its last checkpoint.
     ///
     /// # Errors
     /// Errors of [`Store::read`] and
@@ -126,7 +126,7 @@ impl<'m, 'o> Run<'m, 'o> {
     }
 }
 
-/// The states, rows and points of the path of a checkpoint.
+/// Collects the states, rows and points of the path of a checkpoint.
 fn results_of(record: &mut RunRecord, store: &Store) -> Result<Results> {
     let mut results = Results {
         resumed: record.resumed + 1,
@@ -144,8 +144,8 @@ fn results_of(record: &mut RunRecord, store: &Store) -> Result<Results> {
     Ok(results)
 }
 
-/// Whether a position, with the states before it and the start of its way, is one of the program of
-/// this structure.
+/// Whether a position, with the states before it and the start of its way, belongs to the program
+/// of this structure.
 fn fits(position: &Position, results: &Results, start: Option<&Start>, solver: &Solver) -> bool {
     let program = &solver.structure.model.scene.program;
     let n_targets = program.targets.len();

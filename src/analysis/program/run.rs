@@ -15,9 +15,10 @@ use crate::results::{Quality, Results};
 use std::cell::Cell;
 use std::rc::Rc;
 
-/// Doublings of the load in search of first yield or of a target.
+/// Most doublings of the load in the search for first yield or for a target.
 pub(super) const DOUBLINGS: usize = 60;
-/// Choices of the zone that are tried for a target, or in search of the place of first yield.
+/// Most choices of the zone that are tried for a target, or in the search for the place of first
+/// yield.
 pub(super) const ZONE_ATTEMPTS: usize = 8;
 
 /// A structure on its way through the load program.
@@ -25,13 +26,13 @@ pub(in crate::analysis) struct Run<'m, 'o> {
     pub(in crate::analysis) solver: Solver<'m>,
     pub(in crate::analysis) zone: ZoneFit,
     pub(super) position: Position,
-    /// Where the way to the target at hand starts.
+    /// The start of the way to the current target.
     pub(super) start: Option<Start>,
-    /// Function that vanishes at the target at hand, where the target is no load factor.
+    /// Function that vanishes at the current target, if the target is not a load factor.
     pub(super) monitor: Option<Box<Monitor<'m>>>,
-    /// Whether the target at hand was looked for with a zone outside of which unloading yields.
+    /// Whether the current target was searched for with a zone outside of which unloading yields.
     pub(super) unloads_outside: Rc<Cell<bool>>,
-    /// What each row of the history has besides.
+    /// Gauges for the additional columns of the history.
     pub(super) gauges: Option<Gauges>,
     /// Names of the targets.
     pub(super) labels: Vec<String>,
@@ -41,7 +42,7 @@ pub(in crate::analysis) struct Run<'m, 'o> {
     pub(super) path: PathSampler,
     pub(super) checkpoints: Option<CheckpointWriter>,
     pub(super) purpose: Purpose,
-    /// Quality of the state at first yield, where that is all that is asked for.
+    /// Quality of the state at first yield, if the run looks only for first yield.
     pub(super) at_yield: Option<Quality>,
 }
 
@@ -75,7 +76,7 @@ impl<'m, 'o> Run<'m, 'o> {
         self.solver.structure.model
     }
 
-    /// Does work that a row of the time table is about.
+    /// Does some work and counts its time in a row of the time table.
     pub(super) fn timed<T>(&mut self, row: TimeRow, work: impl FnOnce(&mut Self) -> T) -> T {
         let before = self.position.seconds.switch(row);
         let out = work(self);
@@ -83,14 +84,14 @@ impl<'m, 'o> Run<'m, 'o> {
         out
     }
 
-    /// The history follows what the scene asks for.
+    /// Sets up the gauges and columns of the history that the scene asks for.
     pub(super) fn follow_sets(&mut self) -> Result<()> {
         self.gauges = Gauges::of(self.model())?;
         self.results.history_columns = Gauges::columns(self.model());
         Ok(())
     }
 
-    /// Warns of what there is to say.
+    /// Warns with the given text, if there is any.
     pub(super) fn warn(&mut self, text: Option<String>) {
         let Some(text) = text else { return };
         self.observer.warning(&text);

@@ -1,10 +1,11 @@
-//! The elastic stress at the program's largest loads by a coarser mesh, so that a solid is factored
-//! once.
+//! The elastic stress at the program's largest loads, computed on a coarser mesh so that a solid is
+//! factored only once.
 //!
-//! Where a solid will yield is known after first yield only, and to factor it again for that zone
-//! costs as much as the first time. A mesh of the same family with elements twice as large shows
-//! the stress beforehand for a sixty-fourth of the operations. Its error is covered by the margin
-//! of the zone; a zone that still proves too small is enlarged like any other.
+//! The region in which a solid will yield is known only after first yield, and factoring the solid
+//! again for that zone costs as much as the first time. A mesh of the same family with elements
+//! twice as large shows the stress beforehand for a sixty-fourth of the operations. Its error is
+//! covered by the margin of the zone; a zone that still proves too small is enlarged like any
+//! other.
 
 use super::assembled::Analysis;
 use super::position::Purpose;
@@ -21,15 +22,16 @@ use crate::scene::Scene;
 use crate::space::{Vector, along};
 use std::time::Instant;
 
-/// Element size of the coarser mesh over that of the run.
+/// Ratio of the element size of the coarser mesh to that of the run's mesh.
 const COARSER: f64 = 2.0;
-/// Least ratio at which it costs little enough: an eighth of the factorisation.
+/// Least ratio of element sizes at which the coarser mesh costs little enough: an eighth of the
+/// factorisation.
 const LEAST: f64 = 1.4;
 
-/// The stress as the coarser mesh shows it; `None` where the zone is known without it, where there
-/// is no coarser mesh, or none on which the program begins, and where no element is seen to yield:
-/// of a load that a target finds no more than first yield is known, and elements that are coarse
-/// for the contact miss the largest stress.
+/// The stress ratios from a coarser mesh. `None` if the zone is known without them; if there is no
+/// coarser mesh, or none on which the program begins; and if no element is predicted to yield: for
+/// a load that a target searches for, only first yield is known, and elements that are coarse for
+/// the contact miss the largest stress.
 pub(super) fn expect(analysis: &Analysis, observer: &mut dyn Observer) -> Option<Expected> {
     let since = Instant::now();
     let model = &analysis.model;
@@ -58,7 +60,8 @@ fn on_its_own_mesh(analysis: &Analysis, observer: &mut dyn Observer) -> Result<O
     run.ratios_at_extremes()
 }
 
-/// The value of the nearest element of the same body, the largest of equally near ones.
+/// Carries values from one mesh to another: each element gets the value of the nearest element of
+/// the same body, the largest one if several are equally near.
 fn carried_over(from: &Mesh, values: &[f64], to: &Mesh) -> Vec<f64> {
     let of_body = |name: &String| {
         let body = from.bodies.iter().position(|other| other == name);
@@ -85,7 +88,7 @@ fn middle(mesh: &Mesh, element: usize) -> Vector {
     places.fold([0.0; 3], |sum, x| along(sum, share, x))
 }
 
-/// Passes on nothing but whether the run is to stop.
+/// Observer that passes on nothing but the request to stop.
 struct UntilStopped<'o>(&'o mut dyn Observer);
 
 impl Observer for UntilStopped<'_> {

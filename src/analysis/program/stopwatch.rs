@@ -1,8 +1,8 @@
-//! The time table of a run: at each moment one row of it is running.
+//! The time table of a run: at each moment exactly one row of it is running.
 //!
 //! The stopwatch is switched from row to row and never stopped in between, so that the rows add up
-//! to the whole by construction. Work that is done on the way through other work has its own row
-//! and not the other's.
+//! to the whole by construction. Work done within other work counts in its own row and not in the
+//! row of the other work.
 
 use crate::results::FACTORISATION_ROW;
 use serde::{Deserialize, Serialize};
@@ -15,14 +15,14 @@ pub(super) enum TimeRow {
     Condensation,
     /// The search for the load at first yield.
     YieldLoad,
-    /// Choice of the zone by the stress at the largest loads.
+    /// Choice of the zone from the stress at the largest loads.
     Zone,
     /// Increments before first yield.
     Contact,
-    /// Increments beyond it.
+    /// Increments beyond first yield.
     Plasticity,
-    /// What is noted of each increment: contact patches, pressures, points of the path; and the
-    /// way from target to target.
+    /// Records of each increment (contact patches, pressures, points of the path), and the
+    /// transition from target to target.
     History,
     /// Figures of states: displacements, contact patches, dents, quality.
     States,
@@ -47,8 +47,8 @@ impl TimeRow {
     ];
 }
 
-/// A stopwatch that runs for one row at a time. What a checkpoint holds of it are the seconds so
-/// far: it goes on from there.
+/// A stopwatch that runs for one row at a time. A checkpoint holds its seconds so far, from which
+/// it continues.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub(super) struct Stopwatch {
     seconds: [f64; TimeRow::ALL.len()],
@@ -73,12 +73,12 @@ impl Default for Stopwatch {
 }
 
 impl Stopwatch {
-    /// This stopwatch, running for its row from `since` on.
+    /// Returns this stopwatch, with its current row running since `since`.
     pub(super) fn running_since(self, since: Instant) -> Self {
         Stopwatch { since, ..self }
     }
 
-    /// Runs for another row from now on; the row before.
+    /// Switches to another row and returns the row that was running before.
     pub(super) fn switch(&mut self, to: TimeRow) -> TimeRow {
         let now = Instant::now();
         self.seconds[self.row as usize] += now.duration_since(self.since).as_secs_f64();
@@ -86,8 +86,8 @@ impl Stopwatch {
         std::mem::replace(&mut self.row, to)
     }
 
-    /// Seconds that were spent for the row at hand and belong to another, which was measured on its
-    /// own.
+    /// Moves seconds from the current row to another row, to which they belong and for which they
+    /// were measured separately.
     pub(super) fn hand_over(&mut self, seconds: f64, to: TimeRow) {
         self.seconds[self.row as usize] -= seconds;
         self.seconds[to as usize] += seconds;
@@ -103,8 +103,8 @@ impl Stopwatch {
 mod tests {
     use super::*;
 
-    /// Instants are read once for the row that ends and the one that begins: nothing is lost and
-    /// nothing counts twice.
+    /// The clock is read once for the row that ends and the row that begins, so that no time is
+    /// lost or counted twice.
     #[test]
     fn rows_add_up_to_the_whole() {
         for (place, (row, _)) in TimeRow::ALL.into_iter().enumerate() {
@@ -125,7 +125,7 @@ mod tests {
             .iter()
             .map(|(row, _)| watch.seconds(*row))
             .sum();
-        // Durations are whole nanoseconds: what is left is the round-off of some thousand sums.
+        // Durations are whole nanoseconds: the difference is the round-off of some thousand sums.
         assert!(
             (sum - whole).abs() <= 4e3 * f64::EPSILON * (whole + 1e-4),
             "{sum} {whole}"

@@ -1,4 +1,4 @@
-//! The search for the load factor at which what a target waits for has its value.
+//! The search for the load factor at which the quantity of a target has its value.
 
 use super::awaited::Awaited;
 use super::position::TargetSearch;
@@ -11,8 +11,8 @@ use crate::scene::{Direction, DisplacementTarget};
 use std::rc::Rc;
 
 impl<'m> Run<'m, '_> {
-    /// Function that vanishes at the target at hand, of order 1 where it is measured against
-    /// `scale`: so the accuracy of the search does not depend on units.
+    /// Function that vanishes at the current target. It is of order 1 when measured against
+    /// `scale`, so that the accuracy of the search does not depend on units.
     ///
     /// # Errors
     /// A target that cannot be measured.
@@ -53,7 +53,8 @@ impl<'m> Run<'m, '_> {
         }))
     }
 
-    /// A monitored quantity at a load factor that is a little larger, nothing yielding on the way.
+    /// Value of a monitored quantity at a slightly larger load factor, if nothing yields on the
+    /// way.
     pub(super) fn a_little_ahead(&mut self, monitor: &Monitor) -> Result<f64> {
         let before = self.solver.state();
         let alpha = before.at.alpha;
@@ -67,8 +68,8 @@ impl<'m> Run<'m, '_> {
         value
     }
 
-    /// From here on the load factor moves up (doubling) or down to zero until the monitored
-    /// quantity, `off` here, vanishes.
+    /// Begins a search: from here on, the load factor moves up (doubling) or down to zero until the
+    /// monitored quantity, which is `off` now, vanishes.
     pub(super) fn search(&mut self, monitor: Box<Monitor<'m>>, off: f64, upward: bool, scale: f64) {
         self.monitor = Some(monitor);
         self.position.search = Some(TargetSearch {
@@ -80,7 +81,7 @@ impl<'m> Run<'m, '_> {
         });
     }
 
-    /// Sets out for the next load factor of a search.
+    /// Begins the way to the next load factor of a search.
     pub(super) fn widen_search(&mut self) -> Result<()> {
         let Some(mut search) = self.position.search else {
             return Ok(());
@@ -102,13 +103,14 @@ impl<'m> Run<'m, '_> {
         Ok(())
     }
 
-    /// The monitored quantity has vanished.
+    /// Ends the search, because the monitored quantity has vanished.
     pub(super) fn end_search(&mut self) {
         self.position.search = None;
         self.position.stops.clear();
     }
 
-    /// Sets out for a half width or a figure: with growing load, or back where there is more of it.
+    /// Begins the search for a half width or a figure: with growing load, or with falling load if
+    /// the present value is too large.
     pub(super) fn search_figure(&mut self) -> Result<()> {
         let (target, label) = self.target();
         let monitor = self.monitor_of(1.0)?;
@@ -131,8 +133,8 @@ impl<'m> Run<'m, '_> {
         )))
     }
 
-    /// What to say where the figure of the target that was landed on is off, since it jumps: what
-    /// is read off a state is not always continuous.
+    /// A warning if the figure of the target that was reached is off because it jumps there:
+    /// figures of a state are not always continuous.
     pub(super) fn passed_in_a_jump(&mut self) -> Result<Option<String>> {
         let (target, label) = self.target();
         let Some(monitor) = self.monitor.as_ref().filter(|_| target.finds_load()) else {
@@ -150,8 +152,7 @@ impl<'m> Run<'m, '_> {
         }))
     }
 
-    /// What the target at hand waits for, the value that it asks for and the one that there is, in
-    /// words.
+    /// Describes the quantity of the current target, its present value and its target value.
     fn how_far(&mut self) -> Result<String> {
         let target = self.target().0;
         let awaited = Awaited::of(self.model(), target)?;
@@ -185,7 +186,7 @@ impl<'m> Run<'m, '_> {
         }
     }
 
-    /// What ended the way to a target that is searched for, with how far it came.
+    /// The error that ended the way to a target that is searched for, with the values reached.
     pub(super) fn not_reached(&mut self, error: Error) -> Error {
         let ends = matches!(
             error.kind(),

@@ -13,7 +13,7 @@ use crate::results;
 use crate::scene::{Kind, Stepping, Target, Unit};
 
 impl<'m> Run<'m, '_> {
-    /// Sets out for the next target.
+    /// Begins the way to the next target.
     pub(super) fn begin_target(&mut self) -> Result<()> {
         self.set_start();
         let (target, label) = self.target();
@@ -43,7 +43,8 @@ impl<'m> Run<'m, '_> {
         Ok(())
     }
 
-    /// After the last target of a cycle: whether another follows.
+    /// Begins the next cycle after the last target of a cycle. Returns whether there is a next
+    /// cycle.
     pub(super) fn begin_cycle(&mut self) -> bool {
         let (structure, zone) = (&self.solver.structure, &self.solver.zone);
         let program = &structure.model.scene.program;
@@ -59,7 +60,7 @@ impl<'m> Run<'m, '_> {
         follows
     }
 
-    /// Takes note of where the way to a target starts.
+    /// Stores the state at the start of the way to a target.
     pub(super) fn set_start(&mut self) {
         self.start = Some(Start {
             state: self.solver.state(),
@@ -71,15 +72,15 @@ impl<'m> Run<'m, '_> {
         }
     }
 
-    /// The target at hand and its name.
+    /// The current target and its name.
     pub(super) fn target(&self) -> (&'m Target, String) {
         let index = self.position.target;
         let target = &self.model().scene.program.targets[index];
         (target, self.labels[index].clone())
     }
 
-    /// What a load factor alone gives, neither the yield load nor the answer of the bodies in it:
-    /// the reported load, or the approach.
+    /// Whether the reported load, and whether the approach, are given by the load factor alone:
+    /// without the yield load and without the response of the bodies.
     fn given_by_factor(&self) -> [bool; 2] {
         let model = self.model();
         let is_known = model.scene.program.unit != Unit::Yield;
@@ -92,11 +93,11 @@ impl<'m> Run<'m, '_> {
         ]
     }
 
-    /// Takes the state at a target that was reached. The guard layer only sees what grows out of
-    /// the zone. If the state shows stress beyond yield elsewhere, the zone is widened to there and
-    /// the way to the target is taken anew. The same happens if the state is elastic by the
-    /// recovered stress and a Gauss point is beyond yield: the Gauss points are watched from then
-    /// on.
+    /// Takes the state at a target that was reached. The guard layer sees only yielding that grows
+    /// out of the zone. If the state shows stress beyond yield elsewhere, the zone is widened to
+    /// include it, and the way to the target is repeated. The way is also repeated if the state is
+    /// elastic by the recovered stress and a Gauss point is beyond yield: from then on, the Gauss
+    /// points are watched.
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
         let (target, label) = self.target();
         let mut figures = self.timed(TimeRow::States, |run| {
@@ -135,8 +136,8 @@ impl<'m> Run<'m, '_> {
         self.position.attempt += 1;
         self.solver.restore(&start.state);
         self.results.history.truncate(start.rows);
-        // What was searched for first yield did not hold all that yields: the way is watched from
-        // its start.
+        // The zone searched for first yield did not hold all elements that yield: the way is
+        // watched from its start.
         self.position.first_yield = FirstYield {
             elastic_range: [0.0; 2],
             watched,
@@ -179,7 +180,7 @@ impl<'m> Run<'m, '_> {
         stops
     }
 
-    /// Share of the way to the target at hand that lies behind.
+    /// Share of the way to the current target that lies behind.
     pub(super) fn share_behind(&self, arrival: Option<Arrival>) -> f64 {
         let Some(start) = &self.start else {
             return 0.0;
@@ -201,8 +202,9 @@ impl<'m> Run<'m, '_> {
         }
     }
 
-    /// Power of the load in which increments lie evenly: where changes of contact end them that of
-    /// the width of Hertz' contacts, if the contact grows pair by pair.
+    /// Power of the load over which increments are spread evenly. If increments end at changes of
+    /// contact and the contact grows pair by pair, it is the power with which the width of Hertz'
+    /// contact grows.
     fn changes_by_load(&self) -> f64 {
         let model = self.model();
         let mut contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);

@@ -1,5 +1,5 @@
-//! Runs whose answer is known in closed form, on paths that leave the usual one: no target that
-//! asks for first yield, loads that fall or turn, yielding far from the contact.
+//! Tests of runs whose result is known in closed form, on unusual paths: no target that asks for
+//! first yield, loads that fall or turn, yielding far from the contact.
 
 use super::assembled::Analysis;
 use super::position::Purpose;
@@ -56,7 +56,7 @@ on = "bar.right"
     )
 }
 
-/// Plastic strain of the bar at the last state, with the equilibrium of all states checked.
+/// Plastic strain of the bar in the last state; the equilibrium of all states is checked.
 fn plastic_strain(text: &str) -> f64 {
     let results = run(text);
     assert!(results.incomplete.is_none(), "{:?}", results.incomplete);
@@ -71,7 +71,8 @@ fn plastic_strain(text: &str) -> f64 {
     results.states[results.states.len() - 1].max_equivalent_plastic_strain
 }
 
-/// Pulled to 1.5 times the yield strain, perfectly plastic: half of the yield strain is plastic.
+/// A perfectly plastic bar pulled to 1.5 times the yield strain: half of the yield strain is
+/// plastic.
 const PULLED: &str = "displacement = { x = 0.015 }";
 
 fn assert_half_of_yield_strain(strain: f64) {
@@ -146,8 +147,8 @@ fn tiny_displacement_targets_are_hit_as_accurately_as_large_ones() {
     }
 }
 
-/// Two blocks in contact, large enough for the zone to be a part of them, and far away a softer
-/// block that yields first.
+/// Two blocks in contact, so large that the zone is only a part of them, and a softer block far
+/// away that yields first.
 fn blocks_and_a_soft_one(targets: &str) -> String {
     format!(
         r#"
@@ -222,15 +223,15 @@ fn first_yield_far_from_the_contact_is_found() {
     let first = results.first_yield.expect("yield");
     assert!((first.alpha - 1.0).abs() < 1e-9, "{}", first.alpha);
     assert_eq!(first.body, 2);
-    // Twice the yield stress of 1 over the plastic modulus of 100.
+    // The stress is twice the yield stress of 1: its excess of 1 over the plastic modulus of 100.
     let strain = results.states[1].max_equivalent_plastic_strain;
     assert!((strain - 0.01).abs() < 1e-9, "{strain}");
 }
 
 #[test]
 fn yielding_far_from_the_contact_is_noticed_without_a_yield_load() {
-    // Two blocks of height 1 compressed by 0.004: stress 2, twice the yield stress of the soft
-    // block under the same pressure.
+    // Two blocks of height 1 are compressed by 0.004: the stress is 2, twice the yield stress of
+    // the soft block under the same pressure.
     let target =
         r#"targets = [{ displacement = { on = "upper.top", direction = "y", value = -0.004 } }]"#;
     let state = &sparse(&blocks_and_a_soft_one(target)).states[0];
@@ -242,8 +243,8 @@ fn yielding_far_from_the_contact_is_noticed_without_a_yield_load() {
     );
 }
 
-/// A solve that what is looked for needs may fail: the search ends with that error and its cause,
-/// wherever on the way that is.
+/// A solve that a search needs may fail: the search then ends with the error of the solve and its
+/// cause, wherever on the way that happens.
 #[test]
 fn a_search_ends_with_the_error_of_what_it_looks_at() {
     let text = bar("", PULLED, "[program]\ntargets = [{ load_factor = 0.3 }]");
@@ -281,8 +282,8 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
     }
 }
 
-/// Progress covers the whole program, and each leg about as it takes time: the pairs of a ball that
-/// is let go open one after the other down to the smallest loads.
+/// Progress covers the whole program, and each leg roughly in proportion to its time: when a ball
+/// is unloaded, its pairs open one after the other down to the smallest loads.
 #[test]
 #[cfg_attr(
     not(any(feature = "cholmod", feature = "faer")),
@@ -315,7 +316,7 @@ fn progress_is_done_with_the_last_increment_only() {
     };
     assert!(before < 0.995 && last == 1.0, "{:?}", seen.0);
     assert!(seen.0.is_sorted());
-    // Half of the increments of the last leg lie behind at about half of its share.
+    // When half of the increments of the last leg are done, about half of its share is done.
     let top = results
         .history
         .iter()
@@ -325,8 +326,8 @@ fn progress_is_done_with_the_last_increment_only() {
     assert!((0.72..0.95).contains(&half), "{half}");
 }
 
-/// Where the way to a target starts goes through a checkpoint with all that a retry with a wider
-/// zone puts back.
+/// The start of the way to a target passes through a checkpoint with everything that is restored
+/// when the way is repeated with a wider zone.
 #[test]
 fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
     let path = concat!(
@@ -357,8 +358,8 @@ fn the_start_of_a_way_keeps_the_first_yield_that_was_known() {
     assert_eq!(start.state.open, run.solver.tableau.open());
 }
 
-/// Back stresses that fade make a tangent that is not symmetric where flow turns: Newton's
-/// direction is its solution nevertheless, and its products are the differences of the forces.
+/// Fading back stresses make the tangent unsymmetric if flow turns. Newton's direction still solves
+/// it, and its products agree with differences of the forces.
 #[test]
 fn a_tangent_that_is_not_symmetric_is_solved() {
     let rest = r#"
@@ -382,7 +383,7 @@ targets = [{ load_factor = 1.0 }, { load_factor = 1.3 }]
     run.execute().unwrap();
     let solver = &mut run.solver;
     assert!(!solver.zone.is_symmetric());
-    // On from here under more of the second load.
+    // The path continues from here under more of the second load.
     let mut u = solver.now.u.clone();
     let mut seed = 1u64;
     u.zone.iter_mut().for_each(|u| {
@@ -393,7 +394,7 @@ targets = [{ load_factor = 1.0 }, { load_factor = 1.3 }]
     let (mut load, mut taken) = (zeros.clone(), zeros.clone());
     let evaluation = solver.zone.evaluate(&u, &mut load);
     assert!(evaluation.yielding > 4, "{evaluation:?}");
-    // A residual of no particular direction.
+    // The residual has no particular direction.
     let mut residual = zeros.clone();
     let values = residual.zone.iter_mut().enumerate();
     values.for_each(|(i, r)| *r = ((i * i) as f64).sin());
@@ -407,14 +408,14 @@ targets = [{ load_factor = 1.0 }, { load_factor = 1.3 }]
         "{:e}",
         left.largest()
     );
-    // Its products, forwards and in the transposed order: `v' K w` and `w' K v`.
+    // Products of the tangent, forwards and in the transposed order: `v' K w` and `w' K v`.
     let w = solver.direction(residual.clone()).u;
     let v = direction.u.clone();
     let mut of_w = zeros.clone();
     solver.zone.softening_times(&w, &mut of_w);
     let [there, back] = [v.dot(&of_w), w.dot(&taken)];
     assert!((there - back).abs() > 1e-4 * there.abs(), "{there} {back}");
-    // Differences of the initial loads.
+    // The product is compared with differences of the initial loads.
     let step = 1e-5 * u.largest() / v.largest();
     let [mut ahead, mut behind] = [u.clone(), u.clone()];
     ahead.add(step, &v);

@@ -1,4 +1,4 @@
-//! A look at what unloading leaves: the way back to load factor zero, and the state put back.
+//! Computes the state that unloading leaves: goes back to load factor zero, and restores the state.
 
 use crate::analysis::increments::plastic::PlasticDrive;
 use crate::analysis::increments::step::{Arrival, Rules};
@@ -7,8 +7,8 @@ use crate::error::Result;
 use crate::model::Model;
 use std::ops::ControlFlow;
 
-/// The way from a state back to load factor zero, as the load program would take it: elastic from
-/// change to change of contact, in increments where the material yields on the way back.
+/// The way from a state back to load factor zero, as the load program would take it: elastically
+/// from one change of contact to the next, in increments if the material yields on the way back.
 pub(super) struct Unloading<'m> {
     model: &'m Model,
 }
@@ -18,7 +18,7 @@ impl<'m> Unloading<'m> {
         Unloading { model }
     }
 
-    /// What is read once the load factor is zero; the state is as before afterwards. `None` where
+    /// Reads a quantity after the load factor has gone to zero, and restores the state. `None` if
     /// something outside the zone yields on the way.
     ///
     /// # Errors
@@ -41,7 +41,7 @@ impl<'m> Unloading<'m> {
         found
     }
 
-    /// Goes to load factor zero; false where the zone is too small for that.
+    /// Goes to load factor zero. Returns false if the zone is too small for that.
     fn go(&self, solver: &mut Solver) -> Result<bool> {
         let scene = &self.model.scene;
         let rules = Rules {
@@ -68,7 +68,7 @@ impl<'m> Unloading<'m> {
         Ok(true)
     }
 
-    /// Ends of the straight pieces on the way from a load factor to zero.
+    /// Load factors at the ends of the straight pieces on the way from a load factor to zero.
     fn stops(&self, from: f64) -> Vec<f64> {
         let kinks = self.model.loads.iter().flat_map(|load| load.kinks());
         let mut stops: Vec<f64> = kinks.filter(|kink| kink * (from - kink) > 0.0).collect();

@@ -1,5 +1,5 @@
-//! The zone of a run: fitted to the program's extreme loads, following the load, grown where it
-//! must.
+//! The zone of a run: fitted to the program's extreme loads, following the load, and enlarged when
+//! it proves too small.
 
 use super::run::Run;
 use super::stopwatch::TimeRow;
@@ -9,19 +9,20 @@ use crate::analysis::increments::step::crosses;
 use crate::error::Result;
 use crate::scene::History;
 
-/// Factor on the load from one stage of the zone to the next: what it saves in trailing solves
-/// against what a stage costs, a copy of the zone's part of the factor.
+/// Factor on the load from one stage of the zone to the next. It balances the savings in trailing
+/// solves against the cost of a stage, which is a copy of the zone's part of the factor.
 const STAGE: f64 = 1.1;
 
 impl Run<'_, '_> {
-    /// Chooses the zone for the program's extreme loads from the elastic stress there. What was
-    /// factored as zone usually holds it; else this is the second factorisation, and the last.
+    /// Chooses the zone for the program's extreme loads from the elastic stress at these loads. The
+    /// elements factored as zone usually include it; otherwise this is the second factorisation,
+    /// and the last.
     pub(super) fn fit_zone(&mut self) -> Result<()> {
         if self.zone.choice.holds_all(self.model()) {
             return Ok(());
         }
         let Some(at_yield) = self.position.first_yield.alpha else {
-            // Nothing yields: the elastic path needs no zone at all.
+            // Nothing yields: the elastic path needs no zone.
             return Ok(());
         };
         let extremes = self.extreme_factors(at_yield);
@@ -37,9 +38,8 @@ impl Run<'_, '_> {
         if model.loads.iter().all(proportional) && model.pairs.iter().all(|p| p.interference == 0.0)
         {
             let highest = extremes.iter().fold(0.0f64, |m, a| m.max(a.abs()));
-            // Under a contact that has grown far beyond it, the place of first yield has less
-            // stress than the law gives it: near a surface von Mises stress falls as pressure evens
-            // out.
+            // The place of first yield has less stress than this law predicts if the contact has
+            // grown far beyond it: near a surface, von Mises stress falls as pressure evens out.
             let growth = 1.0 / zone_choice::decline(model, at_yield.abs() / highest);
             for (ratio, before) in ratios.iter_mut().zip(&self.zone.ratios_before_yield) {
                 *ratio = ratio.max(before * growth);
@@ -49,8 +49,8 @@ impl Run<'_, '_> {
         Ok(())
     }
 
-    /// Elastic von Mises stress over yield stress of each element at first yield and at the
-    /// program's extreme loads, the larger one; `None` where nothing yields.
+    /// Ratio of elastic von Mises stress to yield stress of each element: the larger of the values
+    /// at first yield and at the program's extreme loads. `None` if nothing yields.
     pub(super) fn ratios_at_extremes(&mut self) -> Result<Option<Vec<f64>>> {
         let Some(at_yield) = self.position.first_yield.alpha else {
             return Ok(None);
@@ -60,8 +60,8 @@ impl Run<'_, '_> {
         self.elastic_ratios(&factors).map(Some)
     }
 
-    /// Elastic von Mises stress over yield stress of each element, the largest at some load
-    /// factors.
+    /// Ratio of elastic von Mises stress to yield stress of each element, the largest over the
+    /// given load factors.
     fn elastic_ratios(&mut self, factors: &[f64]) -> Result<Vec<f64>> {
         let before = self.solver.state();
         let mut ratios = vec![0.0f64; self.model().mesh.n_elements()];
@@ -81,8 +81,9 @@ impl Run<'_, '_> {
         Ok(ratios)
     }
 
-    /// Lets the zone follow the load: while it is far below the program's largest, so is the zone.
-    /// Whether the monitored quantity vanished by that.
+    /// Lets the zone follow the load: as long as the load is far below the program's largest load,
+    /// the zone is small. Returns whether the monitored quantity vanished by the change of the
+    /// zone.
     pub(super) fn follow_load(&mut self) -> Result<bool> {
         let (reached, until) = (self.solver.at.alpha.abs(), self.position.zone_until);
         let Some(spread) = self.zone.spread.as_ref().filter(|_| reached >= until) else {
@@ -107,8 +108,9 @@ impl Run<'_, '_> {
         self.change_zone(next)
     }
 
-    /// Goes on with another zone amid a drive. That puts the state in equilibrium anew, within the
-    /// tolerance, which may be all that was missing: whether the monitored quantity vanished.
+    /// Changes the zone in the middle of a drive. The state is brought into equilibrium again,
+    /// within the tolerance, and this may be all that was missing: returns whether the monitored
+    /// quantity vanished.
     pub(super) fn change_zone(&mut self, choice: Choice) -> Result<bool> {
         let measure = |run: &mut Self| match &run.monitor {
             Some(monitor) => monitor(&mut run.solver).map(Some),
@@ -123,8 +125,9 @@ impl Run<'_, '_> {
         Ok(was.zip(is).is_some_and(|(was, is)| crosses(was, is)))
     }
 
-    /// Load factors between which the program moves, and those on the way at which a load turns; a
-    /// target half width of m times that at yield stands for m^2.
+    /// The largest and smallest load factor of the program, and the factors in between at which a
+    /// load has a kink. A target half width of m times that at yield counts as m^2 times the yield
+    /// load.
     fn extreme_factors(&self, at_yield: f64) -> Vec<f64> {
         let mut all: Vec<f64> = Vec::new();
         for target in &self.model().scene.program.targets {
@@ -140,7 +143,7 @@ impl Run<'_, '_> {
         extremes
     }
 
-    /// Goes on with another zone; state and history are kept.
+    /// Changes the zone; state and history are kept.
     pub(super) fn set_zone(&mut self, choice: Choice) -> Result<()> {
         if choice == self.zone.choice {
             return Ok(());

@@ -1,4 +1,4 @@
-//! What the stresses of elements come to: forces on their nodes, and what fields show of them.
+//! Results from the stresses of elements: forces on their nodes, and the values that fields show.
 
 use super::indicator::Recovered;
 use super::point_values;
@@ -8,16 +8,16 @@ use crate::space::Vector;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-/// Elements that are evaluated before their forces are summed: few enough to stay in the
+/// Number of elements that are evaluated before their forces are summed: few enough to stay in the
 /// processor's cache.
 const BLOCK: usize = 2048;
-/// Elements that a thread takes at a time.
+/// Number of elements that a thread takes at a time.
 const GRAIN: usize = 128;
-/// Share by which a stress must be beyond yield to count: the accuracy of the equilibrium
-/// iteration.
+/// Share by which a stress must exceed the yield stress to count as beyond yield: the accuracy of
+/// the equilibrium iteration.
 const BEYOND: f64 = 1e-8;
 
-/// Stresses of some elements of a mesh.
+/// Results from the stresses of some elements of a mesh.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct ElementStresses {
     /// Forces on the nodes of the mesh, in global axes.
@@ -26,34 +26,34 @@ pub(in crate::analysis) struct ElementStresses {
     pub(in crate::analysis) beyond_yield_outside: Vec<usize>,
     /// Whether an element of the zone carries more than its initial yield stress.
     pub(in crate::analysis) beyond_yield_inside: bool,
-    /// Where fields are asked for.
+    /// Values that fields show, if fields are asked for.
     pub(in crate::analysis) shown: Option<ShownStresses>,
 }
 
-/// What fields show of some elements, one after the other.
+/// Values that fields show, one element after the other.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct ShownStresses {
-    /// Means of the stress.
+    /// Mean stress of each element.
     pub(in crate::analysis) stress: Vec<f64>,
-    /// The largest von Mises stress at a point.
+    /// The largest von Mises stress at a point of each element.
     pub(in crate::analysis) von_mises: Vec<f64>,
-    /// The largest equivalent plastic strain at a point.
+    /// The largest equivalent plastic strain at a point of each element.
     pub(in crate::analysis) plastic_strain: Vec<f64>,
-    /// Recovered stresses and energies, by the polynomials around the elements.
+    /// Recovered stresses and energies, from the polynomials around the elements.
     pub(in crate::analysis) recovered: Recovered,
-    /// Values at the points, where they are asked for.
+    /// Values at the integration points, if they are asked for.
     pub(in crate::analysis) points: Option<PointValues>,
 }
 
-/// An element as it comes out of a block.
+/// Result for one element of a block.
 struct Evaluated<const D: usize, const N: usize> {
     forces: [[f64; D]; N],
     beyond_yield: bool,
 }
 
 impl ElementStresses {
-    /// Evaluates the given elements, ascending. Sums run in their order: the bits do not depend on
-    /// the number of threads.
+    /// Evaluates the given elements (ascending). Sums run in the order of the elements, so the bits
+    /// do not depend on the number of threads.
     pub(in crate::analysis) fn new<
         const D: usize,
         const S: usize,
@@ -75,7 +75,7 @@ impl ElementStresses {
         }
     }
 
-    /// Nothing yet, of a mesh of so many nodes and elements.
+    /// Zero results for a mesh with the given numbers of nodes and elements.
     pub(in crate::analysis) fn zeros(
         n_nodes: usize,
         n_elements: usize,
@@ -99,8 +99,8 @@ impl ElementStresses {
         }
     }
 
-    /// Adds what comes of a part of the mesh: `elements` of it were evaluated, `nodes` are its
-    /// nodes, and `all` its elements, as the mesh numbers them.
+    /// Adds the results of a part of the mesh. `elements` were evaluated; `nodes` and `all` are the
+    /// nodes and elements of the part, in the numbering of the mesh.
     pub(in crate::analysis) fn add(
         &mut self,
         part: ElementStresses,
@@ -166,8 +166,8 @@ impl ShownStresses {
     }
 }
 
-/// Forces on the nodes in global axes, and the elements that are beyond their initial yield stress.
-/// While the forces of one block are summed the next is evaluated.
+/// Returns forces on the nodes in global axes, and the elements that are beyond their initial yield
+/// stress. While the forces of one block are summed, the next block is evaluated.
 fn nodal_forces<const D: usize, const S: usize, const P: usize, const N: usize>(
     field: &StressField<D, S, P, N>,
     elements: &[usize],

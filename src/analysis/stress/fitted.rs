@@ -1,10 +1,12 @@
-//! The strain of linear triangles and tetrahedra, from displacements fitted over the nodes around.
+//! The strain of linear triangles and tetrahedra, from displacements fitted over the surrounding
+//! nodes.
 //!
-//! The strain of a linear triangle is constant, right to first order at its centroid at best, and
-//! wrong in a way that depends on how its neighbours lie: a fit over such strains carries that on.
-//! The gradient of the quadratic polynomial that fits the displacements of all nodes around by
-//! least squares is exact for a quadratic field on any mesh, and right to second order: yield loads
-//! are, on meshes that are cut in a pattern and on irregular ones.
+//! The strain of a linear triangle is constant. It is of first order at best, at the centroid, and
+//! its error depends on how the neighbours lie, which a fit over such strains does not remove.
+//! Instead, a quadratic polynomial is fitted by least squares to the displacements of all
+//! surrounding nodes. Its gradient is exact for a quadratic field on any mesh, and of second order
+//! otherwise. Yield loads are of second order too, on meshes cut in a pattern and on irregular
+//! ones.
 //!
 //! # Source
 //! Z. Zhang, A. Naga, A new finite element gradient recovery method: superconvergence property,
@@ -18,37 +20,38 @@ use crate::space::Vector;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Least pivot of the scaled normal equations.
+/// Least pivot of the scaled normal equations with which a fit counts as determined.
 const LEAST_PIVOT: f64 = 1e-2;
-/// Layers of elements around a triangle whose nodes are taken where those of fewer do not determine
-/// a quadratic.
+/// Most layers of elements around a triangle whose nodes are used. A layer is added as long as the
+/// nodes do not determine a quadratic polynomial.
 const MOST_LAYERS: usize = 3;
-/// Triangles that a thread takes at a time.
+/// Number of triangles that a thread takes at a time.
 const GRAIN: usize = 64;
 
-/// The strains of the linear triangles among some elements, as sums over nodes.
+/// The strains of the linear triangles and tetrahedra in a list of elements, as sums over nodes.
 #[derive(Debug, Default)]
 pub struct FittedStrains<const D: usize> {
     nodes: Vec<NodalPlaces>,
-    /// Where the terms of each element begin. One that is no linear triangle, or cannot be fitted,
-    /// has none.
+    /// Index at which the terms of each element begin. An element that is not linear, or cannot be
+    /// fitted, has no terms.
     first: Vec<u32>,
     terms: Vec<Term<D>>,
 }
 
-/// What the displacement of a node counts at a centroid.
+/// Share of the displacement of a node in the strain at a centroid.
 #[derive(Debug, Clone, Copy)]
 struct Term<const D: usize> {
     node: u32,
-    /// In the derivatives along the axes.
+    /// Share in the derivatives along the axes.
     gradient: [f64; D],
-    /// In the value over the radius, where there are hoop strains.
+    /// Share in the displacement divided by the radius, if there are hoop strains.
     hoop: f64,
 }
 
 impl<const D: usize> FittedStrains<D> {
-    /// Fits around the linear triangles among `elements`; `around` has, for the place of each in
-    /// that list, the places of those of its body that share a node with it, itself included.
+    /// Fits displacements around the linear elements among `elements`. For an index in that list,
+    /// `around` returns the indices of all elements of the same body that share a node with the
+    /// element, itself included.
     pub fn new(
         model: &Model,
         elements: &[usize],
@@ -103,19 +106,19 @@ impl<const D: usize> FittedStrains<D> {
         out
     }
 
-    /// The displacements of the nodes in global axes, for the values of a `Nodal`.
+    /// The displacements of the fitted nodes in global axes, read from the values of a `Nodal`.
     pub fn displacements(&self, nodal: &[f64]) -> Vec<Vector> {
         self.nodes.iter().map(|node| node.of(nodal)).collect()
     }
 
-    /// The strain `[xx, yy, zz, xy | yz, zx]` of an element at its centroid; `None` where it is not
-    /// fitted.
+    /// The strain `[xx, yy, zz, xy | yz, zx]` of an element at its centroid; `None` if the element
+    /// is not fitted.
     pub fn strain<const S: usize>(&self, i: usize, displacements: &[Vector]) -> Option<[f64; S]> {
         let [begin, end] = *self.first.get(i..i + 2)? else {
             return None;
         };
         let terms = &self.terms[begin as usize..end as usize];
-        // A translation, which may be large, strains nothing.
+        // A translation, which may be large, causes no strain and is subtracted.
         let first = displacements[terms.first()?.node as usize];
         let mut slopes = [[0.0; D]; D];
         let mut hoop = 0.0;
@@ -140,8 +143,8 @@ impl<const D: usize> FittedStrains<D> {
     }
 }
 
-/// What the displacements of nodes count in the quadratic fit at the centroid of a triangle; `None`
-/// where they do not determine it.
+/// Shares of the nodal displacements in the quadratic fit at the centroid of an element; `None` if
+/// the nodes do not determine the fit.
 fn terms<const D: usize>(model: &Model, element: usize, nodes: Vec<u32>) -> Option<Vec<Term<D>>> {
     let mesh = &model.mesh;
     let own = mesh.nodes(element);
@@ -187,8 +190,8 @@ mod tests {
     use crate::shape::Shape;
     use crate::substructure::Trailing;
 
-    /// Strains of a quadratic field that vanishes where the supports are, in every triangle of
-    /// tubes and spheres: exact to round-off.
+    /// Strains of a quadratic field that vanishes on the supports are exact to round-off in every
+    /// triangle of tubes and spheres.
     #[test]
     fn quadratic_displacements_have_exact_strains() {
         for name in ["thick_cylinder", "thick_sphere"] {
@@ -249,8 +252,8 @@ mod tests {
                     -0.01 * x - 0.03 * y,
                 ];
                 let found: [f64; 4] = fitted.strain(e, &moved).unwrap();
-                // Round-off of displacements over the size of an element, once for each pivot that
-                // is lost.
+                // Round-off of displacements divided by the size of an element, amplified by the
+                // least pivot.
                 let size = moved.iter().flatten().fold(0.0f64, |m, u| m.max(u.abs()));
                 let tolerance = 100.0 * f64::EPSILON * size / LEAST_PIVOT;
                 for (a, b) in found.iter().zip(exact) {

@@ -1,9 +1,9 @@
-//! How much the stresses of an element differ from a smoother, more accurate field: where the mesh
-//! is too coarse.
+//! The difference between the stresses of an element and a smoother, more accurate field: an
+//! indicator of where the mesh is too coarse.
 //!
 //! Around each element a polynomial of the degree of its displacements is fitted, by least squares,
-//! to the stresses at the superconvergent points of the element and of those that share a node with
-//! it. The recovered `sigma*` converges faster than `sigma_h`, so that their difference in the
+//! to the stresses at the superconvergent points of the element and of all elements that share a
+//! node with it. The recovered `sigma*` converges faster than `sigma_h`, so their difference in the
 //! energy norm estimates the error of `sigma_h`:
 //!
 //! ```text
@@ -17,7 +17,7 @@
 //! estimates, parts 1 and 2, Int. J. Numer. Meth. Engng 33 (1992) 1331-1382,
 //! doi:10.1002/nme.1620330702.
 //!
-//! The stress at a node is the mean of the polynomials of its elements there.
+//! The stress at a node is the mean, over its elements, of their polynomials at the node.
 
 mod rules;
 
@@ -39,31 +39,32 @@ const DETERMINED: f64 = 1e-7;
 
 /// Energy of the estimated stress error and of the stress itself, element by element.
 pub(in crate::analysis) struct Indicator {
-    /// `eta_e`, relative to the energy norm of the whole: the sum of their squares is the square of
-    /// [`Indicator::total`].
+    /// `eta_e`, relative to the energy norm of the whole solution: the sum of the squares is the
+    /// square of [`Indicator::total`].
     pub by_element: Vec<f64>,
-    /// `eta`: estimated energy norm of the error over that of the solution, 0 to 1.
+    /// `eta`: estimated energy norm of the error divided by that of the solution, 0 to 1.
     pub total: f64,
     /// `n_nodes x S`: the recovered stress at the nodes.
     pub nodal_stress: Vec<f64>,
 }
 
-/// What the polynomials around some elements say.
+/// Energies and nodal stresses from the polynomials around some elements.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct Recovered {
-    /// Energies of `sigma* - sigma_h` and of `sigma_h`, for each of these elements.
+    /// Energies of `sigma* - sigma_h` and of `sigma_h`, for each element.
     pub(super) energies: Vec<[f64; 2]>,
     /// `n_nodes x S`: sums of `sigma*` at the nodes of the mesh.
     pub(in crate::analysis) at_nodes: Vec<f64>,
-    /// Number of elements that the sum at each node is over.
+    /// Number of elements that contribute to the sum at each node.
     pub(super) n_elements_of: Vec<u32>,
 }
 
-/// Elements whose stresses at the nodes are held at a time.
+/// Number of elements whose stresses at the nodes are held at a time.
 const AT_A_TIME: usize = 1 << 14;
 
 impl Recovered {
-    /// Fits around some elements of a stress field; it holds all that share a node with them.
+    /// Fits polynomials around some elements of a stress field. The field must hold all elements
+    /// that share a node with them.
     pub(in crate::analysis) fn new<
         const D: usize,
         const S: usize,
@@ -91,7 +92,7 @@ impl Recovered {
                     recovered(continuum, e, &field.at(e), patch, &samples)
                 })
                 .collect();
-            // One after the other: the same bits for any number of threads.
+            // The sums run in the order of the elements: the same bits for any number of threads.
             for (&e, of_element) in some.iter().zip(&recovered) {
                 out.energies.push(of_element.energies);
                 for (&node, stress) in mesh.nodes(e).iter().zip(&of_element.at_nodes) {
@@ -106,15 +107,15 @@ impl Recovered {
         out
     }
 
-    /// Estimated energy norm of the error over that of the solution, of some of the elements where
-    /// these are all; `None` of none.
+    /// Estimated energy norm of the error divided by that of the solution, over the elements that
+    /// `counts` selects, if all elements are held; `None` if no energy is selected.
     pub(in crate::analysis) fn error_of(&self, counts: impl Fn(usize) -> bool) -> Option<f64> {
         let ours = self.energies.iter().enumerate().filter(|(e, _)| counts(*e));
         let [error, whole] = ours.fold([0.0; 2], |sum, (_, e)| [sum[0] + e[0], sum[1] + e[1]]);
         (error + whole > 0.0).then(|| (error / (error + whole)).sqrt())
     }
 
-    /// The indicator, where these are all elements, of `components` of stress.
+    /// The indicator of the whole mesh, with `components` of stress, if all elements are held.
     pub(in crate::analysis) fn indicator(self, components: usize) -> Indicator {
         let mut nodal_stress = self.at_nodes;
         let nodes = nodal_stress.chunks_exact_mut(components);
@@ -140,11 +141,11 @@ impl Recovered {
     }
 }
 
-/// What the polynomials of an element say.
+/// Energies and nodal stresses from the polynomial around one element.
 struct OfElement<const S: usize, const N: usize> {
     /// Energies of `sigma* - sigma_h` and of `sigma_h`.
     energies: [f64; 2],
-    /// `sigma*` at its nodes.
+    /// `sigma*` at the nodes of the element.
     at_nodes: [[f64; S]; N],
 }
 
@@ -155,7 +156,7 @@ struct PointStress<const D: usize, const S: usize> {
     stress: [f64; S],
 }
 
-/// The samples of all elements, element by element.
+/// The stress samples of all elements, element by element.
 struct ElementSamples<const D: usize, const S: usize> {
     first: Vec<u32>,
     list: Vec<PointStress<D, S>>,
@@ -198,8 +199,8 @@ impl<const D: usize, const S: usize> ElementSamples<D, S> {
     }
 }
 
-/// Values at the superconvergent points of a quadratic element, for those at its Gauss points: the
-/// same ones, but of full integration.
+/// Values at the superconvergent points of a quadratic element, from its values at the Gauss
+/// points. The two sets of points are equal unless the element is fully integrated.
 fn superconvergent<const P: usize, const C: usize>(
     continuum: &Continuum,
     e: usize,
@@ -219,7 +220,8 @@ fn superconvergent<const P: usize, const C: usize>(
     })
 }
 
-/// The centre of a linear element carries its mean, a quadratic one its superconvergent points.
+/// Samples the stress of an element: a linear element has its mean at the centre, a quadratic
+/// element its values at the superconvergent points.
 fn sample<const D: usize, const S: usize, const P: usize, const N: usize>(
     continuum: &Continuum,
     e: usize,
@@ -250,12 +252,12 @@ fn degree(continuum: &Continuum, e: usize) -> usize {
     continuum.mesh.shapes[e].reference().degree
 }
 
-/// A point of the quadrature: where, its weight, and `sigma_h` there.
+/// A point of the quadrature: its coordinates, its weight and `sigma_h`.
 type QuadraturePoint<const D: usize, const S: usize> = ([f64; D], f64, [f64; S]);
 
-/// Calls `visit` for each point at which the stresses are compared. Quadratic elements have their
-/// stress at the Gauss points, where it is superconvergent and its error all but vanishes: between
-/// them it is the polynomial through them.
+/// Calls `visit` for each point at which the stresses are compared. A quadratic element has its
+/// stress at the Gauss points, where the stress is superconvergent and its error nearly vanishes.
+/// Between these points the polynomial through them is taken.
 fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
     continuum: &Continuum,
     e: usize,
@@ -303,7 +305,7 @@ fn quadrature<const D: usize, const S: usize, const P: usize, const N: usize>(
     }
 }
 
-/// The fit around element `e` and what follows from it.
+/// Fits the polynomial around element `e`, and returns its energies and nodal stresses.
 fn recovered<const D: usize, const S: usize, const P: usize, const N: usize>(
     continuum: &Continuum,
     e: usize,
@@ -313,8 +315,8 @@ fn recovered<const D: usize, const S: usize, const P: usize, const N: usize>(
 ) -> OfElement<S, N> {
     let material = &continuum.materials[continuum.mesh.element_body[e] as usize];
     let frame = Frame::about(&continuum.mesh, e);
-    // A patch that does not determine the polynomial (a single element, a row of them) takes a
-    // lower degree.
+    // A patch that does not determine the polynomial (a single element, a row of elements) gets a
+    // polynomial of lower degree.
     let fit = Some(degree(continuum, e))
         .filter(|degree| *degree > 1)
         .and_then(|_| fit::<2, D, S>(&frame, patch, samples))
@@ -339,7 +341,7 @@ fn recovered<const D: usize, const S: usize, const P: usize, const N: usize>(
     OfElement { energies, at_nodes }
 }
 
-/// `sigma : C sigma = ((1 + nu) sigma : sigma - nu tr(sigma)^2) / E`.
+/// Returns `sigma : C sigma = ((1 + nu) sigma : sigma - nu tr(sigma)^2) / E`.
 fn compliance_energy<const S: usize>(material: &Material, stress: &[f64; S]) -> f64 {
     let nu = material.poissons_ratio;
     let trace = stress[0] + stress[1] + stress[2];
@@ -349,22 +351,22 @@ fn compliance_energy<const S: usize>(material: &Material, stress: &[f64; S]) -> 
     ((1.0 + nu) * square - nu * trace * trace) / material.youngs_modulus
 }
 
-/// Weight of a sample by its place in element sizes from the centre: the nearer ones count more,
-/// else a field that turns within the patch (stresses round a hole) is smoothed away.
+/// Weight of a sample, from its distance to the centre in element sizes. Nearer samples count more:
+/// otherwise a field that turns within the patch (stresses round a hole) would be smoothed away.
 fn weight(x: &[f64]) -> f64 {
     let square: f64 = x.iter().map(|x| x * x).sum();
     1.0 / (1.0 + square * square)
 }
 
-/// The coefficients of the weighted least-squares polynomial of each component; `None` where the
-/// samples do not determine it.
+/// The coefficients of the weighted least-squares polynomial for each stress component; `None` if
+/// the samples do not determine it.
 fn fit<const DEGREE: usize, const D: usize, const S: usize>(
     frame: &Frame<D>,
     patch: &[u32],
     samples: &ElementSamples<D, S>,
 ) -> Option<[Terms; S]> {
     let within = || patch.iter().flat_map(|&member| samples.of(member));
-    // As many samples as terms would be interpolated, noise and all.
+    // With only as many samples as terms, the polynomial would interpolate them, errors included.
     let n = PatchFit::<D, DEGREE>::N_TERMS;
     if n > 1 && within().count() <= n {
         return None;

@@ -1,27 +1,27 @@
-//! Samples of an element across which its body is one element thick.
+//! Samples of an element across which its body is only one element thick.
 //!
 //! The stress of a linear quadrilateral, hexahedron or prism is most accurate at its middle. One
-//! sample there does not show how the stress changes across a body that is one element thick, as in
-//! a strip under bending: its surfaces may be beyond yield while the middle carries nothing. The
-//! Gauss points on either side of the middle have a sample each, their mean, which along the body
-//! is as good as the middle.
+//! sample there does not show how the stress changes across a body that is one element thick. In a
+//! strip under bending, for example, the surfaces may be beyond yield while the middle carries
+//! nothing. Therefore there is one sample on either side of the middle: the mean over the Gauss
+//! points of that side, which is as accurate along the body as the middle.
 
 use super::neighbours::Neighbours;
 use crate::mesh::Mesh;
 use crate::space::{Vector, difference, length};
 
-/// Which Gauss points of an element are taken together.
+/// Groups of Gauss points of an element that are averaged into one sample.
 #[derive(Debug, Clone)]
 pub struct Layers {
-    /// The sample that each Gauss point belongs to.
+    /// The sample to which each Gauss point belongs.
     sample_of: Vec<usize>,
-    /// How many Gauss points each sample has.
+    /// Number of Gauss points in each sample.
     shares: Vec<f64>,
 }
 
 impl Layers {
-    /// The layers of an element of a list; `points` gives the positions of its Gauss points. `None`
-    /// if its body is more than one element thick everywhere.
+    /// The layers of an element of a list; `points` returns the positions of its Gauss points.
+    /// `None` if the body is more than one element thick here in every direction.
     pub fn of(
         (mesh, list, neighbours): (&Mesh, &[usize], &Neighbours),
         element: usize,
@@ -40,7 +40,7 @@ impl Layers {
             places.fold([0.0; 3], |sum, x| [0, 1, 2].map(|d| sum[d] + share * x[d]))
         };
         let ends: Vec<[Vector; 2]> = sides.iter().map(|s| s.each_ref().map(middle)).collect();
-        // A bit for each pair of sides: the nearer one.
+        // One bit for each pair of opposite sides: which of the two is nearer.
         let side = |x: &Vector| {
             let bits = ends.iter().enumerate().map(|(bit, ends)| {
                 let [one, other] = ends.map(|end| length(difference(*x, end)));
@@ -64,8 +64,8 @@ impl Layers {
         self.shares.len()
     }
 
-    /// The means of values at the Gauss points (`K` of each point, point by point in lanes), sample
-    /// by sample in the lanes.
+    /// Averages values at the Gauss points (`K` values per point, one lane per point) over each
+    /// sample. The lanes of the result are the samples.
     pub fn means<const K: usize, const P: usize>(
         &self,
         at_points: &[[f64; P]; K],
@@ -87,8 +87,8 @@ mod tests {
     use crate::shape::{Integration, Shape};
     use crate::space::Space;
 
-    /// Three squares in a row and two on top of one of them: a layer across the row where it is
-    /// alone, none where it is not.
+    /// Three squares in a row and one on top of the last: a square without others above and below
+    /// it has two samples, a square with another on top has none.
     #[test]
     fn elements_alone_across_a_body_have_a_sample_on_either_side() {
         let mut mesh = Mesh {
@@ -129,7 +129,7 @@ mod tests {
             assert!((sample[1] - y).abs() < 1e-15, "{found:?}");
         }
         assert_eq!(layers(2), None);
-        // The square on top is alone from left to right.
+        // The square on top has no neighbours to its left and right.
         assert_eq!(layers(3).map(|samples| samples.len()), Some(2));
     }
 }

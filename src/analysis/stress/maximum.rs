@@ -1,29 +1,30 @@
 //! The highest point of a smooth function on a square or cube, from few values.
 //!
-//! Three values along each axis, on a stencil of points `spacing` apart, lead, by least squares, to
-//! a quadratic whose highest point on the stencil is tried, too. The place then is right to the
-//! square of the spacing, so that the next spacing may be the square of this one; the value is
-//! right to the square of the place's error. Stencils lie on a lattice: where a function that
-//! differs little is searched again it is asked for at the same points.
+//! Three values along each axis, on a stencil of points `spacing` apart, give a quadratic by least
+//! squares. The highest point of the quadratic on the stencil is tried as well. The position is
+//! then accurate to the square of the spacing, so the next spacing may be the square of this one.
+//! The value is accurate to the square of the error in position. Stencils lie on a lattice: if a
+//! function that differs little is searched again, it is evaluated at the same points.
 
-/// Spacings of one search after the other, on a square of side 2: the whole square first.
+/// Spacings of successive searches on a square of side 2; the first stencil covers the whole
+/// square.
 pub const SPACINGS: [f64; 4] = [1.0, 1.0 / 4.0, 1.0 / 16.0, 1.0 / 256.0];
-/// Stencils of one spacing that may follow one another uphill.
+/// Most stencils of one spacing that may follow one another uphill.
 const MOST_MOVES: usize = 50;
-/// A place this near to the edge of its stencil, in spacings, is on it.
+/// A position is on the edge of its stencil if it is this near to it, in spacings.
 const ON_EDGE: f64 = 1e-9;
 
-/// The highest point that was found on `[-1, 1]^D`.
+/// The highest point found on `[-1, 1]^D`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Maximum<const D: usize> {
     /// Value of the function at its highest point.
     pub value: f64,
-    /// The highest point itself.
+    /// Coordinates of the highest point.
     pub at: [f64; D],
 }
 
 impl<const D: usize> Maximum<D> {
-    /// The middle of the square, not looked at yet.
+    /// The start of a search: the middle of the square, not evaluated yet.
     pub fn unknown() -> Self {
         Maximum {
             value: f64::NEG_INFINITY,
@@ -31,8 +32,8 @@ impl<const D: usize> Maximum<D> {
         }
     }
 
-    /// Looks round the point for a higher one, and goes on from stencil to stencil while that leads
-    /// uphill. `f` also gets whether a point lies on the lattice.
+    /// Looks for a higher point around the highest one so far, and moves from stencil to stencil as
+    /// long as that leads uphill. `f` is also told whether a point lies on the lattice.
     pub fn look_around(&mut self, spacing: f64, f: &mut impl FnMut([f64; D], bool) -> f64) {
         for _ in 0..MOST_MOVES {
             let from = *self;
@@ -69,7 +70,7 @@ impl<const D: usize> Maximum<D> {
     }
 }
 
-/// Most values of a stencil.
+/// Largest number of values on a stencil.
 const MOST_VALUES: usize = 27;
 
 /// Point `k` of the stencil `{-1, 0, 1}^D`, the last coordinate running fastest.
@@ -77,22 +78,22 @@ fn on_stencil<const D: usize>(k: usize) -> [f64; D] {
     std::array::from_fn(|d| (k / 3usize.pow((D - 1 - d) as u32) % 3) as f64 - 1.0)
 }
 
-/// `q(x) = g . x + x . H x / 2` on a stencil, up to a constant.
+/// The quadratic `q(x) = g . x + x . H x / 2` on a stencil, up to a constant.
 struct StencilQuadratic<const D: usize> {
     gradient: [f64; D],
     hessian: [[f64; D]; D],
 }
 
 impl<const D: usize> StencilQuadratic<D> {
-    /// The least-squares fit to the values at `{-1, 0, 1}^D`, whose normal equations are diagonal
-    /// up to the constant.
+    /// The least-squares fit to the values at `{-1, 0, 1}^D`. Its normal equations are diagonal
+    /// except for the constant.
     fn of(values: &[f64; MOST_VALUES]) -> Self {
         let n = 3usize.pow(D as u32);
         let sum = |weight: &dyn Fn([f64; D]) -> f64| -> f64 {
             let points = values.iter().enumerate().take(n);
             points.map(|(k, value)| weight(on_stencil(k)) * value).sum()
         };
-        // Sums of the squares of x, of x^2 - 2/3 (twice), of x y over the stencil.
+        // The sums of the squares of x, of x^2 - 2/3 (times two) and of x y over the stencil.
         let (first, square, mixed) = (n / 3 * 2, n / 9, n / 9 * 4);
         StencilQuadratic {
             gradient: std::array::from_fn(|d| sum(&|x| x[d]) / first as f64),
@@ -115,7 +116,7 @@ impl<const D: usize> StencilQuadratic<D> {
     fn highest(&self) -> [f64; D] {
         let mut best = [0.0; D];
         for sides in 0..3usize.pow(D as u32) {
-            // Of each coordinate -1, free, or 1.
+            // Each coordinate is fixed at -1, free, or fixed at 1.
             let side: [f64; D] = on_stencil(sides);
             let x = self.stationary(side);
             let inside = x.iter().all(|x| x.abs() <= 1.0);
@@ -126,8 +127,8 @@ impl<const D: usize> StencilQuadratic<D> {
         best
     }
 
-    /// Where the gradient along the coordinates with `side` 0 vanishes, the others being at their
-    /// sides.
+    /// The point at which the gradient along all coordinates with `side` 0 vanishes, with the other
+    /// coordinates fixed at their sides.
     fn stationary(&self, side: [f64; D]) -> [f64; D] {
         let mut matrix = self.hessian;
         let mut x: [f64; D] = self.gradient.map(|g| -g);
@@ -138,7 +139,8 @@ impl<const D: usize> StencilQuadratic<D> {
                 x[a] = side[a];
             }
         }
-        // Gauss elimination; what has no solution is no number, and not inside.
+        // Gauss elimination: a system without a solution leaves NaN, which does not count as
+        // inside.
         for a in 0..D {
             let pivot = (a..D).max_by(|&i, &j| matrix[i][a].abs().total_cmp(&matrix[j][a].abs()));
             let pivot = pivot.unwrap_or(a);
@@ -176,8 +178,8 @@ mod tests {
         (maximum, asked)
     }
 
-    /// Inside, on a side, at a corner, a ridge; the place is as near as the square of the last
-    /// spacing, and the value as the square of that.
+    /// The highest point is found inside, on a side, at a corner and on a ridge. Its position is
+    /// accurate to the square of the last spacing, and its value to the square of that.
     #[test]
     fn finds_the_highest_point_from_few_values() {
         let near = SPACINGS[3] * SPACINGS[3];
@@ -189,8 +191,8 @@ mod tests {
             };
             let (maximum, asked) = found(f);
             assert!(asked <= 60, "{asked}");
-            // Against the highest of a fine grid: no lower than what is left to gain within the
-            // error of the place.
+            // The result is compared with the highest point of a fine grid: it may be lower by no
+            // more than the error in position allows.
             let steps = |n: i32| (-n..=n).map(move |i| f64::from(i) / f64::from(n));
             let grid = steps(400).flat_map(|x| steps(400).map(move |y| [x, y]));
             let highest = grid.map(|x| (f(x), x)).max_by(|a, b| a.0.total_cmp(&b.0));
@@ -218,7 +220,7 @@ mod tests {
         assert_eq!(found(|_: [f64; 2]| f64::NAN).0, Maximum::unknown());
     }
 
-    /// The quadratic of least squares goes through values that are quadratic.
+    /// The least-squares quadratic reproduces values that are quadratic.
     #[test]
     fn a_quadratic_is_its_own_fit() {
         let given = StencilQuadratic {
@@ -237,7 +239,7 @@ mod tests {
         let slope = 0.3 - 2.0 * at[0] + 0.4 * at[1];
         assert!(slope.abs() < 1e-14 && at[1] < 0.0, "{at:?}");
     }
-    /// In space too: inside, on a face, on an edge, at a corner.
+    /// In a cube the highest point is found inside, on a face, on an edge and at a corner.
     #[test]
     fn finds_the_highest_point_of_a_cube() {
         let near = SPACINGS[3] * SPACINGS[3];
@@ -253,7 +255,7 @@ mod tests {
             };
             let (maximum, asked) = found(f);
             assert!(asked <= 4 * 28 + 28, "{asked}");
-            // No point of a fine grid is higher.
+            // No point of a fine grid is higher than the one found.
             let steps = |n: i32| (-n..=n).map(move |i| f64::from(i) / f64::from(n));
             let grid = steps(40)
                 .flat_map(|x| steps(40).flat_map(move |y| steps(40).map(move |z| [x, y, z])));

@@ -1,4 +1,4 @@
-//! The stresses of a state: where they are looked at, recovered between points, and their error.
+//! The stresses of a state: their values at points, their recovery in between, and their error.
 //!
 //! | file | what | paper |
 //! |---|---|---|
@@ -10,12 +10,12 @@
 //! | `fitted` | strains of linear triangles and tetrahedra | |
 //! | `layers` | samples across a body that is one element thick | |
 //! | `neighbours` | elements that share a node | |
-//! | `element_stresses` | what the stresses of elements come to | |
-//! | `at_corners` | what values at points come to at the corners of their element | |
-//! | `stresses` | the forces that stresses exert, and what has yielded | |
+//! | `element_stresses` | nodal forces and fields from the stresses of elements | |
+//! | `at_corners` | corner values of a field known at integration points | |
+//! | `stresses` | the forces that stresses exert, and the extent of yielding | |
 //! | `point_values` | stresses and strains at integration points, for results | |
 //! | `piece` | the stresses of a state, computed by all ranks | |
-//! | `indicator` | the error of stresses, element by element | |
+//! | `indicator` | the estimated error of stresses, element by element | |
 
 mod at_corners;
 pub(super) mod element_stresses;

@@ -2,16 +2,16 @@
 
 use crate::mesh::{Facet, Mesh};
 
-/// Some elements of a mesh, by their nodes.
+/// The elements of a list, found by the nodes that they share.
 pub struct Neighbours {
-    /// Where the elements at each node begin.
+    /// Index in `places` at which the elements of each node begin.
     first: Vec<u32>,
-    /// Places in the list of elements.
+    /// Indices of elements in the list, node by node.
     places: Vec<u32>,
 }
 
 impl Neighbours {
-    /// Neighbours in a list of elements.
+    /// Sets up the neighbourhood relation for a list of elements.
     pub fn new(mesh: &Mesh, elements: impl Iterator<Item = usize> + Clone) -> Self {
         let mut first = vec![0; mesh.n_nodes() + 1];
         for &node in elements.clone().flat_map(|e| mesh.nodes(e)) {
@@ -32,8 +32,8 @@ impl Neighbours {
         Neighbours { first, places }
     }
 
-    /// Opposite facets of an element of the list that both belong to no other element of it, each
-    /// pair as two lists of nodes: across these the body is one element thick.
+    /// Pairs of opposite facets of a listed element that both belong to no other element of the
+    /// list, each facet as its nodes. Between such a pair the body is one element thick.
     pub fn free_sides(&self, mesh: &Mesh, list: &[usize], element: usize) -> Vec<[Vec<usize>; 2]> {
         let facets = (0..mesh.shapes[element].n_facets()).map(|local| Facet { element, local });
         let facets = facets.map(|facet| mesh.facet_nodes(facet).collect::<Vec<usize>>());
@@ -58,7 +58,7 @@ impl Neighbours {
         sides
     }
 
-    /// The places in the list of the elements that have one of some nodes, ascending.
+    /// Finds the elements that have any of the given nodes, as ascending indices in the list.
     pub fn at(&self, nodes: &[u32], out: &mut Vec<u32>) {
         out.clear();
         for &node in nodes {

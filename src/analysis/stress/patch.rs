@@ -1,4 +1,4 @@
-//! Moving least squares over the samples around an element.
+//! Recovered values by moving least squares over the samples around an element.
 //!
 //! # Source
 //! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
@@ -7,18 +7,18 @@ use super::patch_fit::{CUBIC, Frame, PatchFit};
 use crate::model::images::Reflection;
 use std::collections::HashMap;
 
-/// Least pivot of the scaled normal equations.
+/// Least pivot of the scaled normal equations with which a fit counts as determined.
 const LEAST_PIVOT: f64 = 1e-2;
-/// Reach of the weights in distances between samples.
+/// Radius of the weights, in distances between samples.
 const REACH: f64 = 3.25;
 
-/// How far from the middle points of an element may lie, in its extents: curved sides bulge beyond
-/// their nodes.
+/// Distance from the middle within which the points of an element lie, in extents of the element:
+/// more than half, because curved sides bulge beyond their nodes.
 const HALF: f64 = 0.6;
 
-/// Reach of the weights in sizes of an element with `n` samples: elements with more of them need
-/// fewer neighbours, and a fit over less of the field is closer to it (at a bore the error of the
-/// cubic falls with the fourth power of the reach).
+/// Radius of the weights, in sizes of an element with `n` samples. Elements with more samples need
+/// fewer neighbours, and a fit over a smaller region is closer to the field (at a bore the error of
+/// the cubic falls with the fourth power of the radius).
 pub fn reach(dimension: usize, n: usize) -> f64 {
     match dimension {
         2 => REACH / (n as f64).sqrt(),
@@ -26,7 +26,7 @@ pub fn reach(dimension: usize, n: usize) -> f64 {
     }
 }
 
-/// Places that are kept of a patch: those of one search and some more.
+/// Most points whose fits a patch keeps: the points of one search and some more.
 const MOST_KEPT: usize = 300;
 
 /// Samples around an element, in coordinates relative to it and scaled by its size.
@@ -36,27 +36,27 @@ pub struct Patch<const D: usize> {
     frame: Frame<D>,
     /// Reach of the weights in element sizes.
     reach: f64,
-    /// First those within reach of a point of the element.
+    /// All samples; samples within reach of a point of the element come first.
     samples: Vec<Sample<D>>,
-    /// Number of these samples.
+    /// Number of samples within reach of a point of the element.
     n_near: usize,
-    /// The samples that count in the value last asked for, with their weights and places relative
-    /// to it.
+    /// The samples with a weight in the value computed last: index, weight, and position relative
+    /// to the point of evaluation.
     weighted: Vec<(u32, f64, [f64; D])>,
-    /// Indices of samples and their shares in that value.
+    /// Indices of samples, and their shares in the value computed last.
     shares: Vec<(u32, f64)>,
-    /// Shares in earlier values, by place.
+    /// Shares of samples in values computed earlier, by point of evaluation.
     kept: HashMap<[u64; D], Box<[(u32, f64)]>>,
 }
 
 /// A sample of a patch, or its mirror image.
 #[derive(Debug, Clone, Copy)]
 pub struct Sample<const D: usize> {
-    /// Index of its stress.
+    /// Index of the sampled stress.
     pub index: u32,
-    /// Relative to the patch and scaled.
+    /// Position relative to the patch, scaled by the size of the element.
     pub position: [f64; D],
-    /// Reflection of the sample's stress, where the sample is an image.
+    /// Reflection of the sampled stress, if the sample is a mirror image.
     pub reflection: Option<Reflection>,
 }
 
@@ -81,9 +81,9 @@ impl<const D: usize> Patch<D> {
         }
     }
 
-    /// Moving least squares at a point: the fit of the highest degree that the samples around
-    /// determine. What each sample adds to it depends on the point alone; `keep` has that ready
-    /// where the same point is asked for again.
+    /// Evaluates the moving least squares fit at a point, with the highest degree that the samples
+    /// around determine. The share of each sample depends on the point alone. If `keep` is set, the
+    /// shares are kept for the next call at this point.
     pub fn value<const S: usize>(
         &mut self,
         samples: &[[f64; S]],
@@ -96,7 +96,7 @@ impl<const D: usize> Patch<D> {
         }
         let x = self.frame.relative(at);
         self.weigh(x);
-        // Degrees as constants: the loops over the terms are unrolled.
+        // Degrees are compile-time constants, so that loops over the terms are unrolled.
         if !(self.fit::<CUBIC>() || self.fit::<2>() || self.fit::<1>()) {
             self.weigh_all(x);
             self.fit::<0>();
@@ -107,7 +107,7 @@ impl<const D: usize> Patch<D> {
         self.sum(&self.shares, samples)
     }
 
-    /// Places that are kept.
+    /// Number of points whose fits are kept.
     #[cfg(test)]
     pub fn n_kept(&self) -> usize {
         self.kept.len()
@@ -128,9 +128,9 @@ impl<const D: usize> Patch<D> {
         out
     }
 
-    /// The share that each weighted sample has in the value of the fit of a degree; terms are
-    /// centred at the point, so that the value is the constant term. `false`, and no shares, where
-    /// the samples do not determine it.
+    /// Computes the share of each weighted sample in the value of a fit of the given degree. Terms
+    /// are centred at the point of evaluation, so the value is the constant term. Returns `false`,
+    /// without shares, if the samples do not determine the fit.
     fn fit<const DEGREE: usize>(&mut self) -> bool {
         self.shares.clear();
         let n = PatchFit::<D, DEGREE>::N_TERMS;
@@ -162,8 +162,8 @@ impl<const D: usize> Patch<D> {
         }
     }
 
-    /// Collects all samples, where those within reach determine nothing: with weights that reach
-    /// on.
+    /// Collects all samples, with weights of unlimited reach, for a point at which the samples
+    /// within reach determine no fit.
     fn weigh_all(&mut self, x: [f64; D]) {
         let unit = 1.0 / (self.reach * self.reach);
         let weighted = self.samples.iter().zip(0..).map(|(sample, i)| {

@@ -1,25 +1,25 @@
 //! The polynomial that fits values around an element by weighted least squares.
 //!
-//! With the terms `p(x)` of a polynomial and weights `w_i` at the places `x_i` the coefficients are
-//! `c = G^-1 sum_i w_i p(x_i) s_i`, with `G = sum_i w_i p(x_i) p(x_i)'`. Entries of `G` are moments
-//! of the weights: monomials of twice the degree. Recovered stresses ([`super::patch`]), gradients
-//! of displacements ([`super::fitted`]) and the error indicator ([`super::indicator`]) are such
-//! fits.
+//! With the terms `p(x)` of a polynomial and weights `w_i` at the points `x_i`, the coefficients
+//! are `c = G^-1 sum_i w_i p(x_i) s_i`, with `G = sum_i w_i p(x_i) p(x_i)'`. The entries of `G` are
+//! moments of the weights: sums of monomials up to twice the degree. Recovered stresses
+//! ([`super::patch`]), gradients of displacements ([`super::fitted`]) and the error indicator
+//! ([`super::indicator`]) are fits of this kind.
 
 use crate::mesh::Mesh;
 
 /// Highest degree of the polynomials.
 pub const CUBIC: usize = 3;
-/// Terms of a cubic in space.
+/// Number of terms of a cubic polynomial in three variables.
 const N: usize = n_terms(3, CUBIC);
-/// Monomials of twice its degree.
+/// Number of monomials up to twice the degree of a cubic.
 const MOMENTS: usize = n_terms(3, 2 * CUBIC);
 
-/// A number for each term, by degree: the constant, the coordinates, and so on; those beyond a
-/// fit's degree are zero.
+/// One number for each term, by degree: the constant, the coordinates, and so on. Numbers beyond
+/// the degree of a fit are zero.
 pub type Terms = [f64; N];
 
-/// Terms of a polynomial of a degree in so many variables.
+/// Number of terms of a polynomial with the given number of variables and degree.
 pub const fn n_terms(variables: usize, degree: usize) -> usize {
     match variables {
         2 => (degree + 1) * (degree + 2) / 2,
@@ -27,7 +27,7 @@ pub const fn n_terms(variables: usize, degree: usize) -> usize {
     }
 }
 
-/// Coordinates about an element, of order 1 in it.
+/// Coordinates about an element, scaled so that they are of order 1 in the element.
 #[derive(Debug, Clone, Copy)]
 pub struct Frame<const D: usize> {
     /// Point at which the coordinates vanish.
@@ -37,7 +37,7 @@ pub struct Frame<const D: usize> {
 }
 
 impl<const D: usize> Frame<D> {
-    /// About the middle of an element's extents.
+    /// Coordinates about the middle of an element's extents.
     pub fn about(mesh: &Mesh, element: usize) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
         for &node in mesh.nodes(element) {
@@ -53,7 +53,7 @@ impl<const D: usize> Frame<D> {
         }
     }
 
-    /// A point in these coordinates.
+    /// The coordinates of a point in this frame.
     #[inline(always)]
     pub fn relative(&self, at: impl std::ops::Index<usize, Output = f64>) -> [f64; D] {
         std::array::from_fn(|d| (at[d] - self.center[d]) / self.scale[d])
@@ -62,7 +62,7 @@ impl<const D: usize> Frame<D> {
 
 /// A polynomial of a degree in `D` variables, with its normal equations factored.
 pub struct PatchFit<const D: usize, const DEGREE: usize> {
-    /// Cholesky's factor of `G` scaled to a unit diagonal.
+    /// Cholesky factor of `G` after scaling to a unit diagonal.
     factor: [Terms; N],
     scaling: Terms,
 }
@@ -72,11 +72,11 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
     pub const N_TERMS: usize = n_terms(D, DEGREE);
     /// The exponents of the variables in the monomials, by degree.
     const EXPONENTS: [[usize; 3]; MOMENTS] = exponents(D);
-    /// Which monomial the product of two terms is.
+    /// Index of the monomial that is the product of two terms.
     const PRODUCTS: [[usize; N]; N] = products(&Self::EXPONENTS);
 
-    /// The fit to values at places with weights; `None` where a pivot of the scaled normal
-    /// equations is below `least_pivot`, so that they do not determine it.
+    /// Sets up the fit to values at points with the given weights; `None` if a pivot of the scaled
+    /// normal equations is below `least_pivot`, so that they do not determine the fit.
     #[inline(always)]
     pub fn to(points: impl Iterator<Item = (f64, [f64; D])>, least_pivot: f64) -> Option<Self> {
         let n = Self::N_TERMS;
@@ -101,7 +101,7 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
                 let rest = scaled - known;
                 l[i][j] = if i == j { rest.sqrt() } else { rest / l[j][j] };
             }
-            // Also what is no number.
+            // A pivot that is NaN is refused, too.
             if l[i][i].is_nan() || l[i][i] < least_pivot {
                 return None;
             }
@@ -109,7 +109,7 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
         Some(PatchFit { factor: l, scaling })
     }
 
-    /// The coefficients of the fit to weighted places with their values; `None` as in [`Self::to`].
+    /// The coefficients of the fit to weighted points with values; `None` as in [`Self::to`].
     pub fn through(
         points: impl Iterator<Item = (f64, [f64; D], f64)> + Clone,
         least_pivot: f64,
@@ -145,8 +145,8 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
         c
     }
 
-    /// `G^-1 e_k`: with it, a value `s` of weight `w` at `x` adds [`Self::value`] times `s` to the
-    /// coefficient of term `k`.
+    /// Returns `G^-1 e_k`. With these coefficients, a value `s` of weight `w` at `x` adds
+    /// [`Self::value`] times `s` to the coefficient of term `k`.
     #[inline(always)]
     pub fn coefficient(&self, k: usize) -> Terms {
         let mut right = [0.0; N];
@@ -154,7 +154,7 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
         self.solve(&right)
     }
 
-    /// `first` times the polynomial with some coefficients at a place.
+    /// Returns `first` times the value at `x` of the polynomial with the given coefficients.
     #[inline(always)]
     pub fn value(coefficients: &Terms, first: f64, x: &[f64; D]) -> f64 {
         let powers = powers(first, x);
@@ -165,7 +165,7 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
             .sum()
     }
 
-    /// The terms at a place, times `first`.
+    /// The terms of the polynomial at a point, times `first`.
     #[inline(always)]
     pub fn terms(first: f64, x: &[f64; D]) -> Terms {
         let powers = powers(first, x);
@@ -180,7 +180,7 @@ impl<const D: usize, const DEGREE: usize> PatchFit<D, DEGREE> {
 /// Powers of a number up to twice the highest degree.
 type Powers = [f64; 2 * CUBIC + 1];
 
-/// Powers of each coordinate, those of the first times `first`.
+/// Powers of each coordinate; the powers of the first coordinate are multiplied by `first`.
 #[inline(always)]
 fn powers<const D: usize>(first: f64, x: &[f64; D]) -> [Powers; D] {
     std::array::from_fn(|d| {
@@ -199,8 +199,8 @@ fn monomial<const D: usize>(powers: &[Powers; D], exponents: &[usize; 3]) -> f64
     })
 }
 
-/// The exponents of the variables in the monomials: by degree, then by the powers of the last
-/// ones.
+/// The exponents of the variables in the monomials, ordered by degree, then by the powers of the
+/// later variables.
 const fn exponents(variables: usize) -> [[usize; 3]; MOMENTS] {
     let mut out = [[0; 3]; MOMENTS];
     let (mut k, mut degree) = (0, 0);
@@ -220,7 +220,7 @@ const fn exponents(variables: usize) -> [[usize; 3]; MOMENTS] {
     out
 }
 
-/// Which monomial the product of two terms is; 0 where there are no such terms.
+/// Index of the monomial that is the product of two terms; 0 if its degree is too high.
 const fn products(exponents: &[[usize; 3]; MOMENTS]) -> [[usize; N]; N] {
     let mut out = [[0; N]; N];
     let mut a = 0;
@@ -248,8 +248,8 @@ const fn products(exponents: &[[usize; 3]; MOMENTS]) -> [[usize; N]; N] {
 mod tests {
     use super::*;
 
-    /// A polynomial of its own degree is found from its values, whatever their weights; fewer
-    /// values than terms determine nothing.
+    /// A fit reproduces a polynomial of its own degree from values with any weights. Fewer values
+    /// than terms determine nothing.
     #[test]
     fn a_polynomial_is_its_own_fit() {
         check::<2, 2>();
@@ -264,7 +264,7 @@ mod tests {
         for (k, c) in given.iter_mut().enumerate().take(n) {
             *c = 1.0 / (1.0 + k as f64) - 0.3;
         }
-        // Kronecker's sequence spreads evenly.
+        // Kronecker's sequence distributes points evenly.
         let place = |i: usize| -> [f64; D] {
             let irrational = [0.819_172_513_4, 0.671_043_606_7, 0.549_700_477_9];
             std::array::from_fn(|d| 2.0 * (irrational[d] * i as f64).fract() - 1.0)
@@ -276,7 +276,8 @@ mod tests {
             points(4 * n).map(|(w, x)| (w, x, PatchFit::<D, DEGREE>::value(&given, 1.0, &x)));
         let found = PatchFit::<D, DEGREE>::through(valued, 1e-4).unwrap();
         for k in 0..n {
-            // Round-off over the square of the least pivot, which is above 1e-3 here.
+            // The bound is round-off divided by the square of the least pivot, which is above 1e-3
+            // here.
             assert!((found[k] - given[k]).abs() < 1e-10, "{D} {DEGREE} {k}");
         }
         let slope = fit.coefficient(1);

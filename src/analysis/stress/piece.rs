@@ -1,9 +1,10 @@
-//! The stresses of a state, computed by all ranks: each gets the elements of a part of space.
+//! The stresses of a state, computed by all ranks: each rank gets the elements in one part of
+//! space.
 //!
-//! What a rank gets is complete: its elements with their mesh, displacements, plastic history and
-//! free strains, and the elements around them where stresses are recovered. It keeps nothing of it.
-//! The stress of an element comes out as it would among all elements, to the bit. The forces and
-//! the recovered stresses of a node that several ranks hold are added up rank by rank.
+//! A rank gets complete data: its elements with their mesh, displacements, plastic history and free
+//! strains, and the surrounding elements if stresses are recovered. It keeps none of them. The
+//! stress of an element is the same, to the bit, as if all elements were evaluated together. Forces
+//! and recovered stresses of a node that several ranks hold are added rank by rank.
 
 use super::element_stresses::ElementStresses;
 use super::stress_field::{Strained, StressField};
@@ -17,11 +18,11 @@ use crate::results::PointValues;
 use crate::space::Vector;
 use serde::{Deserialize, Serialize};
 
-/// What a rank is sent.
+/// Data sent to a rank.
 #[derive(Serialize, Deserialize)]
 struct SentPiece {
     continuum: Continuum,
-    /// Elements that are evaluated.
+    /// Elements to be evaluated.
     own: Vec<usize>,
     displacements: Vec<Vector>,
     factors: Vec<f64>,
@@ -32,7 +33,7 @@ struct SentPiece {
     with_fields: bool,
 }
 
-/// A state of a model.
+/// A state of a model, of which all stresses are to be evaluated.
 pub(in crate::analysis) struct Whole<'a> {
     pub(in crate::analysis) model: &'a Model,
     pub(in crate::analysis) displacements: &'a [Vector],
@@ -43,8 +44,8 @@ pub(in crate::analysis) struct Whole<'a> {
     pub(in crate::analysis) with_fields: bool,
 }
 
-/// Evaluates all elements of a state in `n` pieces: `ask` gets what [`evaluate`] answers to the
-/// message of each rank.
+/// Evaluates all elements of a state in `n` pieces. `ask` sends each rank its message and returns
+/// the answers that [`evaluate`] gives.
 ///
 /// # Errors
 /// Errors of the ranks.
@@ -63,7 +64,7 @@ pub(in crate::analysis) fn element_stresses(
         let all = around.as_ref().map_or(own, |around| &around[rank]);
         let (piece, nodes) = whole.piece(own, all, &free);
         parts.push((rank, nodes, all));
-        // Vectors and numbers: nothing that cannot be written.
+        // The piece consists of vectors and numbers, which can always be serialised.
         postcard::to_stdvec(&piece).unwrap_or_default()
     })?;
     let shown = whole.with_fields.then_some(2 * mesh.dimension);
@@ -81,8 +82,8 @@ pub(in crate::analysis) fn element_stresses(
 }
 
 impl Whole<'_> {
-    /// The piece of the elements `all` (ascending), of which those in `own` are evaluated, and its
-    /// nodes.
+    /// The piece with the elements `all` (ascending), of which the elements `own` are to be
+    /// evaluated, and the nodes of the piece.
     fn piece(&self, own: &[usize], all: &[usize], free: &[FreeOfLoad]) -> (SentPiece, Vec<u32>) {
         let (continuum, nodes) = self.model.continuum.part(all);
         let stride = self.history.points.len() / self.in_zone.len().max(1);
@@ -108,10 +109,10 @@ impl Whole<'_> {
     }
 }
 
-/// Computes the stresses of a piece; both are bytes, as ranks send them.
+/// Computes the stresses of a piece. Both are passed as bytes, as ranks send them.
 ///
 /// # Errors
-/// `Internal` where it cannot be read.
+/// `Internal` if the piece cannot be read.
 pub fn evaluate(piece: &[u8]) -> Result<Vec<u8>> {
     let piece: SentPiece = from_bytes(piece)?;
     let Continuum {
@@ -153,7 +154,8 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// Plane, axisymmetric, solid; triangles; free strains; yield stress by depth.
+    /// Scenes that cover plane, axisymmetric and solid models, triangles, free strains, and yield
+    /// stress by depth.
     const SCENES: [(&str, &[&str]); 6] = [
         (
             "disc_in_plate",
@@ -195,7 +197,8 @@ mod tests {
         ),
     ];
 
-    /// An arbitrary field, not smooth: strains from nothing on the left to some times yield.
+    /// An arbitrary field that is not smooth: strains grow from zero on the left to several times
+    /// yield.
     fn displacements(model: &Model) -> Vec<Vector> {
         const YIELD_STRAIN: f64 = 0.02;
         let places = || (0..model.mesh.n_nodes()).map(|n| model.mesh.point(n));
@@ -222,8 +225,8 @@ mod tests {
         places().map(node).collect()
     }
 
-    /// Elements come to the same in any number of pieces, bit for bit; what several pieces add up
-    /// to the round-off of a sum.
+    /// Results of elements are the same bit for bit in any number of pieces. Sums over several
+    /// pieces agree to the round-off of a sum.
     #[test]
     fn elements_come_to_the_same_in_pieces() {
         for (name, changes) in SCENES {
@@ -288,7 +291,8 @@ mod tests {
                 let [recovered, whole] = [&found_shown.recovered, &shown.recovered];
                 assert_eq!(recovered.energies, whole.energies, "{name} in {n}");
                 assert_eq!(recovered.n_elements_of, whole.n_elements_of);
-                // As many terms as elements meet at a node, each no larger than the largest.
+                // A sum has as many terms as elements meet at a node, each no larger than the
+                // largest.
                 let most = *whole.n_elements_of.iter().max().unwrap();
                 let close = |found: &[f64], expected: &[f64], terms: f64| {
                     let size = terms * expected.iter().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -310,7 +314,7 @@ mod tests {
         }
     }
 
-    /// All elements evaluated as one process does, and the largest force of an element.
+    /// Evaluates all elements in one process; also returns the largest force of an element.
     fn at_once<const D: usize, const S: usize, const P: usize, const N: usize>(
         kernel: Kernel<D, S, P, N>,
         whole: &Whole,

@@ -5,10 +5,10 @@ use crate::element::Components;
 use crate::results::PointValues;
 use rayon::prelude::*;
 
-/// Elements that are evaluated before their values are put in place.
+/// Number of elements that are evaluated before their values are stored.
 const BLOCK: usize = 2048;
 
-/// The values of the given elements, one after the other.
+/// The stresses and strains of the given elements, one after the other.
 pub(super) fn of<const D: usize, const S: usize, const P: usize, const N: usize>(
     field: &StressField<D, S, P, N>,
     elements: &[usize],
@@ -35,7 +35,7 @@ pub(super) fn of<const D: usize, const S: usize, const P: usize, const N: usize>
     out
 }
 
-/// The components at a point.
+/// Writes the components of a tensor at one point to `to`.
 fn put<const S: usize, const P: usize>(values: &Components<S, P>, g: usize, to: &mut [f64]) {
     for (to, lanes) in to.iter_mut().zip(values) {
         *to = lanes[g];

@@ -1,12 +1,12 @@
-//! Stress where it is most accurate, and its maximum between the points.
+//! Stress recovery: the stress between the points where it is most accurate, and its maximum.
 //!
-//! Stresses are sampled at superconvergent points; linear triangles have none, their strains are
-//! fitted ([`super::fitted`]). Between them each component is a moving least-squares fit: at a
-//! point `x` a cubic polynomial is fitted to the samples of the same body around, with weights that
-//! fall smoothly to zero, so the recovered stress is continuous, across elements too. Von Mises'
-//! stress is maximised over it: yield load and yield depth then are continuous quantities, not
-//! quantised by the mesh. Beyond a plane of symmetry the samples go on as their mirror images: a
-//! maximum on the plane, as under a ball or cylinder, is found there.
+//! Stresses are sampled at superconvergent points. Linear triangles have none; their strains are
+//! fitted ([`super::fitted`]). Between samples each component is a moving least-squares fit: at a
+//! point `x` a cubic polynomial is fitted to the surrounding samples of the same body, with weights
+//! that fall smoothly to zero. The recovered stress is therefore continuous, across elements too.
+//! Von Mises' stress is maximised over it, so that yield load and yield depth are continuous
+//! quantities, not quantised by the mesh. Beyond a plane of symmetry the samples continue as their
+//! mirror images, so that a maximum on the plane, as under a ball or cylinder, is found.
 //!
 //! # Source
 //! O. C. Zienkiewicz, J. Z. Zhu, superconvergent patch recovery (1992), doi:10.1002/nme.1620330702;
@@ -39,29 +39,31 @@ use std::collections::BTreeMap;
 
 /// Share of the largest sampled ratio above which an element is searched for the recovered maximum.
 const CANDIDATE: f64 = 0.93;
-/// Largest sample over yield below which the maximum is not searched.
+/// Ratio of the largest sample to the yield stress below which no recovered maximum is searched.
 const FAR_BELOW: f64 = 0.85;
-/// Stresses closer than this share are equal.
+/// Relative difference below which stresses count as equal.
 const TIE: f64 = 1e-9;
-/// Share of the stress, times the square of a spacing, by which the stress next to the highest
-/// point of that spacing may exceed it. A search at that spacing leaves the same of its square, and
-/// ends where that is no more than `gamma`: first yield is an event as changes of contact are.
+/// Bound on how sharply the stress is curved: next to the highest point found at a spacing, the
+/// stress exceeds the value found by at most this share times the square of the spacing. After a
+/// search at that spacing at most this share times the fourth power is missed. The search ends when
+/// that is no more than `gamma`: first yield is an event like changes of contact.
 const CURVATURE: f64 = 0.1;
-/// What a search at a spacing leaves, as a share of the stress.
+/// Largest amount that a search at a spacing misses, as a share of the stress.
 fn left_after(spacing: f64) -> f64 {
     CURVATURE * spacing.powi(4)
 }
 
-/// How far the maximum that is found with a `gamma` may lie below the true one, as a share of it.
+/// Bound on how far the maximum found with a `gamma` may lie below the true one, as a share of the
+/// maximum.
 pub fn left_of_search(gamma: f64) -> f64 {
     let last = SPACINGS.iter().find(|s| left_after(**s) <= gamma);
     left_after(*last.unwrap_or(&SPACINGS[SPACINGS.len() - 1]))
 }
 
-/// Elements up to which the fits of one search are kept for the next one, at a load near by: a
-/// quarter of a megabyte for each at most.
+/// Most elements for which the fits of one search are kept for the next, at a load near by: at most
+/// a quarter of a megabyte for each element.
 const FEW: usize = 100;
-/// Elements that a thread takes at a time: fewer take less than waking it.
+/// Number of elements that a thread takes at a time; fewer cost less than waking a thread.
 const GRAIN: usize = 256;
 /// Layers of elements around an element that belong to its patch.
 const LAYERS: usize = 3;
@@ -69,14 +71,14 @@ const LAYERS: usize = 3;
 /// The sampled stresses of all points of all elements, component by component.
 pub type Samples = Vec<f64>;
 
-/// Where and how much the material is strained most.
+/// The place at which the material is strained most, and how much.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// Von Mises stress over initial yield stress.
+    /// Ratio of von Mises stress to initial yield stress.
     pub ratio: f64,
     /// Coordinates of the point.
     pub location: Vector,
-    /// Number of its body.
+    /// Number of the body that the point lies in.
     pub body: usize,
 }
 
@@ -92,7 +94,7 @@ pub enum Recovery {
     FullSolid(Box<RecoveryOf<3, 6, 27, 20>>),
 }
 
-/// Evaluates an expression for the recovery of any kernel.
+/// Evaluates one expression for the recovery of any kernel.
 macro_rules! of_recovery {
     ($self:expr, $recovery:ident => $body:expr) => {
         match $self {
@@ -104,9 +106,9 @@ macro_rules! of_recovery {
     };
 }
 
-/// What [`RecoveryOf`] does, whichever the dimension.
+/// The methods of [`RecoveryOf`], for any kernel.
 impl Recovery {
-    /// Recovery over the given elements (ascending).
+    /// Sets up the recovery over the given elements (ascending).
     pub fn new(model: &Model, elements: &[usize], places: &Places, watched: Watched) -> Self {
         let formulation = model.formulation;
         with_kernel!(model.kind, formulation, model.mesh, kernel => {
@@ -114,7 +116,7 @@ impl Recovery {
         })
     }
 
-    /// Where the stress is watched.
+    /// The points at which the stress is watched for first yield.
     pub fn watched(&self) -> Watched {
         of_recovery!(self, recovery => recovery.watched)
     }
@@ -168,19 +170,20 @@ pub struct RecoveryOf<const D: usize, const S: usize, const P: usize, const N: u
     /// Coordinates of the sampling points.
     positions: Vec<[f64; D]>,
     materials: Vec<(Material, Lame)>,
-    /// The least yield stress at the nodes of each element, where it differs within a body: what
-    /// elements are chosen by. The maximum is that of the yield stress at each place.
+    /// The least yield stress at the nodes of each element, if it varies within a body. Elements to
+    /// be searched are chosen by it; the maximum is of the ratio to the yield stress at each point.
     least_yield: Vec<f64>,
-    /// The yield stress at each Gauss point, if these are watched and it differs within a body.
+    /// The yield stress at each Gauss point, if Gauss points are watched and it varies within a
+    /// body.
     yield_stresses: Vec<f64>,
     nodal: Nodal,
     /// Strains of the linear triangles and tetrahedra.
     fitted: FittedStrains<D>,
-    /// What loads by temperature strain freely.
+    /// Free strains of the loads.
     free: FreeStrains<P>,
     neighbours: Neighbours,
     patches: BTreeMap<u32, Patch<D>>,
-    /// What planes of symmetry must be free of.
+    /// Loads and equations that a plane of symmetry must be free of.
     conditions: Conditions,
     /// Relative tolerance of the maximum.
     gamma: f64,
@@ -188,7 +191,7 @@ pub struct RecoveryOf<const D: usize, const S: usize, const P: usize, const N: u
 }
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<D, S, P, N> {
-    /// Recovery over the given elements (ascending).
+    /// Sets up the recovery over the given elements (ascending).
     fn new(
         kernel: Kernel<D, S, P, N>,
         model: &Model,
@@ -280,10 +283,10 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         out
     }
 
-    /// The maximum of von Mises stress over yield stress, recovered, and never below the largest
-    /// sample; `None` if there is no stress, and so no place of the largest. A largest sample far
-    /// below yield is returned as it is, with its own place: neither needs to be more exact. Of
-    /// equal maxima the first is named, in the order of the elements.
+    /// The recovered maximum of von Mises stress over yield stress, never below the largest sample;
+    /// `None` if there is no stress, and so no place of the largest. If the largest sample is far
+    /// below yield, it is returned with its own place, since neither needs to be more exact. Of
+    /// equal maxima, the first in the order of the elements is returned.
     fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
         let (samples, _) = samples.as_chunks::<S>();
         let raw: Vec<f64> = (0..self.elements.list.len())
@@ -298,8 +301,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
             return self.largest_sample(samples, &raw, highest);
         }
         // A smooth field has its maximum in or beside an element whose sample is a local maximum.
-        // Of equal samples (all round a bore) each counts as one: which is the largest is for
-        // round-off to say, and what is recovered beside them is not the same.
+        // Of equal samples (all round a bore) each counts as a local maximum: only round-off would
+        // decide which of them is the largest, and the stresses recovered beside them differ.
         let mut candidates: Vec<u32> = Vec::new();
         for i in (0..raw.len()).filter(|&i| raw[i] >= CANDIDATE * highest) {
             let around = self.neighbours_of(model, i);
@@ -317,7 +320,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         }
     }
 
-    /// The first sample that is as large as the largest.
+    /// The first sample that is as large as the largest, within round-off.
     fn largest_sample(&self, samples: &[[f64; S]], by_element: &[f64], ratio: f64) -> Option<Peak> {
         let least = ratio * (1.0 - TIE);
         let i = by_element.iter().position(|r| *r >= least)?;
@@ -331,7 +334,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         })
     }
 
-    /// Von Mises stress over yield stress at a sampling point of element `i`.
+    /// Ratio of von Mises stress to yield stress at a sampling point of element `i`.
     fn ratio(&self, i: usize, place: usize, samples: &[[f64; S]]) -> f64 {
         let body = self.elements.list[i].body as usize;
         let limit = (self.yield_stresses.get(place)).or_else(|| self.least_yield.get(i));
@@ -349,8 +352,9 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         around
     }
 
-    /// The maximum over some elements. The recovered field is smooth in an element but not across:
-    /// following the best element of the first search alone would let round-off choose it.
+    /// The recovered maximum over some elements. The recovered field is smooth within an element
+    /// but not across elements. All elements that may hold the maximum are searched on: if only the
+    /// best element of the first search were followed, round-off would choose it.
     fn climb(&mut self, model: &Model, elements: &[u32], samples: &[[f64; S]]) -> Option<Peak> {
         let keep = elements.len() <= FEW;
         let mut tops: Vec<(Cell<D, N>, Maximum<D>)> = Vec::with_capacity(elements.len());
@@ -379,8 +383,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
             let least = highest(&tops) * (1.0 - CURVATURE * spacing * spacing);
             tops.retain(|t| t.1.value >= least);
         }
-        // Like bodies yield together: the first of equals is named (elements are in ascending
-        // order), not that of the larger round-off.
+        // Equal bodies yield together: the first of equal maxima is returned (elements are
+        // ascending), not the one with the larger round-off.
         let ratio = highest(&tops);
         let (cell, top) = tops.iter().find(|t| t.1.value >= ratio * (1.0 - TIE))?;
         Some(Peak {
@@ -390,7 +394,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         })
     }
 
-    /// Recovered von Mises stress at a point of an element with a patch.
+    /// Recovered von Mises stress at a point of an element whose patch is cached.
     fn value_at(&mut self, i: u32, point: [f64; D], samples: &[[f64; S]], keep: bool) -> f64 {
         let patch = self.patches.get_mut(&i);
         patch.map_or(0.0, |patch| von_mises(&patch.value(samples, point, keep)))
@@ -403,7 +407,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         }
     }
 
-    /// The samples of the element's body in the layers of elements around it.
+    /// The patch of an element: the samples of its body in the layers of elements around it.
     fn patch(&self, model: &Model, i: usize) -> Patch<D> {
         let mut members = std::collections::BTreeSet::from([i as u32]);
         for _ in 0..LAYERS {
@@ -424,7 +428,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
             .flat_map(|&m| self.first[m as usize]..self.first[m as usize + 1])
             .collect();
         let mut mirrors = mirrors(model, &self.conditions, &elements);
-        // A plane with the body on both sides is none of its boundary.
+        // A plane with the body on both sides is not part of its boundary, and no plane of
+        // symmetry.
         mirrors.retain(|m| {
             own.iter()
                 .all(|&i| m.beyond(in_space(self.positions[i])) < 0.0)
@@ -437,7 +442,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
                 let at = image.of(in_space(self.positions[i]));
                 let reflection = image.reflection();
                 let position: [f64; D] = frame.relative(at);
-                // Images are kept as far as a weight reaches from a point of the element.
+                // Mirror images are kept if a weight can reach them from a point of the element.
                 let far = position.iter().map(|x| x * x).sum::<f64>().sqrt();
                 if reflection.is_none() || far < reach + 1.0 {
                     samples.push(Sample {

@@ -1,7 +1,7 @@
-//! The stresses of a state, evaluated element by element where they are looked at.
+//! The stresses of a state, evaluated for one element at a time on demand.
 //!
-//! Nothing is stored: an element is quickly evaluated again, while the stresses of all take a tenth
-//! of the factor's memory.
+//! Nothing is stored: evaluating an element again is quick, while the stresses of all elements
+//! would take a tenth of the factor's memory.
 
 use crate::analysis::zone::free_strain::take_off_all;
 use crate::analysis::zone::local_yield::{largest_ratio, largest_von_mises};
@@ -10,10 +10,10 @@ use crate::material::{Lame, PlasticState};
 use crate::model::{Continuum, FreeOfLoad};
 use crate::space::{Space, Vector};
 
-/// Elements of the mesh that share an entry in the list of where the zone's begin.
+/// Number of consecutive elements of the mesh that share an entry in the index of zone elements.
 const GROUP: usize = 64;
 
-/// Stresses as a function of the element.
+/// The stresses of a state as a function of the element.
 pub(in crate::analysis) struct StressField<
     'a,
     const D: usize,
@@ -24,12 +24,12 @@ pub(in crate::analysis) struct StressField<
     kernel: Kernel<D, S, P, N>,
     pub(in crate::analysis) continuum: &'a Continuum,
     state: Strained<'a, S>,
-    /// The first element of the zone in each group of elements of the mesh.
+    /// Number of zone elements that lie before each group of elements of the mesh.
     first_of_group: Vec<u32>,
     elastic: Vec<Lame>,
 }
 
-/// What stresses follow from.
+/// The state from which stresses follow.
 pub(in crate::analysis) struct Strained<'a, const S: usize> {
     /// Displacements of the nodes, in global axes.
     pub(in crate::analysis) displacements: &'a [Vector],
@@ -39,7 +39,7 @@ pub(in crate::analysis) struct Strained<'a, const S: usize> {
     pub(in crate::analysis) free: &'a [FreeOfLoad<'a>],
     /// Elements of the zone, ascending.
     pub(in crate::analysis) in_zone: &'a [usize],
-    /// The committed history of their points, as many places for each element.
+    /// The committed history of the zone's points, with the same number of places for each element.
     pub(in crate::analysis) history: &'a [PlasticState<S>],
 }
 
@@ -61,7 +61,7 @@ pub(in crate::analysis) struct ElementStress<
 impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
     StressField<'a, D, S, P, N>
 {
-    /// The stresses of a state.
+    /// The stresses of the given state.
     pub(in crate::analysis) fn new(
         kernel: Kernel<D, S, P, N>,
         continuum: &'a Continuum,
@@ -84,14 +84,14 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         }
     }
 
-    /// Place of an element in the zone.
+    /// Index of an element in the zone; `None` outside it.
     pub(super) fn place_in_zone(&self, e: usize) -> Option<usize> {
         let [first, end] = [0, 1].map(|i| self.first_of_group[e / GROUP + i] as usize);
         let place = self.state.in_zone[first..end].binary_search(&e).ok()?;
         Some(first + place)
     }
 
-    /// The history of an element's points; none outside the zone.
+    /// The history of an element's points; empty outside the zone.
     fn history(&self, e: usize) -> &'a [PlasticState<S>] {
         let Strained {
             in_zone, history, ..
@@ -103,7 +103,7 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         })
     }
 
-    /// The strains that the displacements of an element's nodes make.
+    /// The total strains from the displacements of an element's nodes.
     #[inline]
     fn of_displacements(&self, e: usize, gradients: &Gradients<D, S, P, N>) -> Components<S, P> {
         let mut u = [[0.0; D]; N];
@@ -125,8 +125,8 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         take_off_all(strain, (mesh, e), free, |nodal| gradients.at_points(nodal));
     }
 
-    /// The total strains of an element; in plane stress with the strain across the plane that the
-    /// stresses, plastic flow and temperature make.
+    /// The total strains of an element. In plane stress they include the strain across the plane
+    /// that stresses, plastic flow and temperature cause.
     pub(super) fn total_strain(&self, element: &ElementStress<'_, D, S, P, N>) -> Components<S, P> {
         let e = element.number;
         let mut strain = self.of_displacements(e, &element.gradients);
@@ -147,7 +147,7 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
         strain
     }
 
-    /// The stresses of an element.
+    /// Evaluates the stresses of an element.
     #[inline]
     pub(in crate::analysis) fn at(&self, e: usize) -> ElementStress<'a, D, S, P, N> {
         let mesh = &self.continuum.mesh;
@@ -170,13 +170,13 @@ impl<'a, const D: usize, const S: usize, const P: usize, const N: usize>
 }
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> ElementStress<'_, D, S, P, N> {
-    /// Largest von Mises stress at a point.
+    /// Largest von Mises stress at a point of the element.
     #[inline]
     pub(in crate::analysis) fn von_mises(&self) -> f64 {
         largest_von_mises(&self.stress, self.gradients.n_points())
     }
 
-    /// Largest von Mises stress over yield stress at a point of the element `e`.
+    /// Largest ratio of von Mises stress to yield stress at a point of the element `e`.
     pub(super) fn yield_ratio(&self, continuum: &Continuum, e: usize) -> f64 {
         let places = || {
             let nodes = continuum.mesh.element_coordinates(e);

@@ -1,5 +1,5 @@
-//! What the stresses of all elements amount to: the forces that they exert on the nodes, and what
-//! has yielded.
+//! Sums over the stresses of all elements: the forces that they exert on the nodes, and the extent
+//! of yielding.
 
 use super::at_corners::largest_at_corners;
 use super::element_stresses::{ElementStresses, ShownStresses};
@@ -14,7 +14,7 @@ use crate::space::{Vector, dot};
 pub(in crate::analysis) struct Stresses {
     /// Internal forces on the free freedoms.
     pub(in crate::analysis) internal: Vec<f64>,
-    /// Internal forces on nodes (control points) in global axes.
+    /// Internal forces on nodes (or control points) in global axes.
     pub(in crate::analysis) nodal: Vec<Vector>,
     /// Internal force on each prescribed displacement.
     pub(in crate::analysis) reactions: Vec<f64>,
@@ -22,17 +22,18 @@ pub(in crate::analysis) struct Stresses {
     pub(in crate::analysis) beyond_yield_outside: Vec<usize>,
     /// Whether an element of the zone carries more than its initial yield stress.
     pub(in crate::analysis) beyond_yield_inside: bool,
-    /// What fields show, where asked for.
+    /// Values that fields show, if fields are asked for.
     pub(in crate::analysis) shown: Option<ShownStresses>,
-    /// Gauss points that have yielded, by body.
+    /// Number of Gauss points that have yielded, by body.
     pub(in crate::analysis) plastic_points: Vec<usize>,
     /// Volume of the Gauss points that have yielded.
     pub(in crate::analysis) plastic_volume: f64,
-    /// Volume of a layer of points along the border of what has yielded.
+    /// Volume of one layer of points along the border of the yielded zone.
     pub(in crate::analysis) plastic_layer: f64,
-    /// Work on their plastic strains.
+    /// Work on the plastic strains of all points.
     pub(in crate::analysis) plastic_work: f64,
-    /// Largest distance of such a point below a contact surface, along the normal there.
+    /// Largest distance of a yielded point below a contact surface, along the normal of the nearest
+    /// pair.
     pub(in crate::analysis) plastic_depth: f64,
     /// Largest equivalent plastic strain at a Gauss point.
     pub(in crate::analysis) plastic_strain: f64,
@@ -41,8 +42,8 @@ pub(in crate::analysis) struct Stresses {
 }
 
 impl Stresses {
-    /// Sums for the stresses of all elements at these factors of the loads; nothing that yielded is
-    /// counted yet.
+    /// Sums over the stresses of all elements, at the given load factors. The figures of yielding
+    /// are zero until [`Stresses::add_yielded`].
     pub(in crate::analysis) fn new(
         model: &Model,
         of_elements: ElementStresses,
@@ -73,7 +74,8 @@ impl Stresses {
         }
         model.freedoms.basis.share(&mut forces);
         out.nodal = forces;
-        // What free strains would take to be held enters with the loads: the same forces here.
+        // The forces that would suppress free strains enter with the loads: the same forces are
+        // added here.
         for (load, factor) in model.loads.iter().zip(factors) {
             if !load.free_strain.is_empty() {
                 for &(freedom, force) in &load.forces {
@@ -84,7 +86,7 @@ impl Stresses {
         out
     }
 
-    /// Takes in what has yielded in a zone of the given elements.
+    /// Adds the extent of yielding in a zone of the given elements.
     pub(in crate::analysis) fn add_yielded<
         const D: usize,
         const S: usize,
@@ -137,8 +139,8 @@ impl Stresses {
     }
 }
 
-/// Place and normal of the pair of contact nearest to an element's first node, `slaves` being those
-/// of all pairs.
+/// Slave node and normal of the contact pair nearest to an element's first node; `slaves` are the
+/// slave nodes of all pairs.
 fn nearest_pair(model: &Model, slaves: &Balls, element: usize) -> Option<(Vector, Vector)> {
     let x = model.mesh.point(model.mesh.nodes(element)[0] as usize);
     let (_, nearest) = *slaves.nearest_few(x, 1).first()?;

@@ -1,22 +1,23 @@
-//! The force that moves what a load displaces, without the displacements of the whole model.
+//! The force that drives a load's prescribed displacement, found without the displacements of the
+//! whole model.
 //!
-//! Betti's theorem: of two states of one elastic structure, the forces of the first do the same
-//! work on the displacements of the second as the forces of the second on those of the first. The
-//! first is the state at hand. The second is the structure with all pairs tied, whose driven nodes
-//! move by 1: its prescribed displacements are `v`, its free ones `w`, the forces of its pairs `t`.
-//! Solved for the force `R` that drives the first state:
+//! Betti's theorem: for two states of one elastic structure, the forces of the first do the same
+//! work on the displacements of the second as the forces of the second on the displacements of the
+//! first. The first state is the current one. The second is the structure with all pairs tied,
+//! whose driven nodes move by 1: its prescribed displacements are `v`, its free displacements `w`,
+//! the forces of its pairs `t`. Solved for the force `R` that drives the first state:
 //!
 //! ```text
 //! R = sum_k h_k (v'(K_pp u_k - f_k) - w' P_k) - t'(delta - g) - w' J - v' J_p
 //! ```
 //!
-//! Where a rigid surface moves, what drives it balances the forces of its pairs:
+//! If a rigid surface moves, the force that drives it balances the forces of its pairs:
 //! `R = -sum r_j n_j . d` with the unit direction `d` of its displacement.
 //!
-//! Load `k`, or list of loads that change alike, has the factor `h_k`, the prescribed displacements
+//! Load `k`, or set of loads that change alike, has the factor `h_k`, the prescribed displacements
 //! `u_k`, the forces `f_k` on prescribed freedoms and the load vector `P_k` on free ones
-//! ([`crate::assembly::System::loads`]). `delta - g` is how far each pair has moved together; `J`
-//! and `J_p` are the initial loads of the plastic strains on free and on prescribed freedoms.
+//! ([`crate::assembly::System::loads`]). `delta - g` is the approach of each pair. `J` and `J_p`
+//! are the initial loads of the plastic strains on free and on prescribed freedoms.
 
 use super::cost::Cost;
 use super::equilibrium::EliminatedLoad;
@@ -25,24 +26,25 @@ use crate::error::Result;
 use crate::model::{Magnitude, Model};
 use crate::substructure::{Substructure, Trailing};
 
-/// What the force that moves a load's nodes is the sum of.
+/// Terms of the force that drives the prescribed displacement of a load.
 pub(super) struct DrivingForce {
     pub(in crate::analysis) load: usize,
-    /// Force of each list of loads that change alike at factor 1 with all pairs tied.
+    /// Force of each set of loads that change alike, at factor 1 with all pairs tied.
     pub(in crate::analysis) of_loads: Vec<f64>,
-    /// Share of each pair's force in what drives a rigid surface: nothing else drives one.
+    /// Share of each pair's force in the force that drives a rigid surface, which has no other
+    /// terms.
     pub(in crate::analysis) of_rigid: Option<Vec<f64>>,
-    /// Force of each tied pair where the nodes move by 1.
+    /// Force of each tied pair if the driven nodes move by 1.
     pub(in crate::analysis) of_pairs: Vec<f64>,
-    /// Displacements of zone and contact freedoms where the nodes move by 1.
+    /// Displacements of zone and contact freedoms if the driven nodes move by 1.
     pub(in crate::analysis) moved: Trailing,
-    /// Displacements of the prescribed freedoms where the nodes move by 1.
+    /// Displacements of the prescribed freedoms if the driven nodes move by 1.
     pub(in crate::analysis) prescribed: Vec<f64>,
 }
 
 impl DrivingForce {
-    /// Driving force of the leading load of a structure whose loads are condensed; `None` where
-    /// that load prescribes no displacement. Costs about half a full solve.
+    /// Driving force of the leading load of a structure whose loads are condensed; `None` if the
+    /// leading load prescribes no displacement. Costs about half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.

@@ -1,31 +1,32 @@
-//! Displacements, gaps and contact forces in equilibrium, and the loads they answer to.
+//! Displacements, gaps and contact forces in equilibrium, and the loads that they balance.
 //!
-//! All of it is linear for given contact statuses: states and changes of states are added up part
+//! For given contact statuses all of them are linear: states and changes of states are added part
 //! by part.
 
 use crate::analysis::zone::packed;
 use crate::substructure::Trailing;
 use serde::{Deserialize, Serialize};
 
-/// A load on zone and contact freedoms, and what its elimination leaves: the first half of its
-/// solve, the same for all contact statuses.
+/// A load on zone and contact freedoms, with the result of its elimination: the first half of a
+/// trailing solve, which does not depend on contact statuses.
 ///
-/// Eliminated piece by piece it is not what eliminating it at once gives, to the last bit:
-/// checkpoints hold both.
+/// Loads eliminated one by one and then added differ in the last bits from their sum eliminated at
+/// once. Checkpoints therefore hold both the load and the result.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct EliminatedLoad {
     /// The load on zone and contact freedoms.
     #[serde(with = "packed::trailing")]
     pub load: Trailing,
-    /// What [`crate::substructure::Substructure::recover`] needs of it.
+    /// The eliminated load, from which [`crate::substructure::Substructure::recover`] finds
+    /// displacements.
     #[serde(with = "packed::trailing")]
     pub eliminated: Trailing,
-    /// Force of each pair if all were tied without gap.
+    /// Force of each pair if all pairs were tied without gap.
     pub forces: Vec<f64>,
 }
 
 impl EliminatedLoad {
-    /// No load; `like` has the sizes.
+    /// No load, with the sizes of `like`.
     pub fn none(like: &Trailing, n_pairs: usize) -> Self {
         let zeros = Trailing::zeros(like.zone.len(), like.contact.len());
         EliminatedLoad {
@@ -63,14 +64,14 @@ impl EliminatedLoad {
         ]
     }
 
-    /// `self += factor * other`.
+    /// Computes `self += factor * other`.
     pub fn add(&mut self, factor: f64, other: &EliminatedLoad) {
         for (own, other) in self.parts_mut().into_iter().zip(other.parts()) {
             combine(own, other, |a, b| a + factor * b);
         }
     }
 
-    /// `self *= factor`.
+    /// Computes `self *= factor`.
     pub fn scale(&mut self, factor: f64) {
         for values in self.parts_mut() {
             values.iter_mut().for_each(|value| *value *= factor);
@@ -79,7 +80,7 @@ impl EliminatedLoad {
 }
 
 /// Displacements, gaps and contact forces in equilibrium with a load point and initial loads, for
-/// the contact statuses in the tableau; or a change of such.
+/// the contact statuses in the tableau; or a change of these.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Equilibrium {
     /// Initial loads J of the plastic strains.
@@ -93,7 +94,7 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
-    /// Nothing moves and nothing acts; `like` has the sizes.
+    /// No displacements, gaps or forces, with the sizes of `like`.
     pub fn none(like: &Trailing, n_pairs: usize) -> Self {
         Equilibrium {
             initial: EliminatedLoad::none(like, n_pairs),
@@ -103,27 +104,27 @@ impl Equilibrium {
         }
     }
 
-    /// Takes over the values of another one of the same sizes.
+    /// Takes over the values of another equilibrium of the same sizes.
     pub fn copy_from(&mut self, other: &Equilibrium) {
         self.combine_with(other, |_, b| b);
     }
 
-    /// `self += factor * other`.
+    /// Computes `self += factor * other`.
     pub fn add(&mut self, factor: f64, other: &Equilibrium) {
         self.combine_with(other, |a, b| a + factor * b);
     }
 
-    /// `self = other + factor * self`.
+    /// Computes `self = other + factor * self`.
     pub fn scale_and_add(&mut self, factor: f64, other: &Equilibrium) {
         self.combine_with(other, |a, b| b + factor * a);
     }
 
-    /// `self = from + share * (self - from)`.
+    /// Computes `self = from + share * (self - from)`.
     pub fn rescale(&mut self, from: &Equilibrium, share: f64) {
         self.combine_with(from, |a, b| b + share * (a - b));
     }
 
-    /// Every value becomes what `of` makes of it and of the other's.
+    /// Replaces each value by `of` of this value and the corresponding value of `other`.
     fn combine_with(&mut self, other: &Equilibrium, of: impl Fn(f64, f64) -> f64 + Copy) {
         let loads = self.initial.parts_mut().into_iter();
         for (own, other) in loads.zip(other.initial.parts()) {

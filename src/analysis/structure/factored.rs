@@ -1,4 +1,4 @@
-//! The structure: what increments work with and do not change.
+//! The factored structure: the part of the analysis that increments use and do not change.
 
 use super::cost::Cost;
 use super::driving_force::DrivingForce;
@@ -13,11 +13,10 @@ use crate::substructure::{Substructure, Trailing};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Freedoms that a thread takes at a time.
+/// Number of freedoms that a thread takes at a time.
 const GRAIN: usize = 1 << 14;
 
-/// The factored structure with its zone and its loads: it changes only where another zone is
-/// chosen.
+/// The factored structure with its zone and its loads. It changes only when another zone is chosen.
 pub struct Structure<'m> {
     /// The model of the structure.
     pub model: &'m Model,
@@ -28,53 +27,53 @@ pub struct Structure<'m> {
     pub(in crate::analysis) factored: Arc<[usize]>,
     /// The condensed structure.
     pub sub: Substructure,
-    /// Largest lower bound of the condition among the factorisations so far
-    /// ([`Substructure::condition`]): an inaccurate one is not forgotten when another zone asks for
-    /// the next.
+    /// Largest lower bound of the condition number among the factorisations so far
+    /// ([`Substructure::condition`]). An inaccurate factorisation is not forgotten when another
+    /// zone requires the next one.
     pub condition: f64,
-    /// Work of each set of like loads at factor 1 on the rigid motions of floating bodies.
+    /// Work of each set of like loads at factor 1 on the rigid body motions of floating bodies.
     work: Vec<Vec<Work>>,
-    /// Where zone and contact freedoms are.
+    /// Places of zone and contact freedoms in nodal vectors.
     pub places: Places,
     /// Elements of the zone, ascending.
     pub elements: Arc<[usize]>,
-    /// Number of the zone among those that were chosen so far.
+    /// Number of the current zone, counting the zones chosen so far.
     pub(super) zone_number: usize,
     /// Loads at factor 1.
     pub(in crate::analysis) loads: Loads,
-    /// Gaps without load.
+    /// Gaps of the pairs without load.
     pub(in crate::analysis) gaps: Gaps,
     /// Factor on proportional loads that `alpha = 1` stands for.
     pub unit: f64,
 }
 
-/// Loads at factor 1, those that change alike ([`Model::alike`]) together.
+/// Loads at factor 1; loads that change alike ([`Model::alike`]) are taken together.
 #[derive(Default)]
 pub(in crate::analysis) struct Loads {
-    /// Load vectors reduced by the interior.
+    /// Load vectors after elimination of the interior.
     pub(in crate::analysis) reduced: Vec<Vec<f64>>,
     /// Load vectors condensed on zone and contact freedoms.
     pub(in crate::analysis) condensed: Vec<EliminatedLoad>,
-    /// Forces `t` of the tied pairs, the forces of changed gaps included.
+    /// Forces `t` of the tied pairs, including the forces of gaps that loads change.
     pub(in crate::analysis) forces: Vec<Vec<f64>>,
-    /// Weights of each rigid motion in the far boundary
+    /// Weights of each rigid body motion in the far boundary
     /// ([`crate::model::RigidMotion::in_far_boundary`]), reduced as loads are.
     reduced_far: Vec<Vec<f64>>,
-    /// Weights of each rigid motion in the far boundary, condensed on zone and contact freedoms:
-    /// their product with the displacements there is the motion's amplitude.
+    /// Weights of each rigid body motion in the far boundary, condensed on zone and contact
+    /// freedoms: their product with the displacements of these freedoms is the motion's amplitude.
     pub(in crate::analysis) far: Vec<Trailing>,
-    /// Where the leading load prescribes displacements.
+    /// Driving force of the leading load, if this load prescribes displacements.
     pub(super) driving: Option<DrivingForce>,
 }
 
 /// Gaps of the pairs without load.
 pub(in crate::analysis) struct Gaps {
     pub(in crate::analysis) initial: Vec<f64>,
-    /// `T` times the initial gaps, and `T` times the whole interference.
+    /// The products of `T` with the initial gaps and with the whole interference.
     pub(in crate::analysis) forces: [Vec<f64>; 2],
 }
 
-/// Work of each set of like loads on the rigid motions of floating bodies.
+/// Work of each set of like loads on the rigid body motions of floating bodies.
 fn work_of_loads(model: &Model) -> Vec<Vec<Work>> {
     let sets = model.alike.iter().map(|alike| {
         let acting = || alike.iter().flat_map(|&load| &model.loads[load].forces);
@@ -86,7 +85,7 @@ fn work_of_loads(model: &Model) -> Vec<Vec<Work>> {
 
 impl<'m> Structure<'m> {
     /// Factors the structure so that zones may be chosen among the elements `within`, and chooses
-    /// that of the given `elements`.
+    /// the zone of the given `elements`.
     ///
     /// # Errors
     /// Errors of [`Substructure::new`].
@@ -126,8 +125,8 @@ impl<'m> Structure<'m> {
         Ok(structure)
     }
 
-    /// Changes the zone to the given elements, factoring the structure again only where it must:
-    /// whether it did.
+    /// Changes the zone to the given elements and factors the structure again only if it must.
+    /// Returns whether it did.
     ///
     /// # Errors
     /// Errors of [`Substructure::new`].
@@ -156,12 +155,13 @@ impl<'m> Structure<'m> {
         Ok(factored)
     }
 
-    /// What loads and gaps at factor 1 do to tied pairs, after the structure was factored.
+    /// Computes the effect of loads and gaps at factor 1 on tied pairs, after the structure was
+    /// factored.
     fn reduce_loads(&mut self, cost: &mut Cost) -> Result<()> {
         let (sub, gaps) = (&self.sub, &mut self.gaps);
         let interference: Vec<f64> = self.model.pairs.iter().map(|p| p.interference).collect();
         gaps.forces = [&gaps.initial, &interference].map(|v| sub.slip_forces(v));
-        // A load without forces stays zero, without a solve.
+        // A load without forces stays zero and needs no solve.
         let acts = |load: &Vec<f64>| load.iter().any(|force| *force != 0.0);
         let loads = self.system.loads.iter();
         let reduced = loads.map(|load| match acts(load) {
@@ -177,9 +177,10 @@ impl<'m> Structure<'m> {
         Ok(())
     }
 
-    /// The weights of rigid motions in the far boundary are reduced like loads: with forces on zone
-    /// and contact freedoms alone, `w.u` of all freedoms is that of the condensed weights and the
-    /// condensed structure's `u` (Betti). Only dents ask for it.
+    /// Reduces the weights of rigid body motions in the far boundary as loads are reduced. If
+    /// forces act on zone and contact freedoms alone, `w.u` over all freedoms equals the product of
+    /// the condensed weights with the condensed structure's `u` (Betti). Only the figures of dents
+    /// need it.
     fn reduce_far_boundary(&mut self, cost: &mut Cost) -> Result<()> {
         let (floating, n) = (&self.model.floating, self.model.freedoms.n);
         if self.n_pairs() == 0 || !self.model.may_yield.contains(&true) {
@@ -197,7 +198,7 @@ impl<'m> Structure<'m> {
         Ok(())
     }
 
-    /// What loads at factor 1 do to the zone, after it was chosen.
+    /// Computes the effect of loads at factor 1 on the zone, after the zone was chosen.
     fn condense_loads(&mut self, cost: &mut Cost) -> Result<()> {
         let far = self.loads.reduced_far.iter();
         self.loads.far = far.map(|w| self.sub.condense(w)).collect::<Result<_>>()?;
@@ -227,7 +228,7 @@ impl<'m> Structure<'m> {
         Ok(())
     }
 
-    /// The first half of the solve with a load.
+    /// Eliminates a load: the first half of its solve.
     pub fn eliminate(&self, load: Trailing, cost: &mut Cost) -> EliminatedLoad {
         let mut out = EliminatedLoad {
             eliminated: load.clone(),
@@ -241,9 +242,9 @@ impl<'m> Structure<'m> {
         out
     }
 
-    /// The first half of the solve with the load of initial strains. That load is self-equilibrated
-    /// on each body; the resultants that round-off leaves are removed, because they would drive
-    /// bodies that contact alone holds.
+    /// Eliminates the load of initial strains: the first half of its solve. This load is
+    /// self-equilibrated on each body. The resultants that round-off leaves are removed, because
+    /// they would drive bodies that contact alone holds.
     pub fn eliminate_initial(&self, load: Trailing, cost: &mut Cost) -> EliminatedLoad {
         let mut out = self.eliminate(load, cost);
         self.sub.balance_in_bodies(&mut out.forces);
@@ -255,7 +256,7 @@ impl<'m> Structure<'m> {
         self.gaps.initial.len()
     }
 
-    /// The load point at a load factor, preloads and interference fully applied.
+    /// The load point at a load factor, with preloads and interference fully applied.
     pub fn point(&self, alpha: f64) -> LoadPoint {
         let loads = self.model.loads.iter();
         LoadPoint {
@@ -280,22 +281,22 @@ impl<'m> Structure<'m> {
         combination(self.model, &self.loads.reduced, &point.factors)
     }
 
-    /// The gap of a pair before anything moves: the initial one less the applied interference, with
-    /// what loads add.
+    /// The gap of a pair before anything moves: the initial gap minus the applied interference,
+    /// plus the gaps that loads add.
     pub fn gap_unmoved(&self, pair: &Pair, point: &LoadPoint) -> f64 {
         let loads = self.model.loads.iter().zip(&point.factors);
         let opened: f64 = loads.map(|(load, factor)| factor * load.gap(pair)).sum();
         pair.gap - point.interference * pair.interference + opened
     }
 
-    /// [`Structure::gap_unmoved`] of all pairs.
+    /// Values of [`Structure::gap_unmoved`] for all pairs.
     pub fn delta(&self, point: &LoadPoint) -> Vec<f64> {
         let pairs = self.model.pairs.iter();
         pairs.map(|pair| self.gap_unmoved(pair, point)).collect()
     }
 
-    /// What the force of tied pair `k` is the sum of at a load point without initial loads: `t` of
-    /// each load, and `-T delta`.
+    /// Terms of the force of tied pair `k` at a load point without initial loads: `t` of each load,
+    /// and `-T delta`.
     pub(super) fn closed_force_terms<'a>(
         &'a self,
         point: &'a LoadPoint,
@@ -310,22 +311,22 @@ impl<'m> Structure<'m> {
         loads.map(move |(t, factor)| factor * t[k]).chain(of_gaps)
     }
 
-    /// `q` of the contact problem for a load point without initial loads: `t - T delta`.
+    /// The forces `q = t - T delta` of the contact problem at a load point without initial loads.
     pub fn closed_forces(&self, point: &LoadPoint) -> Vec<f64> {
         (0..self.n_pairs())
             .map(|k| self.closed_force_terms(point, k).sum())
             .collect()
     }
 
-    /// The largest sum of absolute values of the terms of [`Structure::closed_forces`]: what its
-    /// round-off is a share of.
+    /// The largest sum, over the pairs, of the absolute values of the terms of
+    /// [`Structure::closed_forces`]. Round-off of the forces is a share of it.
     pub fn closed_forces_size(&self, point: &LoadPoint) -> f64 {
         (0..self.n_pairs())
             .map(|k| self.closed_force_terms(point, k).map(f64::abs).sum())
             .fold(0.0, f64::max)
     }
 
-    /// An error for pairs that nothing holds together.
+    /// The error for a pair that nothing stops from opening.
     pub fn unbounded(&self, pair: usize, alpha: f64) -> Error {
         let names = self
             .model
@@ -348,8 +349,8 @@ impl<'m> Structure<'m> {
     }
 }
 
-/// `sum factor * vector` for a vector on all freedoms of each list of loads that change alike, and
-/// the factors of all loads.
+/// Computes `sum factor * vector`, given one vector on all freedoms for each set of loads that
+/// change alike, and the factors of all loads.
 pub(super) fn combination(model: &Model, vectors: &[Vec<f64>], factors: &[f64]) -> Vec<f64> {
     let factors = model.factors_of_alike(factors);
     let acting: Vec<_> = vectors
@@ -365,7 +366,7 @@ pub(super) fn combination(model: &Model, vectors: &[Vec<f64>], factors: &[f64]) 
         .collect()
 }
 
-/// Free freedoms of the elements that are not contact freedoms, ascending.
+/// Free freedoms of the given elements except contact freedoms, ascending.
 pub(in crate::analysis) fn zone_freedoms(model: &Model, elements: &[usize]) -> Vec<usize> {
     let mut marked = vec![false; model.freedoms.n];
     for &e in elements {

@@ -5,22 +5,23 @@ use crate::contact::Tableau;
 use crate::linalg::ZonePart;
 use crate::substructure::{Softened, Trailing};
 
-/// Ratio of the cost of building and factoring the tangent to that of the factorisation alone: the
-/// matrices of the elements and the copy of the stiffness take about as long again.
+/// Ratio of the cost of building and factoring the tangent to the cost of factoring alone. The
+/// element matrices and the copy of the stiffness take about as long as the factor.
 const WITH_ITS_MATRIX: f64 = 2.0;
 
-/// A tangent of the zone, factored.
+/// The factored tangent stiffness of the zone.
 pub struct FactoredTangent {
     pub(in crate::analysis) softened: Softened,
-    /// Contact matrix and statuses with this stiffness; none where there is no factor.
+    /// Contact matrix and statuses with the tangent stiffness; `None` if there is no factor.
     pub(in crate::analysis) tableau: Option<Tableau>,
-    /// Whether a tangent of the increment had no factor.
+    /// Whether factoring a tangent failed in this increment.
     pub(in crate::analysis) is_refused: bool,
-    /// Whether the tangent is that of the last evaluated state.
+    /// Whether the factor is of the tangent at the last evaluated state.
     pub(in crate::analysis) is_fresh: bool,
-    /// Share of the softening that is taken off in it.
+    /// Share of the softening that is subtracted in the factored stiffness.
     pub(in crate::analysis) share: f64,
-    /// Steps of conjugate gradients since it was factored, beyond what a new factor takes.
+    /// Number of conjugate gradient steps since the tangent was factored, beyond the steps that a
+    /// new factor takes.
     pub(in crate::analysis) spent: f64,
     forces: Vec<f64>,
     gap: Vec<f64>,
@@ -28,7 +29,7 @@ pub struct FactoredTangent {
 }
 
 impl FactoredTangent {
-    /// Room for one; `None` where there can be none.
+    /// Allocates a tangent without a factor; `None` if the backend cannot factor one.
     pub(in crate::analysis) fn new(structure: &Structure) -> Option<Self> {
         let softened = structure.sub.softened()?;
         let n = structure.n_pairs();
@@ -45,8 +46,8 @@ impl FactoredTangent {
         })
     }
 
-    /// `out = M^-1 load`, closed pairs staying closed, in a part of the zone where only that is
-    /// asked for.
+    /// Computes `out = M^-1 load`, closed pairs staying closed, on a part of the zone if only a
+    /// part is asked for.
     pub(in crate::analysis) fn solve(
         &mut self,
         load: &Trailing,
@@ -62,8 +63,8 @@ impl FactoredTangent {
         self.softened.recover_part(part, out, &self.gap);
     }
 
-    /// Gives pairs these statuses; false where there is no factor, or one that is to open holds a
-    /// body with this stiffness.
+    /// Gives the pairs the statuses `open`. Returns false if there is no factor, or if a pair to be
+    /// opened holds a body with this stiffness.
     pub(in crate::analysis) fn set_statuses(&mut self, open: &[bool]) -> bool {
         let Some(tableau) = &mut self.tableau else {
             return false;
@@ -71,7 +72,7 @@ impl FactoredTangent {
         (0..open.len()).all(|k| tableau.open()[k] == open[k] || tableau.flip(k))
     }
 
-    /// Whether the steps since the last factor would have paid the next.
+    /// Whether the steps since the last factor have cost as much as the next factor would.
     pub(in crate::analysis) fn is_paid(&self) -> bool {
         let [factor, solve] = self.softened.flops();
         self.spent * solve >= WITH_ITS_MATRIX * factor

@@ -1,45 +1,46 @@
-//! Where flow began on the way of the load, and how long its increments may be.
+//! The onset of plastic flow along the load path, and the length of increments beyond it.
 //!
-//! Within an increment strains follow a straight path. The error of that depends on how far the
-//! contact moves meanwhile, since flow moves with it. The size of a contact is about proportional
-//! to the root of its load: increments are of equal length in the root of the load since flow
-//! began, in units of the root of the load at first yield. Up to ten times that load
-//! ([`MODERATE`]) every leg takes the same number; a longer leg takes more in proportion. Beyond
-//! full plasticity ([`DEEP`]) the contact grows similar to itself, and increments grow with it.
+//! Within an increment strains follow a straight path. The error of this assumption depends on how
+//! far the edge of the contact moves in the increment, since flow moves with it. The size of a
+//! contact is about proportional to the root of its load. Increments are therefore of equal length
+//! in the root of the load since flow began, in units of the root of the load at first yield. Up to
+//! ten times the load at first yield ([`MODERATE`]) every leg takes the same number of increments;
+//! a longer leg takes more in proportion. Beyond full plasticity ([`DEEP`]) the contact grows
+//! self-similarly, and increments grow with it.
 
 use super::load_point::LoadPoint;
 use serde::{Deserialize, Serialize};
 
-/// Length of increments in the root of the load since flow began, over that at the end of a leg, at
-/// the path error [`AT_STEP`]; the error falls with its square. Found on the ball of
-/// `data/speed.md` at ten times its load at first yield, where other scenes judge it.
+/// Length of an increment in the root of the load since flow began, divided by this root at the end
+/// of a leg, for the path error [`AT_STEP`]; the error falls with its square. Found on the ball of
+/// `data/speed.md` at ten times its load at first yield; the other scenes of that page judge it.
 const STEP: f64 = 0.07;
 const AT_STEP: f64 = 1e-3;
-/// Root of the load since flow began, over that of the elastic range before, of the leg on which
-/// [`STEP`] was found: the load went from one to ten times that at first yield.
+/// Root of the load since flow began, divided by the root of the elastic range before, for the leg
+/// on which [`STEP`] was found: from once to ten times the load at first yield.
 const MODERATE: f64 = 3.0;
-/// Root of the load since flow began, over that of the elastic range before, where the contact of a
-/// ball is fully plastic, taken at `E* a/(Y R) = 30`. That is 2.5 at first yield, and the mean
-/// pressure grows from 1.1 Y to nearly 3 Y: some 400 times the load (after Johnson, *Contact
-/// Mechanics*, 1985, chapter 6).
+/// Root of the load since flow began, divided by the root of the elastic range before, at which the
+/// contact of a ball is fully plastic, taken at `E* a/(Y R) = 30`. That is 2.5 at first yield, and
+/// the mean pressure grows from 1.1 Y to nearly 3 Y: some 400 times the load (after Johnson,
+/// *Contact Mechanics*, 1985, chapter 6).
 const DEEP: f64 = 20.0;
-/// Load over that at first yield beyond which the leg alone counts: by the same figures a contact
-/// is then so wide, `a/R = 1500 Y/E*`, that strains are not small in any metal.
+/// Ratio of the load to the load at first yield beyond which the leg alone counts: by the same
+/// figures a contact is then so wide, `a/R = 1500 Y/E*`, that strains are not small in any metal.
 const FAR: f64 = 1e6;
 
-/// Where flow began, and what the load was before.
+/// Load point at which flow began, and the loads before it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Flow {
-    /// Where flow began last, after a stretch on which there was none.
+    /// Load point at which flow began last, after a stretch without flow.
     onset: LoadPoint,
-    /// Load at first yield, as a distance from no load; zero as long as nothing yielded.
+    /// Load at first yield, as a distance from zero load; zero until something yields.
     range: f64,
-    /// Largest such distance at which the load turned round.
+    /// Largest distance from zero load at which the load turned round.
     farthest: f64,
 }
 
 impl Flow {
-    /// No load, no flow yet.
+    /// Flow at the start of a program: no load and nothing yielded.
     pub fn none(n_loads: usize) -> Self {
         Flow {
             onset: LoadPoint::unloaded(n_loads),
@@ -48,18 +49,18 @@ impl Flow {
         }
     }
 
-    /// Whether the flow is of a program with this many loads.
+    /// Whether the flow is of a program with `n_loads` loads.
     pub fn fits(&self, n_loads: usize) -> bool {
         self.onset.factors.len() == n_loads && self.range.is_finite() && self.farthest.is_finite()
     }
 
-    /// The load turns round here.
+    /// Notes that the load turns round at this load point.
     pub fn turns(&mut self, at: &LoadPoint) {
         self.onset = at.clone();
         self.farthest = self.farthest.max(size(at));
     }
 
-    /// Flow begins here.
+    /// Notes that flow begins at this load point.
     pub fn begins(&mut self, at: &LoadPoint) {
         self.onset = at.clone();
         if self.range == 0.0 {
@@ -67,12 +68,12 @@ impl Flow {
         }
     }
 
-    /// The share of the way from `at` to `end` that the next increment may be long.
+    /// The share of the way from `at` to `end` that the next increment may cover.
     pub fn share(&self, at: &LoadPoint, end: &LoadPoint, path_error: f64) -> f64 {
         let left = at.distance(end);
         let gone = self.onset.distance(at);
         let leg = share_of(gone, left, gone + left, path_error);
-        // Only load beyond all that was there before drives flow deeper.
+        // Only load beyond the largest load so far drives flow deeper.
         let beyond = size(end) - size(at).max(self.range);
         let is_far = size(end) > FAR * self.range;
         if is_far || beyond <= 0.0 || size(end) <= self.farthest {
@@ -84,16 +85,16 @@ impl Flow {
     }
 }
 
-/// Distance of the loads from none; an interference, which is the same from beginning to end, is
-/// none of them.
+/// Distance of the loads from zero load. An interference does not count: it stays the same
+/// throughout.
 fn size(at: &LoadPoint) -> f64 {
     at.factors
         .iter()
         .fold(0.0, |most, factor| most.max(factor.abs()))
 }
 
-/// The share of what is `left` of a way that the next increment may be long, `gone` having been
-/// gone since flow began, where nothing flowed over `range` before.
+/// The share of the way `left` that the next increment may cover. `gone` is the way since flow
+/// began, `range` the elastic way before that.
 fn share_of(gone: f64, left: f64, range: f64, path_error: f64) -> f64 {
     let [from, to] = [gone, gone + left].map(|way| length(way / range));
     let n = increments(from, to, path_error).ceil();
@@ -103,14 +104,15 @@ fn share_of(gone: f64, left: f64, range: f64, path_error: f64) -> f64 {
     ((way_of(from + (to - from) / n) * range - gone) / left).min(1.0)
 }
 
-/// Increments between two lengths of a leg that flow began at, for a path error.
+/// Number of increments between two lengths ([`length`]) of the leg since flow began, for a path
+/// error.
 pub(in crate::analysis) fn increments(from: f64, to: f64, path_error: f64) -> f64 {
     let each = STEP * to.min(MODERATE) * (path_error / AT_STEP).sqrt();
     if to > from { (to - from) / each } else { 0.0 }
 }
 
-/// What the length of increments is measured in: the root of the way since flow began over the
-/// elastic range, its logarithm beyond [`DEEP`].
+/// Measure of the length of increments: the root of the way since flow began over the elastic
+/// range, and its logarithm beyond [`DEEP`].
 pub(in crate::analysis) fn length(way: f64) -> f64 {
     let root = way.sqrt();
     if root > DEEP {
@@ -120,7 +122,7 @@ pub(in crate::analysis) fn length(way: f64) -> f64 {
     }
 }
 
-/// The way that is this long: the inverse of [`length`].
+/// The way whose [`length`] is given: the inverse function.
 fn way_of(length: f64) -> f64 {
     let root = if length > DEEP {
         DEEP * (length / DEEP - 1.0).exp()
@@ -143,7 +145,7 @@ mod tests {
         }
     }
 
-    /// The loads at which increments end from `from` to `end`, flow having begun at 1.
+    /// The loads at which increments end on the way from `from` to `end`, if flow began at 1.
     fn ends(flow: &Flow, from: f64, end: f64) -> Vec<f64> {
         let (mut loads, mut load) = (Vec::new(), from);
         while load < end && loads.len() < 10_000 {
@@ -153,8 +155,9 @@ mod tests {
         loads
     }
 
-    /// As many increments for any moderate leg, of equal length in the root of the load; in
-    /// proportion to that root beyond; and as many for each tenfold load where flow is deep.
+    /// All moderate legs take the same number of increments, of equal length in the root of the
+    /// load. Beyond them the number grows in proportion to this root. If flow is deep, each tenfold
+    /// load takes the same number.
     #[test]
     fn increments_are_of_equal_length_in_the_root_of_the_load_since_flow_began() {
         let mut flow = Flow::none(1);
@@ -172,13 +175,13 @@ mod tests {
         let deep = (0.5 * 10f64.ln() * DEEP / (MODERATE * STEP)).ceil() as usize;
         assert_eq!([tenfold(1e3), tenfold(1e4), tenfold(1e5)], [deep; 3]);
         assert_eq!(ends(&flow, 1.0, 1e300).len(), each);
-        // Half a leg later the other half is left.
+        // After half a leg, half of the increments are left.
         let half = ends(&flow, 1.0 + 0.25 * 144.0, 145.0).len();
         assert!(half.abs_diff(2 * each) <= 1, "{half}");
     }
 
-    /// Back and up to where the load was before, a leg is like any other; beyond it flow is deep
-    /// again. Without an elastic range only the leg counts.
+    /// Up to the largest load before, a second leg is like any other; beyond that load, flow is
+    /// deep again. Without an elastic range only the leg counts.
     #[test]
     fn only_load_beyond_all_that_was_before_is_deep() {
         let each = (1.0 / STEP).ceil() as usize;
@@ -192,7 +195,7 @@ mod tests {
         assert_eq!(ends(&flow, 140.0, 145.0).len(), each);
         let again = ends(&flow, 145.0, 400.0).len();
         assert!(again.abs_diff(virgin) <= 1, "{again} for {virgin}");
-        // A leg to the other side is short where it begins, whatever lies between.
+        // A leg to a load of the other sign begins with a short increment, whatever lies between.
         flow.turns(&at(145.0));
         let first = flow.share(&at(145.0), &at(-400.0), AT_STEP);
         assert!(first < 0.01, "{first}");

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 /// applied.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LoadPoint {
-    /// Load factor in the program's unit.
+    /// Load factor in units of the program.
     pub alpha: f64,
     /// Factor of each load.
     pub factors: Vec<f64>,
-    /// Share of the interference, 0 to 1.
+    /// Share of the interference that is applied, 0 to 1.
     pub interference: f64,
 }
 
@@ -24,7 +24,7 @@ impl LoadPoint {
         }
     }
 
-    /// The point at share `t` of the way to `end`.
+    /// The load point at the share `t` of the way to `end`.
     pub fn towards(&self, end: &LoadPoint, t: f64) -> LoadPoint {
         let mix = |a: f64, b: f64| if t == 1.0 { b } else { a + t * (b - a) };
         let factors = self.factors.iter().zip(&end.factors);
@@ -35,7 +35,7 @@ impl LoadPoint {
         }
     }
 
-    /// Change of all factors and of the interference on the way to `end`.
+    /// Changes of all load factors, and of the interference, on the way to `end`.
     pub fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
         let factors = end.factors.iter().zip(&self.factors);
         let mut step: Vec<f64> = factors.map(|(b, a)| b - a).collect();
@@ -43,12 +43,12 @@ impl LoadPoint {
         step
     }
 
-    /// Largest change of a factor on the way to `end`.
+    /// Largest change of a load factor or of the interference on the way to `end`.
     pub fn distance(&self, end: &LoadPoint) -> f64 {
         self.step_to(end).iter().fold(0.0, |m, d| m.max(d.abs()))
     }
 
-    /// Share of the way from here to `end` at which `between` lies.
+    /// The share of the way from this load point to `end` at which `between` lies.
     pub fn share_of(&self, between: &LoadPoint, end: &LoadPoint) -> f64 {
         if end.alpha != self.alpha {
             (between.alpha - self.alpha) / (end.alpha - self.alpha)

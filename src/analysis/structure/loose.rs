@@ -1,4 +1,4 @@
-//! Bodies that no contact force holds.
+//! Bodies that no contact force holds: rigid motion until they touch, and weak springs.
 
 use super::load_point::LoadPoint;
 use super::solver::Solver;
@@ -8,24 +8,25 @@ use crate::error::Result;
 use nalgebra::DVector;
 use std::sync::Arc;
 
-/// Share of the largest force above which springs are let go on the way.
+/// Springs that bear more than this share of the largest force are released along the load path.
 const MOVES: f64 = 1e-9;
-/// Share of the largest force above which springs are released in a state that is read: round-off.
+/// Springs that bear more than this share of the largest force are released in a state to be read:
+/// round-off.
 const NOTHING: f64 = 1e-14;
-/// Share of the largest force that springs may bear where nothing moves any more.
+/// Share of the largest force that springs may bear in a state at rest.
 const SETTLED: f64 = 1e-11;
-/// Share of the largest force that no spring bears but where the load drives a body on: it has
-/// moved by a hundred times the deformation.
+/// A spring bears more than this share of the largest force only if the load drives its body on:
+/// the body has then moved by a hundred times the deformation.
 const DRIVEN: f64 = 1e-6;
 
-/// Times that springs are let go: where contact holds a motion with a hundredth of its stiffness
-/// what they bear falls by four orders each time.
+/// Most times that springs are released: where contact holds a motion with a hundredth of its
+/// stiffness, the force that springs bear falls by four orders of magnitude each time.
 const MOST_TIMES: usize = 8;
 
 impl Solver<'_> {
-    /// A body that no contact force holds moves rigidly under the first bit of the load towards
-    /// `end` until it touches: the way goes on from there. Motions that the load does not drive are
-    /// kept by springs.
+    /// Moves each body that no contact force holds rigidly until it touches, under the first bit of
+    /// the load towards `end`; the load path goes on from there. Springs hold motions that the load
+    /// does not drive.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
@@ -85,8 +86,8 @@ impl Solver<'_> {
         Ok(())
     }
 
-    /// Equilibrium without springs: a body that contact holds weakly, or that is still on its way
-    /// to what stops it, moves on until they bear nothing.
+    /// Finds the equilibrium without springs: a body that contact holds weakly, or that has not yet
+    /// reached the pair that stops it, moves on until the springs bear nothing.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
@@ -105,15 +106,16 @@ impl Solver<'_> {
         Ok(())
     }
 
-    /// Whether a pair is beyond its condition by more than round-off.
+    /// Whether a gap or a contact force is negative by more than round-off, with springs at work.
     fn is_beyond_contact(&self) -> bool {
         let [gap, force] = [self.scales.displacement, self.scales.force].map(|s| -1e-10 * s);
         let least = |of: &[f64]| of.iter().copied().fold(0.0, f64::min);
         !self.springs.is_empty() && (least(&self.now.gap) < gap || least(&self.now.force) < force)
     }
 
-    /// Leaves bodies where they are by now that springs pull back with more than a share of the
-    /// largest force. What contact holds weakly moves on by what the spring has borne.
+    /// Releases springs that bear more than a share of the largest force: makes them free of force
+    /// at the current gaps, so that their bodies stay where they are. A body that contact holds
+    /// weakly then moves on under the force that its spring has borne.
     pub(super) fn let_springs_go(&mut self, share: f64) {
         for _ in 0..MOST_TIMES {
             if !self.springs_bear(share) {
@@ -133,14 +135,14 @@ impl Solver<'_> {
         springs.any(|own| own.pairs().iter().all(|&k| open[k]))
     }
 
-    /// Whether a spring bears more than this share of the largest force.
+    /// Whether a spring bears more than a share of the largest force.
     pub(in crate::analysis) fn springs_bear(&self, share: f64) -> bool {
         let gap = &self.now.gap;
         let forces = self.springs.iter().map(|own| own.largest_force(gap));
         forces.fold(0.0, f64::max) > share * self.scales.force
     }
 
-    /// No pair stops a body that nothing but springs keeps from moving on.
+    /// Refuses a state in which springs stop a driven body and no pair would stop it.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.

@@ -1,21 +1,21 @@
-//! The factored structure with its loads, its state, and what it answers to loads.
+//! The factored structure with its loads and its state, and its response to loads.
 //!
 //! | file | what | paper |
 //! |---|---|---|
 //! | `factored` | the factored structure, its zone, its loads at factor 1 | 3.7, 3.8 |
 //! | `solver` | the structure in its current state | |
-//! | `state` | a committed state: kept, and gone back to | |
-//! | `record` | the same in checkpoints | |
+//! | `state` | a committed state, to be kept and restored | |
+//! | `record` | the structure under load in checkpoints | |
 //! | `response` | displacements, gaps and forces for loads and initial loads | 4.2, 4.6, 4.7 |
 //! | `equilibrium` | states, and changes of them, that add up | 4.2, 4.4 |
 //! | `load_point` | points of the load path | 4.3 |
 //! | `driving_force` | the force that moves what a load displaces | |
 //! | `loose` | bodies that no contact force holds | |
-//! | `starting` | the state that an earlier run left, and that this one leaves | |
+//! | `starting` | the state that an earlier run left in the material, and the one that this run leaves | |
 //! | `flow` | where flow began, and how long increments may be | |
 //! | `factored_tangent` | a factor of the tangent | |
-//! | `round_off` | how far from balance a state may be | |
-//! | `cost` | what was done so far | |
+//! | `round_off` | bounds on the imbalance of a state | |
+//! | `cost` | counts of the work done so far | |
 
 mod cost;
 mod driving_force;

@@ -1,4 +1,4 @@
-//! What a checkpoint holds of a structure under load, and the structure set up from it.
+//! The record of a structure under load in a checkpoint, and the structure set up again from it.
 
 use super::cost::Cost;
 use super::solver::{Predictor, Scales, Solver};
@@ -13,14 +13,14 @@ use crate::model::Model;
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::Xxh3;
 
-/// A structure under load between two increments: its state, what the next increment is predicted
-/// from, and how it came here as far as numbers depend on that.
+/// Record of a structure under load between two increments: its state, the data from which the next
+/// increment is predicted, and its history as far as numbers depend on it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(in crate::analysis) struct SolverRecord {
     factored: Ascending,
-    /// Places among the elements of the zone of those that only watch.
+    /// Guard elements, as indices in the zone's list of elements.
     guard: Ascending,
-    /// See [`fingerprint`].
+    /// Hash of the results of the factorisation, see [`fingerprint`].
     fingerprint: u128,
     state: State,
     pivots: TableauRecord,
@@ -34,7 +34,7 @@ pub(in crate::analysis) struct SolverRecord {
 }
 
 impl SolverRecord {
-    /// Elements of the zone, and which of them only watch.
+    /// Elements of the zone, and whether each is in the guard.
     pub(in crate::analysis) fn choice(&self) -> (Vec<usize>, Vec<bool>) {
         let elements = self.state.elements.to_vec();
         let mut guard = vec![false; elements.len()];
@@ -44,8 +44,8 @@ impl SolverRecord {
         (elements, guard)
     }
 
-    /// The record of a structure; `guard` as it was given with the zone, [`fingerprint`]
-    /// as it was computed.
+    /// Records a structure; `guard` is as it was given with the zone, `fingerprint` as
+    /// [`fingerprint`] computed it.
     pub(in crate::analysis) fn of(solver: &Solver, guard: &[bool], fingerprint: u128) -> Self {
         SolverRecord {
             factored: Ascending::new(solver.structure.factored.iter().copied()),
@@ -63,10 +63,11 @@ impl SolverRecord {
         }
     }
 
-    /// Structure that this is the record of, and whether its factor is the same to the last bit.
+    /// Sets up the structure that was recorded. Returns whether its factor is equal to the recorded
+    /// one to the last bit.
     ///
     /// # Errors
-    /// Errors of [`Solver::new`]; `Input` where the record does not fit the model.
+    /// Errors of [`Solver::new`]; `Input` if the record does not fit the model.
     pub(in crate::analysis) fn recall<'m>(
         &self,
         model: &'m Model,
@@ -113,7 +114,7 @@ impl SolverRecord {
     }
 }
 
-/// Whether a state may be one of this structure, with the zone at hand or another.
+/// Whether a state may be a state of this structure, with the current zone or another.
 pub(in crate::analysis) fn knows(solver: &Solver, state: &State) -> bool {
     let model = solver.structure.model;
     let n_zone = solver.structure.sub.zeros().zone.len();
@@ -131,8 +132,8 @@ pub(in crate::analysis) fn knows(solver: &Solver, state: &State) -> bool {
                 && state.equilibrium.u.zone.len() == n_zone))
 }
 
-/// Hash of what the factorisation left of the model, whichever zone is chosen: contact matrix
-/// and reduced loads.
+/// Hash of the results of the factorisation that depend on no zone: contact matrix and reduced
+/// loads.
 pub(in crate::analysis) fn fingerprint(solver: &Solver) -> u128 {
     let mut hash = Xxh3::new();
     let mut add = |values: &[f64]| {

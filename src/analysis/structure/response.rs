@@ -1,8 +1,8 @@
-//! What the structure answers to loads and initial loads with the contact statuses at hand:
-//! trailing solves, by halves.
+//! The response of the structure to loads and initial loads with the current contact statuses, by
+//! trailing solves in two halves.
 //!
-//! The first half of a solve, elimination, is the same for all statuses and linear in the load; the
-//! second gives displacements.
+//! The first half of a solve, elimination, is the same for all statuses and linear in the load. The
+//! second half gives the displacements.
 
 use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::factored::combination;
@@ -15,7 +15,7 @@ use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 use std::borrow::Cow;
 
-/// Share of the largest gap and force that is the round-off of their sums.
+/// Share of the largest gap and of the largest force that counts as round-off of their sums.
 const ZERO: f64 = 1e-14;
 
 impl Solver<'_> {
@@ -31,7 +31,8 @@ impl Solver<'_> {
         let q = self.forces_if_tied(point, &initial);
         let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
         self.tableau.solve(&q, &mut gap, &mut force);
-        // Displacements serve for strains: rigid motions, however large, are left out.
+        // Only strains are computed from the displacements, so rigid motions, however large, are
+        // left out.
         let delta = self.structure.delta(point);
         let (slip, _) = self.structure.sub.split_slip(&delta, &gap);
         self.structure.sub.recover(&mut u, &slip);
@@ -44,7 +45,7 @@ impl Solver<'_> {
         }
     }
 
-    /// Force of each pair at a load point, with initial loads, if all were tied without gap.
+    /// Force of each pair at a load point, with initial loads, if all pairs were tied without gap.
     pub fn forces_if_tied(&self, point: &LoadPoint, initial: &EliminatedLoad) -> Vec<f64> {
         let mut q = initial.forces.clone();
         let factors = self.structure.model.factors_of_alike(&point.factors);
@@ -62,8 +63,8 @@ impl Solver<'_> {
     }
 
     /// Completes a change of state that follows from its initial loads alone, closed pairs staying
-    /// closed; its displacements in a part of the zone where only these are asked for. One trailing
-    /// solve.
+    /// closed. The displacements are found in a part of the zone if only a part is asked for. Costs
+    /// one trailing solve.
     pub fn respond_homogeneous(&mut self, change: &mut Equilibrium, part: &ZonePart) {
         let initial = &mut change.initial;
         initial.eliminated.copy_from(&initial.load);
@@ -76,8 +77,8 @@ impl Solver<'_> {
         self.recover_change(change, part);
     }
 
-    /// The displacements of a change of state from its other parts: the second half of a trailing
-    /// solve.
+    /// Finds the displacements of a change of state from its initial loads and gaps: the second
+    /// half of a trailing solve.
     pub fn recover_change(&mut self, change: &mut Equilibrium, part: &ZonePart) {
         change.u.copy_from(&change.initial.eliminated);
         let slip: Vec<f64> = change.gap.iter().map(|g| -g).collect();
@@ -85,14 +86,14 @@ impl Solver<'_> {
         self.cost.count_half();
     }
 
-    /// Makes the displacements belong to the current gaps and forces.
+    /// Updates the displacements so that they belong to the current gaps and forces.
     pub fn refresh(&mut self) {
         if !self.fresh {
             let point = self.at.clone();
             let initial = self.now.initial.clone();
             self.now = self.respond(&point, initial);
             self.fresh = true;
-            // Zero within round-off is zero; what is more than that stays to be seen.
+            // Negative values within round-off are set to zero; larger ones remain, to be noticed.
             let gaps = self.structure.gaps.initial.iter();
             let gap = gaps.fold(0.0f64, |m, g| m.max(g.abs()));
             let force = (self.now.force.iter()).fold(self.scales.force, |m, r| m.max(*r));
@@ -106,7 +107,7 @@ impl Solver<'_> {
         }
     }
 
-    /// Displacements of the whole model for the current state: half a full solve.
+    /// Returns the displacements of the whole model for the current state. Costs half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -117,7 +118,7 @@ impl Solver<'_> {
         self.structure.sub.recover_all(&reduced, &self.now.u)
     }
 
-    /// Applied loads, contact forces and initial loads on all freedoms.
+    /// The sum of applied loads, contact forces and initial loads on all freedoms.
     pub fn total_load(&self) -> Vec<f64> {
         let mut load = combination(
             self.structure.model,
@@ -137,9 +138,10 @@ impl Solver<'_> {
         load
     }
 
-    /// The force that moves the nodes of the leading load along its displacement, of the whole:
-    /// negative where they have to be held back, zero where it is no more than round-off of its
-    /// terms. `None` where that load prescribes no displacement.
+    /// The force that moves the nodes of the leading load along its displacement, for the whole
+    /// body with its mirror images. The force is negative if the nodes have to be held back, and
+    /// zero if it is no more than round-off of its terms. `None` if the leading load prescribes no
+    /// displacement.
     pub(in crate::analysis) fn driving_force(&self) -> Option<f64> {
         let structure = &self.structure;
         let driving = structure.loads.driving.as_ref()?;
@@ -170,8 +172,9 @@ impl Solver<'_> {
         of_whole(force)
     }
 
-    /// The force that the stresses at `state` leave out of balance: what the plastic strains there
-    /// would be as initial loads, less the initial loads that the state is in equilibrium with.
+    /// Computes the force by which the stresses at `state` are out of balance: the initial loads of
+    /// the plastic strains at its displacements, minus the initial loads that it is in equilibrium
+    /// with.
     pub(in crate::analysis) fn out_of_balance_at(
         &mut self,
         state: &Equilibrium,
@@ -183,8 +186,8 @@ impl Solver<'_> {
         evaluation
     }
 
-    /// Solves contact for the load point from scratch, elastic, and makes it the current state
-    /// (paper 3.7 to 3.10).
+    /// Solves the elastic contact problem at a load point from scratch and makes the solution the
+    /// current state (paper 3.7 to 3.10).
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
@@ -209,9 +212,9 @@ impl Solver<'_> {
         Ok(())
     }
 
-    /// The contact forces. Residual stresses balance to the tolerance of the plastic iteration
-    /// only, and to round-off: where all contact forces together are less than that, the bodies
-    /// have parted and nothing is left but the imbalance.
+    /// The contact forces of the current state. Residual stresses balance only to the tolerance of
+    /// the plastic iteration and to round-off. If all contact forces together are less than that,
+    /// the bodies have parted, nothing but the imbalance is left, and the forces returned are zero.
     pub fn contact_forces(&self) -> Cow<'_, [f64]> {
         let force = &self.now.force;
         let tolerance = self.structure.model.scene.analysis.tolerance * self.scales.force;

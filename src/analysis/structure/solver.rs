@@ -1,4 +1,4 @@
-//! The solver: the structure in its current state, and what increments are found with.
+//! The solver: the structure in its current state, with the data that increments are found with.
 
 use super::cost::Cost;
 use super::equilibrium::{EliminatedLoad, Equilibrium};
@@ -23,71 +23,71 @@ pub struct Solver<'m> {
     pub structure: Structure<'m>,
     /// Contact matrix, with springs, and the statuses of the pairs.
     pub tableau: Tableau,
-    /// What keeps bodies where they are that nothing holds and nothing drives.
+    /// Springs that keep bodies in place which nothing holds and nothing drives.
     pub springs: Arc<[Springs]>,
     /// Elements that may yield, with their history.
     pub zone: Zone,
     /// Current load point.
     pub at: LoadPoint,
-    /// Current equilibrium; its displacements are valid where `fresh`, without the rigid motions
-    /// that gaps allow.
+    /// Current equilibrium. Its displacements are valid only if `fresh`; they leave out the rigid
+    /// motions that gaps allow.
     pub now: Equilibrium,
     /// Whether the displacements belong to the current gaps and forces.
     pub fresh: bool,
-    /// Pairs that arrived at the border of their condition with the last event.
+    /// Pairs whose gap or force came to zero at the last change of contact.
     pub border: Vec<usize>,
-    /// The tangent, where it was factored in the increment at hand.
+    /// The factored tangent, if one was made in the current increment.
     pub tangent: Option<Box<FactoredTangent>>,
-    /// What the next increment is predicted from.
+    /// Data from which the next increment is predicted.
     pub predictor: Predictor,
-    /// What is large and what is small.
+    /// Reference sizes for residuals and round-off.
     pub scales: Scales,
     /// Cost of the run so far.
     pub cost: Cost,
 }
 
-/// What an increment is predicted from besides the state and the points that yielded last: it
-/// decides how fast it is found.
+/// Data from which an increment is predicted, in addition to the state and the points that yielded
+/// last. The prediction decides how fast the increment converges.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Predictor {
-    /// Change of the load point over the piece of the last increment: distinguishes loading from
-    /// unloading.
+    /// Change of the load point over the piece of the last increment; tells loading from unloading.
     pub last_step: Vec<f64>,
-    /// Where flow began last, after a stretch on which there was none.
+    /// Load point at which flow began last, after a stretch without flow.
     pub flow: Flow,
-    /// How initial loads changed over the last increment: over the next one much the same.
+    /// Rate at which initial loads changed over the last increment; much the same in the next one.
     pub pace: Option<Pace>,
 }
 
-/// A change of initial loads with the load.
+/// The rate of change of initial loads with the load.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Pace {
     /// The change for a distance of 1 between load points.
     pub initial: EliminatedLoad,
     /// The distance over which it was found.
     pub distance: f64,
-    /// Factor by which the change was stretched since its loads were eliminated.
+    /// Factor by which the change was scaled since its loads were eliminated.
     pub stretched: f64,
 }
 
-/// The largest figures of the run so far: what residuals and round-off are measured against.
+/// The largest values in the run so far, against which residuals and round-off are measured.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub struct Scales {
-    /// Nodal force, applied or of contact.
+    /// Largest nodal force, applied or of contact.
     pub force: f64,
-    /// Displacement, of a state or of the nodes of a pair against each other.
+    /// Largest displacement, of a state or of the two sides of a pair relative to each other.
     pub displacement: f64,
-    /// Displacement without rigid motions of floating bodies: what stresses and their round-off are
-    /// a share of.
+    /// Largest displacement without rigid body motions of floating bodies. Stresses and their
+    /// round-off are proportional to it.
     pub deformation: f64,
-    /// Round-off that equilibrium was accepted at where it is above the tolerance asked for; zero
-    /// where it never was.
+    /// Round-off at which equilibrium was accepted, if it is above the tolerance asked for; zero if
+    /// it never was.
     pub round_off: f64,
 }
 
 impl<'m> Solver<'m> {
     /// Factors the structure so that zones may be chosen among the elements `within`, and chooses
-    /// one of the given elements (`guard` marks those that only watch).
+    /// the zone of the given `elements` (`guard` marks the elements that only watch whether
+    /// yielding reaches them).
     ///
     /// # Errors
     /// Errors of [`Structure::new`].
@@ -123,7 +123,7 @@ impl<'m> Solver<'m> {
         Ok(solver)
     }
 
-    /// Back to where nothing acts, with the zone at hand and no history.
+    /// Returns to the unloaded state, with the current zone and no history.
     pub(super) fn unload(&mut self) {
         let structure = &self.structure;
         self.at = LoadPoint::unloaded(structure.model.loads.len());
@@ -141,8 +141,8 @@ impl<'m> Solver<'m> {
         self.fresh = true;
     }
 
-    /// Puts these springs in the place of those at hand, the statuses being the same; false (and
-    /// nothing changed) where they are of another structure.
+    /// Replaces the current springs and keeps the statuses. Returns false, and changes nothing, if
+    /// the springs are of another structure.
     pub(super) fn set_springs(&mut self, springs: &Arc<[Springs]>) -> bool {
         let matrix = self.structure.sub.pair_matrix();
         if !springs.iter().all(|own| own.fit(matrix)) {
@@ -158,7 +158,7 @@ impl<'m> Solver<'m> {
         true
     }
 
-    /// Builds the tableau anew with the same statuses.
+    /// Builds the tableau again with the same statuses.
     fn build_tableau(&mut self) {
         let open = self.tableau.open().to_vec();
         let matrix = with_springs(self.structure.sub.pair_matrix(), &self.springs);
@@ -166,7 +166,7 @@ impl<'m> Solver<'m> {
         self.tableau.reset(&open);
     }
 
-    /// Adds to the forces `q` of closed pairs what springs exert on them.
+    /// Adds the forces that springs exert on closed pairs to their forces `q`.
     pub(in crate::analysis) fn add_springs(&self, q: &mut [f64]) {
         for springs in self.springs.iter() {
             springs.add_at_rest(q);
@@ -201,10 +201,9 @@ impl<'m> Solver<'m> {
         Ok(())
     }
 
-    /// What round-off may leave in the sum of the contact forces: the tied structure comes from a
-    /// factor that keeps
-    /// `eps` times the condition of what it is made from. Far from Poisson's ratio 1/2 that is
-    /// less than the tolerance of any iteration.
+    /// Bound on the round-off in the sum of the contact forces. The tied structure comes from a
+    /// factor whose error is `eps` times the condition number of the stiffness. Far from Poisson's
+    /// ratio 1/2 that is less than the tolerance of any iteration.
     pub fn round_off_of_contact(&self) -> f64 {
         let initial = self.now.initial.forces.iter().map(|r| r.abs());
         let terms: f64 = (0..self.now.gap.len())
@@ -217,8 +216,7 @@ impl<'m> Solver<'m> {
         (8.0 * f64::EPSILON * self.structure.condition * terms).min(LOOSEST * self.scales.force)
     }
 
-    /// Whether the load that is left up to `end` is no more than what round-off leaves in the
-    /// contact forces.
+    /// Whether the load left up to `end` is no more than the round-off of the contact forces.
     pub(in crate::analysis) fn is_round_off(&self, end: &LoadPoint) -> bool {
         let model = self.structure.model;
         let [from, to] = [&self.at, end].map(|at| model.factors_of_alike(&at.factors));
@@ -228,7 +226,7 @@ impl<'m> Solver<'m> {
             .map(|((alike, condensed), (from, to))| {
                 let loads = || alike.iter().map(|&load| &model.loads[load]);
                 let size: f64 = match model.loads[alike[0]].measures {
-                    // A rigid surface that moves changes gaps alone.
+                    // A rigid surface that moves changes only gaps.
                     _ if loads().any(|load| !load.opens.is_empty()) => {
                         let all = condensed.load.iter().chain(&condensed.forces);
                         all.map(|f| f.abs()).sum()
@@ -245,13 +243,13 @@ impl<'m> Solver<'m> {
             && left <= self.round_off_of_contact()
     }
 
-    /// The next increment is predicted as if no point yielded.
+    /// Makes the prediction of the next increment assume that no point yields.
     pub fn assume_elastic(&mut self) {
         self.zone.assume_elastic();
         self.predictor.pace = None;
     }
 
-    /// Takes note of the forces and displacements at hand.
+    /// Raises the scales to the forces and displacements of the current state.
     pub fn update_scales(&mut self) {
         let (structure, scales) = (&self.structure, &self.scales);
         let delta = structure.delta(&self.at);

@@ -1,4 +1,4 @@
-//! The state that a run starts from: what an earlier one left in the material.
+//! The state that a run starts from: the state that an earlier run left in the material.
 
 use super::solver::Solver;
 use crate::analysis::zone::history::History;
@@ -9,12 +9,12 @@ use crate::model::Model;
 use crate::results::{EndState, LeftBy, LeftByBody};
 use crate::scene::{Kind, Unit};
 
-/// Reads the state that the scene of a model starts from; `None` where that is a virgin one.
+/// Reads the state that the scene of a model starts from; `None` if it is a virgin state.
 ///
 /// # Errors
-/// Errors of [`read_end_state`]; `Input` where first yield is asked for, a body with plastic
-/// strains may not yield, its material has other back stresses that fade, the model is of another
-/// kind, or bodies have not brought along what they had.
+/// Errors of [`read_end_state`]; `Input` if first yield is asked for, a body with plastic strains
+/// may not yield, its material has other fading back stresses, the model is of another kind, or a
+/// body does not bring along the stresses and strains that it brought along in the earlier run.
 pub(in crate::analysis) fn read(model: &Model) -> Result<Option<EndState>> {
     let scene = &model.scene;
     let Some(folder) = scene.start_folder() else {
@@ -69,7 +69,7 @@ fn checked(model: &Model, state: EndState) -> Result<EndState> {
     Ok(state)
 }
 
-/// What a model leaves a state by.
+/// Describes the model as far as a state that it leaves depends on it.
 fn left_by(model: &Model) -> LeftBy {
     let names = model.mesh.bodies.iter();
     let body = |(name, material): (&String, &Material)| {
@@ -88,8 +88,8 @@ fn left_by(model: &Model) -> LeftBy {
     }
 }
 
-/// A state has a meaning in models of one kind, whose bodies remember alike and have brought along
-/// the same.
+/// Checks that the model is of the kind that left the state, and that the rates of its back
+/// stresses and the stresses and strains that its bodies bring along are equal.
 fn check_origin(model: &Model, state: &EndState) -> Result<()> {
     let here = left_by(model);
     let Some(there) = state.left_by.as_ref().filter(|_| !state.is_virgin()) else {
@@ -124,7 +124,7 @@ fn check_origin(model: &Model, state: &EndState) -> Result<()> {
     Ok(())
 }
 
-/// Goes to where nothing acts, in the state that the run starts from.
+/// Goes to the unloaded point of the load path, in the state that the run starts from.
 ///
 /// # Errors
 /// A body that residual stresses alone push away from every contact.
@@ -142,7 +142,7 @@ pub(in crate::analysis) fn begin(solver: &mut Solver) -> Result<()> {
     solver.solve_contact_at(&nothing)
 }
 
-/// What is left in the material; `None` where no body may yield.
+/// The state left in the material; `None` if no body may yield.
 pub(in crate::analysis) fn end_state(solver: &Solver) -> Option<EndState> {
     let structure = &solver.structure;
     let able = structure.model.may_yield.contains(&true);

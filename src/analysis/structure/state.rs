@@ -1,5 +1,5 @@
-//! A committed state: what an increment starts from, what an attempt that fails goes back to, and
-//! what a checkpoint holds.
+//! A committed state: the start of an increment, the state restored when an attempt fails, and part
+//! of a checkpoint.
 
 use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
@@ -21,11 +21,11 @@ pub(in crate::analysis) struct State {
     pub(in crate::analysis) fresh: bool,
     /// Which pairs are open.
     pub(in crate::analysis) open: Vec<bool>,
-    /// What keeps bodies where they are that nothing holds and nothing drives.
+    /// Springs that keep bodies in place which nothing holds and nothing drives.
     pub(in crate::analysis) springs: Arc<[Springs]>,
-    /// Pairs at the border of their condition.
+    /// Pairs whose gap or force came to zero at the last change of contact.
     pub(in crate::analysis) border: Vec<usize>,
-    /// Number of the zone among those that were chosen in the run.
+    /// Number of the state's zone, counting the zones chosen in the run.
     pub(in crate::analysis) zone: usize,
     /// Elements of the zone, ascending.
     #[serde(with = "packed::ascending")]
@@ -35,8 +35,8 @@ pub(in crate::analysis) struct State {
 }
 
 impl State {
-    /// Whether the state is one of a structure with so many pairs, contact freedoms and loads, and
-    /// its parts fit each other.
+    /// Whether the state is one of a structure with these numbers of pairs, contact freedoms and
+    /// loads, and its parts fit each other.
     pub(in crate::analysis) fn fits(
         &self,
         [n_pairs, n_contact]: [usize; 2],
@@ -57,7 +57,7 @@ impl State {
 }
 
 impl Solver<'_> {
-    /// The current state.
+    /// A copy of the current state.
     pub(in crate::analysis) fn state(&self) -> State {
         State {
             at: self.at.clone(),
@@ -72,7 +72,7 @@ impl Solver<'_> {
         }
     }
 
-    /// Goes back to a state of the run, of the zone at hand or of an earlier one.
+    /// Restores a state of the run, whether of the current zone or of an earlier one.
     pub(in crate::analysis) fn restore(&mut self, state: &State) {
         self.at = state.at.clone();
         if state.zone == self.structure.zone_number {
@@ -91,8 +91,8 @@ impl Solver<'_> {
         self.restore_statuses(&state.open, &state.border);
     }
 
-    /// Goes back to an elastic state from others that were only looked at: the contact matrix is
-    /// swept anew.
+    /// Restores an elastic state after other states were only looked at. The contact matrix is
+    /// swept again.
     pub(in crate::analysis) fn restore_elastic(&mut self, state: &State) {
         self.set_springs(&state.springs);
         self.tableau.reset(&state.open);
@@ -102,7 +102,8 @@ impl Solver<'_> {
     /// Gives the pairs the statuses of an earlier state.
     pub(in crate::analysis) fn restore_statuses(&mut self, open: &[bool], border: &[usize]) {
         self.border = border.to_vec();
-        // Closing first: a pair whose opening would free a motion can open once others are closed.
+        // Pairs are closed first: a pair whose opening would free a motion can open once others are
+        // closed.
         for closing in [true, false] {
             for (k, &wanted) in open.iter().enumerate() {
                 let open = self.tableau.open()[k];

@@ -1,9 +1,10 @@
-//! How finely a plastic zone is measured: by the volumes of Gauss points.
+//! How finely a mesh resolves the size of a plastic zone: to the volumes of its Gauss points.
 //!
-//! The border of what has yielded lies between points that have and points that have not. Of an
-//! element with `n` points in `D` dimensions a layer of them takes up the share `n^(-1/D)`. Where
-//! the border passes from one layer to the next, the size of the zone changes by the volume of a
-//! layer all along it; two meshes that agree better do so by accident.
+//! The border of the plastic zone lies between points that have yielded and points that have not.
+//! In an element with `n` points in `D` dimensions, one layer of points takes up the share
+//! `n^(-1/D)` of the volume. If the border passes from one layer to the next, the size of the zone
+//! changes by the volume of this layer along the whole border. Two meshes that agree more closely
+//! do so by accident.
 
 use crate::mesh::{Facet, Mesh};
 use crate::model::Model;
@@ -12,14 +13,15 @@ use std::collections::BTreeMap;
 /// An element in which points have yielded.
 pub(in crate::analysis) struct Yielded {
     pub(in crate::analysis) element: usize,
-    /// Whether all its points have.
+    /// Whether all points of the element have yielded.
     pub(super) wholly: bool,
-    /// Volume of a layer of its points.
+    /// Volume of one layer of the element's points.
     pub(in crate::analysis) layer: f64,
 }
 
 impl Yielded {
-    /// An element of a volume, `yielded` of whose `points` in `dimension` dimensions have yielded.
+    /// An element of the given volume, with `yielded` of its `points` in `dimension` dimensions
+    /// beyond yield.
     pub(in crate::analysis) fn new(
         element: usize,
         volume: f64,
@@ -34,9 +36,9 @@ impl Yielded {
     }
 }
 
-/// Volume of a layer of points along the border of the zone, ascending elements given: in elements
-/// that it passes through, and in those that have a facet in common with one that may yield and has
-/// not.
+/// Returns the volume of one layer of points along the border of the zone (its elements ascending).
+/// Two sorts of elements count: those that have yielded in part, and those that have yielded wholly
+/// but share a facet with an element that may yield and has not.
 pub(in crate::analysis) fn layer(model: &Model, zone: &[Yielded]) -> f64 {
     let mesh = &model.mesh;
     let mut nodes = vec![false; mesh.n_nodes()];
@@ -71,7 +73,7 @@ pub(in crate::analysis) fn layer(model: &Model, zone: &[Yielded]) -> f64 {
     border.map(|(yielded, _)| yielded.layer).sum()
 }
 
-/// The nodes of each facet, ascending.
+/// The facets of an element, each as its nodes in ascending order.
 fn facets(mesh: &Mesh, element: usize) -> impl Iterator<Item = Vec<usize>> + '_ {
     (0..mesh.shapes[element].n_facets()).map(move |local| {
         let mut nodes: Vec<usize> = mesh.facet_nodes(Facet { element, local }).collect();

@@ -4,9 +4,9 @@
 //! eps = B u,   J = sum_g w_g B' D eps_p(eps),   dJ = sum_g w_g B' (D - D_ep) B du
 //! ```
 //!
-//! `J` are the paper's initial loads (4.1); the plastic strains depend on the committed history and
-//! on the total strain at the end of the increment only, so within an increment they are a function
-//! of `u`.
+//! `J` are the paper's initial loads (4.1). The plastic strains depend on the committed history, on
+//! the strains at the start of the increment and on the total strain at its end. Within an
+//! increment they are therefore a function of `u` alone.
 
 use super::gather::Places;
 use super::history::History;
@@ -52,7 +52,7 @@ impl From<ZoneOf<3, 6, 27, 20>> for Zone {
     }
 }
 
-/// Evaluates an expression for the zone of either dimension.
+/// Evaluates one expression for the zone of whichever dimension and integration rule.
 macro_rules! of_zone {
     ($self:expr, $zone:ident => $body:expr) => {
         match $self {
@@ -66,10 +66,11 @@ macro_rules! of_zone {
 
 pub(in crate::analysis) use of_zone;
 
-/// What [`ZoneOf`] does, whichever the dimension.
+/// The methods of [`ZoneOf`], for a zone of either dimension.
 impl Zone {
-    /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch.
-    /// The free freedoms of the elements must be zone or contact freedoms.
+    /// Sets up the zone of the given elements (ascending); `guard` marks the elements that only
+    /// watch whether yielding reaches them. The free freedoms of the elements must be zone or
+    /// contact freedoms.
     pub fn new(model: &Model, elements: &[usize], guard: &[bool], places: &Places) -> Self {
         with_kernel!(model.kind, model.formulation, model.mesh, kernel => {
             ZoneOf::new(&kernel, model, elements, guard, places).into()
@@ -268,22 +269,22 @@ targets = [{ load_factor = 1.0 }]
         }
     }
 
-    /// What a zone goes back to knows nothing of what it went through since: what yields next is
-    /// what yields in a new one.
+    /// A zone whose history was restored keeps nothing of what it went through since: the points
+    /// that yield next are the points that yield in a new zone.
     #[test]
     fn a_restored_history_is_all_there_is() {
         let case = Case::new();
         let mut zone = case.zone();
         let virgin = zone.history();
         assert!(case.flow(&mut zone, 0.3).yielding > 0);
-        // Elastic from there: nothing yields any more, and the last yielding is history.
+        // All strains are elastic from here: nothing yields, and the last yielding is history.
         assert_eq!(case.flow(&mut zone, 0.29).yielding, 0);
         zone.restore(&virgin);
         assert_eq!(zone.extent(), (0, 0.0));
         let mut fresh = case.zone();
         let yielding = case.flow(&mut zone, 0.03);
         assert_eq!(yielding, case.flow(&mut fresh, 0.03));
-        // In a part of an element's points, so that the others show what they remember.
+        // Only some points of an element yield, so that the others show what they remember.
         let history = fresh.history();
         let points = history.points.chunks(4);
         let partly = |states: &[PlasticState<6>]| {
@@ -294,8 +295,8 @@ targets = [{ load_factor = 1.0 }]
         assert_eq!(zone.history(), fresh.history());
     }
 
-    /// The matrices of the elements add up to what products are made with, at the state at hand and
-    /// at one that was kept.
+    /// The element matrices add up to the matrix behind the products, both at the current state and
+    /// at a state that was kept.
     #[test]
     fn element_matrices_add_up_to_the_product() {
         let case = Case::new();
@@ -331,15 +332,15 @@ targets = [{ load_factor = 1.0 }]
         assert_eq!(kept.largest(), 0.0);
     }
 
-    /// The history of a smaller zone: the elements that were not in it have none, whatever they
-    /// have gone through since.
+    /// After the history of a smaller zone is restored, elements outside that zone have no history,
+    /// whatever they have gone through since.
     #[test]
     fn elements_outside_a_restored_zone_have_no_history() {
         let case = Case::new();
         let mut zone = case.zone();
         case.flow(&mut zone, 0.3);
         let stride = 4;
-        // Of the second element of two, the first being elastic then.
+        // History of the second element of a zone of two; the first is elastic.
         let all = zone.history();
         let mut small = History {
             points: vec![PlasticState::default(); 2 * stride],

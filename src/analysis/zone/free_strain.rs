@@ -1,13 +1,13 @@
-//! Free strains, of temperature or brought along ([`FreeOfLoad`]), at the
-//! points of elements, taken off their strains.
+//! Free strains at the points of elements, to be subtracted from the total strains. They come from
+//! temperature or are brought along by a body ([`FreeOfLoad`]).
 
 use crate::element::{Components, Lanes};
 use crate::mesh::Mesh;
 use crate::model::{FreeOfLoad, Model};
 use std::ops::Range;
 
-/// Takes the free strains of an element, at some load factors, off its strains; `at_points`
-/// interpolates between its nodes.
+/// Subtracts the free strains of an element, at the given load factors, from its strains;
+/// `at_points` interpolates from its nodes to its points.
 #[inline]
 pub(in crate::analysis) fn take_off_all<const S: usize, const P: usize, const N: usize>(
     strains: &mut Components<S, P>,
@@ -23,14 +23,14 @@ pub(in crate::analysis) fn take_off_all<const S: usize, const P: usize, const N:
     }
 }
 
-/// Takes components of a free strain times a factor off strains.
+/// Subtracts `factor` times a free strain, given for a range of components, from `strains`.
 #[inline]
 fn take_off<const S: usize, const P: usize>(
     strains: &mut Components<S, P>,
     factor: f64,
     (components, free): (&Range<usize>, &Lanes<P>),
 ) {
-    // The plane has not all that space has.
+    // A plane model has fewer components than a solid.
     for lanes in strains
         .iter_mut()
         .take(components.end)
@@ -42,14 +42,15 @@ fn take_off<const S: usize, const P: usize>(
     }
 }
 
-/// Free strains at factor 1 at the points of some elements, kept load by load: nothing where no
-/// load has any.
+/// Free strains at factor 1 at the points of some elements, stored by load; empty if no load has
+/// free strains.
 pub(in crate::analysis) struct FreeStrains<const P: usize> {
     of_loads: Vec<(usize, Range<usize>, Vec<Lanes<P>>)>,
 }
 
 impl<const P: usize> FreeStrains<P> {
-    /// Free strains of the given elements; `at_points` interpolates between the nodes of the i-th.
+    /// Free strains of the given elements; `at_points` interpolates from the nodes of the i-th
+    /// element.
     pub(in crate::analysis) fn new<const N: usize>(
         model: &Model,
         elements: &[usize],
@@ -67,7 +68,7 @@ impl<const P: usize> FreeStrains<P> {
         }
     }
 
-    /// Takes those of the i-th element at some load factors off its strains.
+    /// Subtracts the free strains of the i-th element, at the given load factors, from its strains.
     #[inline]
     pub(in crate::analysis) fn take_off<const S: usize>(
         &self,

@@ -1,4 +1,4 @@
-//! Where the freedoms of a list of elements find displacements, and leave forces.
+//! Gathers nodal displacements for elements, and scatters element forces into nodal sums.
 
 use crate::model::{Model, Slot};
 use crate::space::Vector;
@@ -31,20 +31,21 @@ impl Places {
     }
 }
 
-/// `[ zone | contact | prescribed | 0 ]`: every element freedom has a place, so that nothing is
-/// decided in a loop.
+/// Nodal values in the order `[ zone | contact | prescribed | 0 ]`. Every freedom of an element has
+/// a place in this vector, fixed ones the zero at the end, so that loops over elements need no
+/// branches.
 #[derive(Clone)]
 pub struct Nodal {
     values: Vec<f64>,
     n_zone: usize,
     n_contact: usize,
-    /// Load and value at factor 1 of each prescribed displacement.
+    /// Load index of each prescribed displacement, and the displacement at factor 1.
     prescribed: Vec<(usize, f64)>,
     factors: Vec<f64>,
 }
 
 impl Nodal {
-    /// Zeros, with the prescribed displacements of a model at factors zero.
+    /// Zeros for the freedoms of a model, with all load factors zero.
     pub fn new(model: &Model, places: &Places) -> Self {
         let prescribed: Vec<(usize, f64)> = model
             .freedoms
@@ -61,7 +62,7 @@ impl Nodal {
         }
     }
 
-    /// Factors of the loads that scale the prescribed displacements from now on.
+    /// Sets the load factors that scale the prescribed displacements from now on.
     pub fn set_factors(&mut self, factors: &[f64]) {
         self.factors.copy_from_slice(factors);
     }
@@ -71,7 +72,7 @@ impl Nodal {
         self.values[self.n_zone..self.n_zone + self.n_contact].copy_from_slice(&u.contact);
     }
 
-    /// Takes over displacements, the prescribed ones at the current factors.
+    /// Takes over displacements; prescribed displacements take their values at the current factors.
     pub fn displacements(&mut self, u: &Trailing) -> &[f64] {
         self.set(u);
         let rest = &mut self.values[self.n_zone + self.n_contact..];
@@ -81,19 +82,19 @@ impl Nodal {
         &self.values
     }
 
-    /// The values that were taken over last.
+    /// The nodal values that were taken over last.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Takes over a variation: zero where displacements are prescribed.
+    /// Takes over a variation of the displacements, zero on the prescribed freedoms.
     pub fn variation(&mut self, u: &Trailing) -> &[f64] {
         self.set(u);
         self.values[self.n_zone + self.n_contact..].fill(0.0);
         &self.values
     }
 
-    /// Starts a sum of element forces.
+    /// Begins a sum of element forces, from `base` or from zero.
     pub fn start_sum(&mut self, base: Option<&Trailing>) -> &mut [f64] {
         match base {
             Some(base) => self.set(base),
@@ -102,12 +103,12 @@ impl Nodal {
         &mut self.values
     }
 
-    /// The sum on the prescribed displacements.
+    /// The sum of forces on the prescribed freedoms.
     pub fn on_prescribed(&self) -> &[f64] {
         &self.values[self.n_zone + self.n_contact..][..self.prescribed.len()]
     }
 
-    /// The sum on zone and contact freedoms.
+    /// Writes the sum of forces on zone and contact freedoms into `out`.
     pub fn sum_into(&self, out: &mut Trailing) {
         out.zone.copy_from_slice(&self.values[..self.n_zone]);
         out.contact
@@ -115,10 +116,10 @@ impl Nodal {
     }
 }
 
-/// A part of a displacement: `coefficient` times what stands at `place` of a [`Nodal`] vector.
+/// One term of a displacement: `coefficient` times the value at `place` of a [`Nodal`] vector.
 #[derive(Debug, Clone, Copy)]
 struct DisplacementPart {
-    /// Which displacement of its element or node, node by node in global axes.
+    /// Number of the displacement within its element or node: node by node, in global axes.
     own: u8,
     place: u32,
     coefficient: f64,
@@ -128,12 +129,12 @@ struct DisplacementPart {
 #[derive(Debug, Clone)]
 pub struct NodalPlaces {
     places: [u32; 3],
-    /// Parts added to these displacements, where they are sums.
+    /// Terms to be added, if the displacements are sums (on turned or coupled nodes).
     parts: Vec<DisplacementPart>,
 }
 
 impl NodalPlaces {
-    /// Places of a node of a model.
+    /// Looks up the places of a node of a model.
     pub fn new(model: &Model, places: &Places, node: usize) -> Self {
         let none = (places.n_zone + places.n_contact) as u32;
         let fixed = none + model.freedoms.prescribed.len() as u32;
@@ -178,7 +179,7 @@ impl NodalPlaces {
     }
 }
 
-/// An element: where its places begin.
+/// An element, with the index at which its places begin.
 #[derive(Debug, Clone, Copy)]
 pub struct Packed {
     /// Index in the mesh.
@@ -190,14 +191,14 @@ pub struct Packed {
     parts: (u32, u32),
 }
 
-/// Elements one after the other.
+/// Elements in a list, their places one element after the other.
 #[derive(Default)]
 pub struct GatheredElements {
     /// The elements, in the order given.
     pub list: Vec<Packed>,
     places: Vec<u32>,
     parts: Vec<DisplacementPart>,
-    /// Number of zone and contact freedoms: places beyond are none of these.
+    /// Number of zone and contact freedoms: places from here on are prescribed or zero.
     n_free: u32,
 }
 
@@ -246,7 +247,8 @@ impl GatheredElements {
             + self.parts.capacity() * size_of::<DisplacementPart>()
     }
 
-    /// Displacements of the nodes of element `i` in global axes, for the values of a [`Nodal`].
+    /// Displacements of the nodes of element `i` in global axes, read from the values of a
+    /// [`Nodal`].
     #[inline]
     pub fn displacements<const D: usize, const N: usize>(
         &self,
@@ -282,9 +284,9 @@ impl GatheredElements {
         }
     }
 
-    /// A matrix of element `i`, its columns the forces on the nodes for a unit of each of their
-    /// displacements, on the zone and contact freedoms that these are made of: their places and the
-    /// matrix, by columns.
+    /// A matrix of element `i`, moved to its zone and contact freedoms. The columns given are the
+    /// forces on the nodes for a unit of each nodal displacement. Returns the places of the
+    /// freedoms (ascending) and the matrix by columns.
     pub fn spread<const D: usize, const N: usize>(
         &self,
         i: usize,
@@ -316,7 +318,7 @@ impl GatheredElements {
         (places, matrix)
     }
 
-    /// Marks the zone freedoms of element `i`.
+    /// Marks the freedoms of element `i` that `marks` covers: the zone freedoms.
     pub fn mark(&self, i: usize, marks: &mut [bool]) {
         let packed = &self.list[i];
         let parts = self.parts_of(packed).iter().map(|part| part.place);
@@ -342,9 +344,9 @@ mod tests {
     use crate::element::{Components, Kernel};
     use crate::scene::Scene;
 
-    /// Gathered displacements and scattered forces against the model's own axes and slots, on
-    /// elements with turned contact nodes: equal to round-off, and the one the transpose of the
-    /// other.
+    /// Gathered displacements and scattered forces agree with the model's own axes and slots to
+    /// round-off, on elements with turned contact nodes. Gathering and scattering are transposes of
+    /// each other.
     #[test]
     fn gathered_elements_see_the_displacements_of_the_model() {
         let coarse = "mesh.cylinder_on_half_plane.resolution=4";
@@ -397,7 +399,7 @@ mod tests {
                         terms += (weight * s[g] * e[g]).abs();
                     }
                 }
-                // A strain is a difference of displacements over the size of the element.
+                // A strain is a difference of displacements divided by the size of the element.
                 let force: f64 = sums.iter().map(|f| f.abs()).sum();
                 assert!(
                     (work - internal).abs() <= 64.0 * f64::EPSILON * (terms + force),

@@ -1,4 +1,4 @@
-//! What the points of a zone have gone through, and what back stresses that fade remember of it.
+//! The plastic history of the points of a zone, and the strains that fading back stresses keep.
 
 use super::packed;
 use crate::material::{Memory, PlasticState, resized};
@@ -8,13 +8,14 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// The history of points, in the plane with zeros for the components it has not.
+/// The history of Gauss points. In a plane model, the two shear components out of the plane are
+/// zero.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct History {
-    /// Plastic history of each.
+    /// Plastic history of each point.
     #[serde(with = "packed::history")]
     pub points: Vec<PlasticState<6>>,
-    /// Strains that the back stresses of each point remember.
+    /// Strains that the back stresses keep at each point.
     pub back: BackStrains<6>,
 }
 
@@ -38,7 +39,8 @@ impl From<&EndState> for History {
 }
 
 impl History {
-    /// State that the history leaves in the given elements, whose points these are.
+    /// Returns the plastic state of the given elements, whose points the history is of (element by
+    /// element). Elements without plastic strain are left out.
     pub fn end_state(&self, elements: &[usize]) -> EndState {
         let mut out = EndState::default();
         let stride = self.points.len() / elements.len().max(1);
@@ -62,29 +64,29 @@ impl History {
         out
     }
 
-    /// Whether the history is of so many points.
+    /// Whether the history has `n_points` points.
     pub fn is_of(&self, n_points: usize) -> bool {
         self.points.len() == n_points && self.back.is_of(n_points)
     }
 }
 
-/// The strains of back stresses that fade, point by point, and the work that was lost with them.
-/// Empty where no material has any.
+/// The strains of fading back stresses, point by point, and the work lost as they fade. Empty if no
+/// material has such a back stress.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(bound(
     serialize = "[f64; S]: Serialize",
     deserialize = "[f64; S]: Deserialize<'de>"
 ))]
 pub struct BackStrains<const S: usize> {
-    /// How many each point has.
+    /// Number of fading back stresses at each point.
     each: usize,
     strains: Vec<[f64; S]>,
-    /// Per volume, of each point.
+    /// Work lost at each point, per volume.
     lost_work: Vec<f64>,
 }
 
 impl<const S: usize> BackStrains<S> {
-    /// `each` of so many points, all zero.
+    /// Zero strains for `each` back stresses at `n_points` points.
     pub fn new(each: usize, n_points: usize) -> Self {
         BackStrains {
             each,
@@ -93,7 +95,7 @@ impl<const S: usize> BackStrains<S> {
         }
     }
 
-    /// Whether there are any.
+    /// Whether there are no fading back stresses.
     pub fn is_none(&self) -> bool {
         self.each == 0
     }
@@ -109,18 +111,18 @@ impl<const S: usize> BackStrains<S> {
         self.strains.len() == self.each * n_points && self.lost_work.len() == n
     }
 
-    /// Back strains of a point.
+    /// Strains of the back stresses of a point.
     #[inline]
     pub fn of(&self, point: usize) -> &[[f64; S]] {
         &self.strains[self.each * point..][..self.each]
     }
 
-    /// The work that a point lost, per volume.
+    /// The work lost at a point, per volume.
     pub fn lost_work(&self, point: usize) -> f64 {
         self.lost_work.get(point).copied().unwrap_or(0.0)
     }
 
-    /// Takes over what a point remembers at the last evaluated state.
+    /// Takes over the back strains and the lost work of a point at the last evaluated state.
     pub fn take(&mut self, point: usize, trial: &PathEnds<S>) {
         if !self.is_none() {
             let own = &mut self.strains[self.each * point..][..self.each];
@@ -129,7 +131,7 @@ impl<const S: usize> BackStrains<S> {
         }
     }
 
-    /// Back strains of all points with another number of components.
+    /// Returns the back strains of all points with another number of components.
     pub fn resized<const T: usize>(&self) -> BackStrains<T> {
         BackStrains {
             each: self.each,
@@ -138,7 +140,8 @@ impl<const S: usize> BackStrains<S> {
         }
     }
 
-    /// Puts those of other points in the place of some.
+    /// Overwrites the back strains and lost work of some points with those of `other`, from its
+    /// point `from` on.
     pub fn put(&mut self, points: Range<usize>, other: &BackStrains<6>, from: usize) {
         if self.is_none() {
             return;
@@ -153,7 +156,7 @@ impl<const S: usize> BackStrains<S> {
         self.lost_work[points].copy_from_slice(lost);
     }
 
-    /// Forgets those of some points.
+    /// Sets the back strains and the lost work of some points to zero.
     pub fn clear(&mut self, points: Range<usize>) {
         if !self.is_none() {
             self.strains[self.each * points.start..self.each * points.end].fill([0.0; S]);
@@ -162,16 +165,16 @@ impl<const S: usize> BackStrains<S> {
     }
 }
 
-/// End values of the strain paths of a trial increment: the strains that fading back stresses
-/// remember. Plastic states are kept elsewhere.
+/// Back strains at the end of the strain paths of a trial increment. The plastic states at these
+/// ends are stored elsewhere.
 pub struct PathEnds<const S: usize> {
     each: usize,
-    /// `each` strains of a point, and as many places to compute them in.
+    /// Per point: its `each` strains, then work space for `each` strains.
     strains: Vec<[f64; S]>,
     lost_work: Vec<f64>,
 }
 
-/// Path ends of an element's points.
+/// Path ends of the points of one element.
 pub struct PathEndsOf<'a, const S: usize> {
     each: usize,
     strains: &'a mut [[f64; S]],
@@ -179,7 +182,7 @@ pub struct PathEndsOf<'a, const S: usize> {
 }
 
 impl<const S: usize> PathEnds<S> {
-    /// Path ends of so many points with `each` back stresses that fade.
+    /// Path ends of `n_points` points with `each` fading back stresses.
     pub fn new(each: usize, n_points: usize) -> Self {
         PathEnds {
             each,
@@ -194,7 +197,7 @@ impl<const S: usize> PathEnds<S> {
             + self.lost_work.capacity() * size_of::<f64>()
     }
 
-    /// Path ends of `n` elements of `stride` points, one element after the other.
+    /// Splits the path ends into those of `n` elements with `stride` points each.
     pub fn par_chunks_mut(
         &mut self,
         stride: usize,
@@ -212,7 +215,7 @@ impl<const S: usize> PathEnds<S> {
 }
 
 impl<const S: usize> PathEndsOf<'_, S> {
-    /// The places of a point.
+    /// The places for the back strains of a point, and its work space.
     #[inline]
     pub fn memory_of(&mut self, point: usize) -> Memory<'_, S> {
         let own = &mut self.strains[2 * self.each * point..][..2 * self.each];
@@ -224,7 +227,7 @@ impl<const S: usize> PathEndsOf<'_, S> {
         }
     }
 
-    /// Keeps the work that a point loses.
+    /// Stores the work lost at a point.
     #[inline]
     pub fn keep_lost_work(&mut self, point: usize, work: f64) {
         if let Some(own) = self.lost_work.get_mut(point) {
@@ -233,7 +236,7 @@ impl<const S: usize> PathEndsOf<'_, S> {
     }
 }
 
-/// Pieces of so many values, or as many pieces without any where there are no values.
+/// Splits values into pieces of `size`; without any values, returns `n` empty pieces.
 pub(super) fn chunks_or_none<T: Send>(
     values: &mut [T],
     size: usize,

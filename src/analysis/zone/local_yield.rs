@@ -1,11 +1,10 @@
-//! Yield stresses that differ from place to place within a body, and how near stresses come to
-//! them.
+//! Yield stresses that vary within a body, and the ratio of von Mises stress to yield stress.
 
 use crate::element::Components;
 use crate::material::von_mises;
 use crate::model::Continuum;
 
-/// The yield stress at `n` places of an element; none where it is the same all over the body.
+/// The yield stress at `n` places of an element; `None` if it is uniform in the body.
 pub(super) fn at_places<const D: usize, const P: usize>(
     continuum: &Continuum,
     element: usize,
@@ -19,7 +18,7 @@ pub(super) fn at_places<const D: usize, const P: usize>(
     Some(stresses.collect())
 }
 
-/// The largest von Mises stress over yield stress at `n` places of an element.
+/// The largest ratio of von Mises stress to yield stress at `n` places of an element.
 #[inline]
 pub(in crate::analysis) fn largest_ratio<const D: usize, const S: usize, const P: usize>(
     continuum: &Continuum,
@@ -40,7 +39,7 @@ pub(in crate::analysis) fn largest_ratio<const D: usize, const S: usize, const P
         .fold(0.0, f64::max)
 }
 
-/// The largest von Mises stress at the first `n` points.
+/// The largest von Mises stress at the first `n` points of an element.
 #[inline]
 pub(in crate::analysis) fn largest_von_mises<const S: usize, const P: usize>(
     stress: &Components<S, P>,

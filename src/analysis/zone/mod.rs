@@ -1,16 +1,16 @@
-//! The elements that may yield: what is known of their points, and their initial loads.
+//! The elements that may yield: the state of their Gauss points, and the initial loads.
 //!
 //! | file | what | paper |
 //! |---|---|---|
 //! | `elements` | the zone of a model of either dimension | 4.1 |
 //! | `points` | the points: strains, flow rule, initial loads | 4.1 |
-//! | `softening` | what flow takes off the stiffness of elements | |
-//! | `history` | what the points went through | |
+//! | `softening` | the part of the elements' stiffness lost to plastic flow | |
+//! | `history` | plastic history of the points | |
 //! | `yielding` | which points yielded last, for checkpoints | |
 //! | `gather` | where elements find displacements and leave forces | |
-//! | `free_strain` | strains of temperature and such as bodies bring along | |
-//! | `local_yield` | yield stresses from place to place, and how near stresses come | 3.11, 3.12 |
-//! | `border` | how finely the size of what has yielded is measured | |
+//! | `free_strain` | free strains: of temperature, and those that bodies bring along | |
+//! | `local_yield` | yield stresses that vary within a body, and the ratio of stress to yield stress | 3.11, 3.12 |
+//! | `border` | how finely the mesh resolves the size of the yielded zone | |
 //! | `packed` | compact forms for checkpoints | |
 //! | `region` | the surroundings of a contact in which yielding is looked for | |
 

@@ -1,9 +1,10 @@
-//! Compact forms of what checkpoints hold much of: sets of numbers as runs, vectors that are mostly
-//! zero, histories of points most of which have none. Unpacked they are the same bits.
+//! Compact forms of data that fill much of a checkpoint: sets of numbers as runs, vectors that are
+//! mostly zero, histories of points most of which have none. Unpacking restores every bit.
 
 use serde::{Deserialize, Serialize};
 
-/// Ascending numbers as runs: how many are left out, how many follow.
+/// Ascending numbers as runs. A run is the count of numbers left out, and the count of numbers that
+/// follow.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct Ascending(Vec<(u32, u32)>);
 
@@ -38,14 +39,14 @@ impl Ascending {
         self.0.iter().map(|&(_, length)| length as usize).sum()
     }
 
-    /// Whether all numbers are below `end`.
+    /// Whether all numbers are less than `end`.
     pub(in crate::analysis) fn within(&self, end: usize) -> bool {
         let last: usize = self.0.iter().map(|&(a, b)| a as usize + b as usize).sum();
         last <= end
     }
 }
 
-/// Items at some of the places of a list; the others are as the list's owner knows.
+/// Items at some places of a list. The owner of the list knows the value at all other places.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 struct Sparse<T> {
     places: Ascending,
@@ -64,7 +65,7 @@ impl<T: Copy> Sparse<T> {
         }
     }
 
-    /// False where it is of a list of another length.
+    /// Writes the items to their places in `out`; false if they do not fit the length of `out`.
     fn unpack(&self, out: &mut [T]) -> bool {
         if self.places.len() != self.values.len() || !self.places.within(out.len()) {
             return false;
@@ -76,7 +77,7 @@ impl<T: Copy> Sparse<T> {
     }
 }
 
-/// Ascending numbers, as `#[serde(with)]`.
+/// Ascending numbers in compact form, for `#[serde(with)]`.
 pub(in crate::analysis) mod ascending {
     use super::Ascending;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -96,7 +97,7 @@ pub(in crate::analysis) mod ascending {
     }
 }
 
-/// A vector on zone and contact freedoms that is zero where nothing has yielded, as
+/// A vector on zone and contact freedoms that is zero where nothing has yielded, for
 /// `#[serde(with)]`.
 pub(in crate::analysis) mod trailing {
     use super::Sparse;
@@ -107,7 +108,7 @@ pub(in crate::analysis) mod trailing {
         vector: &Trailing,
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
-        // Minus zero is kept: its bits are not those of zero.
+        // Minus zero is stored: its bits differ from zero's.
         let not_zero = |value: &f64| value.to_bits() != 0;
         let values = Sparse::new(vector.zone.iter().chain(&vector.contact), not_zero);
         (vector.zone.len(), vector.contact.len(), values).serialize(serializer)
@@ -126,7 +127,7 @@ pub(in crate::analysis) mod trailing {
     }
 }
 
-/// The history of points most of which have none, as `#[serde(with)]`.
+/// The history of points, most of which have none, for `#[serde(with)]`.
 pub(in crate::analysis) mod history {
     use super::Sparse;
     use crate::material::PlasticState;
@@ -197,7 +198,7 @@ mod tests {
             prop_assert_eq!(bits(&back.vector), bits(&held.vector));
             prop_assert_eq!(back.vector.zone.len(), half);
             prop_assert_eq!(back.history, held.history);
-            // Of another length than it says.
+            // A vector that holds more places than its length allows is refused.
             if end > 0 {
                 let packed = Sparse::new(marks.iter(), |mark| *mark);
                 let short = postcard::to_stdvec(&(end - 1, 0usize, packed.places)).unwrap();

@@ -1,4 +1,4 @@
-//! The elements of the zone and the points at which they may yield.
+//! The elements of the zone and the Gauss points at which they may yield.
 
 use super::free_strain::FreeStrains;
 use super::gather::{GatheredElements, Nodal, Places};
@@ -10,82 +10,84 @@ use crate::model::Model;
 use crate::substructure::Trailing;
 use rayon::prelude::*;
 
-/// Elements that a thread takes at a time.
+/// Number of elements that a thread takes at a time.
 pub(in crate::analysis) const GRAIN: usize = 128;
 
-/// Result of evaluating the material over the zone.
+/// Counts from one evaluation of the material over the zone.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Evaluation {
-    /// Gauss points that yield in this increment.
+    /// Number of Gauss points that yield in this increment.
     pub yielding: usize,
-    /// Guard elements in which a point yields.
+    /// Number of guard elements in which a point yields.
     pub guard_yields: usize,
 }
 
-/// `D - D_ep` of all points at some state, and the elements with any.
+/// The softening `D - D_ep` of all points at an earlier state, and the elements that have softened.
 #[derive(Default)]
 pub struct KeptSoftening<const S: usize> {
     pub(in crate::analysis) softening: Vec<Softening<S>>,
     pub(in crate::analysis) active: Vec<u32>,
 }
 
-/// The plastic zone with its history. Arrays over points give every element the same number of
-/// places (`stride`), so that they are cut by element without a list.
+/// The plastic zone with its history. Arrays over points have the same number of places (`stride`)
+/// for every element, so that they are split by element without a list of offsets.
 pub struct ZoneOf<const D: usize, const S: usize, const P: usize, const N: usize> {
     kernel: Kernel<D, S, P, N>,
     pub(in crate::analysis) elements: GatheredElements,
     pub(in crate::analysis) gradients: Vec<Gradients<D, S, P, N>>,
-    /// Elements in which flow means that the zone is too small.
+    /// Marks the guard: elements in which plastic flow means that the zone is too small.
     guard: Vec<bool>,
     pub(in crate::analysis) stride: usize,
     materials: Vec<(Material, Lame)>,
     committed: Vec<PlasticState<S>>,
-    /// Strains that back stresses that fade remember of the history.
+    /// Strains that the fading back stresses keep from the history.
     back: BackStrains<S>,
-    /// Yield stress of each point less its material's; empty where none differs.
+    /// Yield stress of each point minus that of its material; empty if no yield stress varies.
     harder: Vec<f64>,
-    /// Equal to `committed` except where `yields`.
+    /// Plastic states at the last evaluated state; equal to `committed` unless the point `yields`.
     trial: Vec<PlasticState<S>>,
-    /// Ends of the strain paths to the last evaluated state, where a point `yields`.
+    /// Ends of the strain paths to the last evaluated state, for points that have yielded in it.
     path_ends: PathEnds<S>,
-    /// `D - D_ep` at the last evaluated state; zero except where `yields`.
+    /// Softening `D - D_ep` at the last evaluated state; zero unless the point `yields`.
     pub(in crate::analysis) softening: Vec<Softening<S>>,
-    /// Part of the softening that is not symmetric, times the dyad with its normal; empty where no
+    /// Vector `t` of the unsymmetric part `t n'` of the softening, with `n` its normal; empty if no
     /// back stress fades.
     pub(in crate::analysis) turn: Vec<[f64; S]>,
-    /// Points that yielded at the last evaluated state.
+    /// Whether each point yielded at the last evaluated state.
     pub(in crate::analysis) yields: Vec<bool>,
-    /// Flowing points of each element at the last evaluated state.
+    /// Number of yielding points in each element at the last evaluated state.
     yielding: Vec<u8>,
-    /// Elements with a yielding point, ascending.
+    /// Elements with a point that yielded at the last evaluated state, ascending.
     pub(in crate::analysis) active: Vec<u32>,
-    /// The tangent of an earlier state.
+    /// The tangent of an earlier state, if one is kept.
     pub(in crate::analysis) kept: Option<KeptSoftening<S>>,
     pub(in crate::analysis) forces: Vec<[[f64; D]; N]>,
-    /// What loads by temperature strain freely.
+    /// Free strains of the loads, at the points.
     free: FreeStrains<P>,
     /// Factor of each load.
     factors: Vec<f64>,
     /// Initial loads of the committed plastic strains, to which further yielding adds.
     base: Trailing,
-    /// Initial loads of the committed plastic strains on the prescribed displacements.
+    /// Initial loads of the committed plastic strains on the prescribed freedoms.
     base_on_prescribed: Vec<f64>,
-    /// Displacements and load factors that the history belongs to: where the strain paths of an
-    /// increment begin. None before they are known: the whole is one step then.
+    /// Displacements and load factors of the committed history: where the strain paths of an
+    /// increment begin. `None` until they are known: the flow rule is then integrated in a single
+    /// step.
     begin: Option<Begin>,
     pub(in crate::analysis) nodal: Nodal,
     pub(in crate::analysis) sums: Nodal,
 }
 
-/// Where the strain paths of an increment begin.
+/// Displacements and load factors at which the strain paths of an increment begin.
 struct Begin {
     nodal: Nodal,
     factors: Vec<f64>,
 }
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S, P, N> {
-    /// Sets up the zone of the given elements (ascending); `guard` says which of them only watch.
-    /// The free freedoms of the elements must be zone or contact freedoms.
+    /// Sets up the zone of the given elements (ascending); `guard` marks the elements that only
+    /// watch whether yielding reaches them. The free freedoms of the elements must be zone or
+    /// contact freedoms.
     pub fn new(
         kernel: &Kernel<D, S, P, N>,
         model: &Model,
@@ -104,7 +106,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         let elements_of_mesh = elements;
         let elements = GatheredElements::new(model, elements, places);
         let n = elements.list.len();
-        // That of the mesh, not of these elements: histories pass from zone to zone.
+        // The stride is that of the whole mesh, since histories pass from zone to zone.
         let stride = model.mesh.most_points();
         let mut harder = Vec::new();
         if model.yield_by_depth.iter().any(Option::is_some) {
@@ -168,14 +170,14 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             + self.softening.capacity() * size_of::<Softening<S>>()) as u64
     }
 
-    /// Load factors that scale prescribed displacements and free strains from now on.
+    /// Sets the load factors that scale prescribed displacements and free strains from now on.
     pub fn set_factors(&mut self, factors: &[f64]) {
         self.nodal.set_factors(factors);
         self.factors.copy_from_slice(factors);
     }
 
-    /// The displacements that the history belongs to, at load factors of their own: the strains of
-    /// the next evaluations are reached from theirs on straight paths.
+    /// Sets the displacements and load factors that the history belongs to. In the evaluations that
+    /// follow, straight strain paths lead from there to the new strains.
     pub fn begin_at(&mut self, u: &Trailing, factors: &[f64]) {
         let begin = self.begin.get_or_insert_with(|| Begin {
             nodal: self.nodal.clone(),
@@ -186,8 +188,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         begin.factors.copy_from_slice(factors);
     }
 
-    /// Integrates the flow rule for displacements `u` and adds up the initial loads: those of the
-    /// committed plastic strains, plus what the points that yield add.
+    /// Integrates the flow rule for displacements `u` and sums the initial loads: the loads of the
+    /// committed plastic strains, plus the loads of the plastic strains added in the increment.
     pub fn evaluate(&mut self, u: &Trailing, initial_load: &mut Trailing) -> Evaluation {
         let nodal = self.nodal.displacements(u);
         let (elements, materials, stride) = (&self.elements, &self.materials, self.stride);
@@ -231,7 +233,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                         strains
                     };
                     let strains = strains_at(nodal, factors);
-                    // Where strain paths begin matters where something flows alone.
+                    // The strains at the start of the path are computed only if a point of the
+                    // element yields.
                     let mut begins = None;
                     let mut added = [[0.0; P]; S];
                     *yielding = 0;
@@ -243,7 +246,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
                             back: back.of(i * stride + g),
                             harder: harder.get(i * stride + g).copied().unwrap_or(0.0),
                         };
-                        // Most points are elastic: nothing is stored for them.
+                        // Nothing is stored for elastic points, which are the majority.
                         if material.stays_elastic(law, strain, &past) {
                             if yields[g] {
                                 yields[g] = false;
@@ -292,7 +295,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         result
     }
 
-    /// Whether the tangent is: only back stresses that fade make it another.
+    /// Whether the tangent is symmetric, as it is unless a back stress fades.
     pub fn is_symmetric(&self) -> bool {
         self.turn.is_empty()
     }
@@ -304,7 +307,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         }
     }
 
-    /// True where no point yielded at the last evaluated state.
+    /// Whether no point yielded at the last evaluated state.
     pub fn is_idle(&self) -> bool {
         self.active.is_empty()
     }
@@ -314,7 +317,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.active.clear();
     }
 
-    /// Makes the last evaluated state the history.
+    /// Makes the last evaluated state the committed history.
     pub fn commit(&mut self) {
         self.begin = None;
         if !self.active.is_empty() {
@@ -329,12 +332,12 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         }
     }
 
-    /// Number of places for points that so many elements take.
+    /// Number of places for points that the given elements take up in a history.
     pub fn n_points(&self, elements: &[usize]) -> usize {
         elements.len() * self.stride
     }
 
-    /// The history, point by point.
+    /// The committed history, point by point.
     pub fn history(&self) -> History {
         History {
             points: self.committed.iter().map(PlasticState::resized).collect(),
@@ -342,7 +345,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         }
     }
 
-    /// Puts a history back.
+    /// Restores a history of the same zone.
     pub fn restore(&mut self, history: &History) {
         self.begin = None;
         self.put(0..self.committed.len(), history, 0);
@@ -350,8 +353,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.renew_base();
     }
 
-    /// Puts the history of a zone of other elements (ascending) back; elements that were not in it
-    /// have none.
+    /// Restores the history of a zone of other elements (ascending). Elements outside that zone
+    /// have no history.
     pub fn restore_of(&mut self, elements: &[usize], history: &History) {
         self.begin = None;
         for i in 0..self.elements.list.len() {
@@ -372,7 +375,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.renew_base();
     }
 
-    /// Puts the history of other points in the place of that of some.
+    /// Overwrites the history of some points with a history from its point `from` on.
     fn put(&mut self, points: std::ops::Range<usize>, history: &History, from: usize) {
         let known = &history.points[from..][..points.len()];
         for (state, known) in self.committed[points.clone()].iter_mut().zip(known) {
@@ -381,12 +384,12 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.back.put(points, &history.back, from);
     }
 
-    /// Initial loads of the committed plastic strains on the prescribed displacements.
+    /// Initial loads of the committed plastic strains on the prescribed freedoms.
     pub fn on_prescribed(&self) -> &[f64] {
         &self.base_on_prescribed
     }
 
-    /// Initial loads of the committed plastic strains.
+    /// Initial loads of the committed plastic strains on zone and contact freedoms.
     pub fn initial_load(&self, mut out: Trailing) -> Trailing {
         out.copy_from(&self.base);
         out
@@ -413,7 +416,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
             .copy_from_slice(self.sums.on_prescribed());
     }
 
-    /// Work on the plastic strains of a point of the zone's element `i`, per volume.
+    /// Plastic work at a point of the zone's element `i`, per volume.
     pub fn plastic_work(&self, i: usize, point: usize) -> f64 {
         let place = i * self.stride + point;
         let material = &self.materials[self.elements.list[i].body as usize].0;
@@ -425,22 +428,22 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         material.plastic_work(&past) + self.back.lost_work(place)
     }
 
-    /// The kernel of its elements.
+    /// The kernel of the zone's elements.
     pub fn kernel(&self) -> Kernel<D, S, P, N> {
         self.kernel
     }
 
-    /// The gradients of its element `i`.
+    /// The gradients of the zone's element `i`.
     pub fn gradients(&self, i: usize) -> &Gradients<D, S, P, N> {
         &self.gradients[i]
     }
 
-    /// The history of all points, as many places for each element.
+    /// The committed history of all points, with `stride` places for each element.
     pub fn committed(&self) -> &[PlasticState<S>] {
         &self.committed
     }
 
-    /// History of the zone's element `i`.
+    /// Committed history of the zone's element `i`.
     pub fn states(&self, i: usize) -> &[PlasticState<S>] {
         &self.committed[self.points_of(i)]
     }
@@ -450,7 +453,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         first..first + self.gradients[i].n_points()
     }
 
-    /// Gauss points with plastic strain and the largest equivalent plastic strain.
+    /// Number of Gauss points with plastic strain, and the largest equivalent plastic strain.
     pub fn extent(&self) -> (usize, f64) {
         self.committed.iter().fold((0, 0.0), |(n, largest), state| {
             (
@@ -461,7 +464,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     }
 }
 
-/// The components at a point.
+/// The components of a tensor at one point.
 #[inline]
 pub(super) fn at_point<const S: usize, const P: usize>(
     components: &Components<S, P>,

@@ -4,12 +4,12 @@ use crate::model::images::Images;
 use crate::model::{ContactSurface, Model};
 use crate::space::{Vector, difference, length};
 
-/// How far a region reaches.
+/// How far a region round a contact reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::analysis) enum Reach {
     /// As deep as first yield may lie.
     OfFirstYield,
-    /// As far as yielding rarely spreads beyond.
+    /// A distance beyond which yielding rarely spreads.
     OfZone,
 }
 
@@ -25,15 +25,17 @@ impl Reach {
     }
 }
 
-/// Multiple of half the contact surface's smaller width in a solid model, from the middle, for
-/// either reach: room for first yield, which lies 0.79 half widths deep under a line contact and
-/// 0.48 under a point (K. Johnson, Contact Mechanics, 1985, sections 4.2 and 3.4).
+/// Distance that a solid model's region reaches from the middle of the contact surface, as a
+/// multiple of half the surface's smaller width and for either reach. It leaves room for first
+/// yield, which lies 0.79 half widths deep under a line contact and 0.48 under a point (K. Johnson,
+/// Contact Mechanics, 1985, sections 4.2 and 3.4).
 ///
-/// The zone of the program's extreme loads is known after first yield, and factored then: the
-/// factor of a larger zone costs as much, and each plastic iteration goes through all of the zone.
+/// The region need not hold the zone of the program's largest loads, which is known after first
+/// yield and factored then. The factor of a larger zone costs no less, and each plastic iteration
+/// goes through the whole zone.
 const IN_SOLID: f64 = 1.2;
 
-/// What lies within a distance of a box.
+/// The points within a distance of a box.
 pub(in crate::analysis) struct Region {
     low: Vector,
     high: Vector,
@@ -41,10 +43,10 @@ pub(in crate::analysis) struct Region {
 }
 
 impl Region {
-    /// Round a contact. In the plane round the box of their nodes. In space round what
-    /// is left of it, mirror images at planes of symmetry included, when half its smaller width is
-    /// taken off on all sides: the middle of a round surface, the middle line of a long one. A
-    /// trailing solve of solids costs by the size of the zone.
+    /// The region round a contact. In the plane, the box is that of the contact's nodes. In a
+    /// solid, it is the box of the nodes and their mirror images at planes of symmetry, reduced by
+    /// half its smaller width on all sides: the middle of a round surface, the middle line of a
+    /// long one. The cost of a trailing solve in a solid grows with the size of the zone.
     pub(in crate::analysis) fn round(
         model: &Model,
         contact: &ContactSurface,
@@ -67,7 +69,8 @@ impl Region {
                 images.iter().for_each(|image| take(image.of(x)));
             }
         }
-        // Between two planes of symmetry there is no end and no width.
+        // A contact between two opposite planes of symmetry has no end and no width in their
+        // direction.
         let far = length(difference(high, low));
         for (d, mirror) in opposite.iter().flat_map(|m| [(0, m), (1, m), (2, m)]) {
             let reach = mirror.normal()[d].abs() * far;
@@ -98,12 +101,12 @@ impl Region {
         }
     }
 
-    /// Whether a point lies in it.
+    /// Whether a point lies in the region.
     pub(in crate::analysis) fn holds(&self, x: Vector) -> bool {
         self.off(x) <= self.distance
     }
 
-    /// Distance of a point from the box.
+    /// Distance of a point from the box of the region.
     fn off(&self, x: Vector) -> f64 {
         let off = |d: usize| (self.low[d] - x[d]).max(x[d] - self.high[d]).max(0.0);
         length([off(0), off(1), off(2)])

@@ -1,4 +1,4 @@
-//! What flow takes off the stiffness of the zone's elements.
+//! Softening: the part of the stiffness of the zone's elements that plastic flow takes off.
 
 use super::points::{GRAIN, ZoneOf, at_point, put};
 use crate::element::Gradients;
@@ -6,12 +6,12 @@ use crate::material::Softening;
 use crate::substructure::Trailing;
 use rayon::prelude::*;
 
-/// Elements whose matrices are held at a time.
+/// Number of elements whose matrices are held at a time.
 const AT_ONCE: usize = 256;
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S, P, N> {
-    /// `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that vanishes
-    /// where displacements are prescribed.
+    /// Computes `out = sum_g w_g B' (D - D_ep) B v` at the last evaluated state, for a `v` that
+    /// vanishes on the prescribed freedoms.
     pub fn softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
         let softening = std::mem::take(&mut self.softening);
         let turn = std::mem::take(&mut self.turn);
@@ -20,8 +20,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         (self.softening, self.turn, self.active) = (softening, turn, active);
     }
 
-    /// The product of the softening of points, what is not symmetric of it, and the elements with
-    /// any.
+    /// Multiplies `v` by the given softening of the points, its unsymmetric part and the list of
+    /// elements that have any.
     fn times(
         &mut self,
         (softening, turn, active): (&[Softening<S>], &[[f64; S]], &[u32]),
@@ -70,7 +70,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         self.kept = None;
     }
 
-    /// `out = sum_g w_g B' (D - D_ep) B v` with the tangent that was kept; zero where none was.
+    /// Computes `out = sum_g w_g B' (D - D_ep) B v` with the tangent that was kept; zero if none
+    /// was kept.
     pub fn kept_softening_times(&mut self, v: &Trailing, out: &mut Trailing) {
         let Some(kept) = self.kept.take() else {
             out.fill(0.0);
@@ -87,8 +88,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         }
     }
 
-    /// Passes a share of what flow takes off the stiffness of each element at the last evaluated
-    /// state, `sum_g w_g B' (D - D_ep) B`: the places of its rows, and the matrix by columns.
+    /// Passes to `take` a share of the softening `sum_g w_g B' (D - D_ep) B` of each element at the
+    /// last evaluated state: the places of the matrix's rows, and the matrix by columns.
     pub fn each_softening(&self, share: f64, mut take: impl FnMut(&[u32], &[f64])) {
         for active in self.active.chunks(AT_ONCE) {
             let matrices: Vec<_> = (active.par_iter())
@@ -106,8 +107,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     }
 }
 
-/// A share of the forces that flow takes off those on the nodes of an element, for a unit of each
-/// displacement.
+/// The softening matrix of an element times `share`. Each column holds the forces on the nodes that
+/// plastic flow takes off for a unit of one displacement.
 fn element_softening<const D: usize, const S: usize, const P: usize, const N: usize>(
     gradients: &Gradients<D, S, P, N>,
     softening: &[Softening<S>],

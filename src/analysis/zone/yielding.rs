@@ -1,26 +1,26 @@
-//! What a checkpoint keeps of the zone besides the history: what the next increment is predicted
-//! from.
+//! The part of the zone, other than its history, that a checkpoint keeps. The next increment is
+//! predicted from it.
 
 use super::packed::Ascending;
 use super::points::ZoneOf;
 use crate::material::{Softening, resized};
 use serde::{Deserialize, Serialize};
 
-/// Which points of a zone yielded at the last evaluated state.
+/// Record of the points of a zone that yielded at the last evaluated state.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(in crate::analysis) struct Yielding {
-    /// Elements (places in the zone) with a point that yielded.
+    /// Elements with a point that yielded, as indices in the zone.
     active: Ascending,
-    /// Points of these elements (places in the zone's arrays) that yielded.
+    /// Points of these elements that yielded, as indices in the zone's arrays.
     yielding: Ascending,
-    /// Softening: what flow takes off the elastic matrix at these points.
+    /// Softening at these points: the part of the elastic matrix that flow takes off.
     softening: Vec<Softening<6>>,
-    /// Part of the softening that is not symmetric, where there may be any.
+    /// Unsymmetric part of the softening at these points; empty if no back stress fades.
     turn: Vec<[f64; 6]>,
 }
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S, P, N> {
-    /// Which points yielded at the last evaluated state.
+    /// Records which points yielded at the last evaluated state.
     pub(in crate::analysis) fn yielding(&self) -> Yielding {
         let active = self.active.iter().map(|&i| i as usize);
         let points = active.clone().flat_map(|i| self.points_of(i));
@@ -38,7 +38,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         }
     }
 
-    /// Takes over what another zone of the same elements says; false where it is of others.
+    /// Takes over the record of another zone of the same elements; false if the record is of
+    /// others.
     pub(in crate::analysis) fn set_yielding(&mut self, record: &Yielding) -> bool {
         let fits = record.active.within(self.elements.list.len())
             && record.yielding.within(self.yields.len())

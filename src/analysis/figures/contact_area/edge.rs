@@ -1,52 +1,54 @@
-//! Where a patch ends between its pairs.
+//! The edge of a patch between its pairs.
 //!
-//! Beyond the pairs that are believed the square of the pressure goes on by the quadratic `q` that
-//! fits them. What a quadratic leaves out grows with the cube of the way `d` beyond these pairs,
-//! counted in layers, and vanishes where a pair is open:
+//! Trusted pairs are the pairs far enough inside that their pressures are relied on one by one.
+//! Beyond them the square of the pressure continues as the quadratic `q` fitted to them. The error
+//! of a quadratic grows with the cube of the distance `d` beyond these pairs, counted in layers,
+//! and the pressure vanishes at open pairs:
 //!
 //! ```text
 //! s(x) = q(x) + c d(x)^3 - o(x)^3,
 //! ```
 //!
-//! `o` goes linearly to 0 from the cube root of `max(q + c d^3, 0)` at open pairs. How the pairs at
-//! the edge share their force depends on where in the face the contact ends; their force together
-//! does not, equilibrium passes it on whole. The constant `c` is the one for which the pressure
-//! `sqrt(s)` has it. With `N_k` linear between the pairs, and the sums over pairs that are not
-//! believed,
+//! Here `o` falls linearly to 0 from its values at open pairs, the cube root of
+//! `max(q + c d^3, 0)`. The share of the force that each pair at the edge carries depends on where
+//! in the face the contact ends; their total force does not, since equilibrium passes it on as a
+//! whole. The constant `c` is such that the pressure `sqrt(s)` has this force. With `N_k` linear
+//! between the pairs, and sums over the pairs that are not trusted,
 //!
 //! ```text
 //! int sqrt(max(s, 0)) sum_k N_k dA = int sum_k N_k p_k dA.
 //! ```
 //!
-//! No pressure of a single pair at the edge is believed, so that a half width does not depend on
+//! No single pressure of a pair at the edge is trusted, so that a half width does not depend on
 //! where in a face the contact ends (`half_widths_of_long_ellipses_are_those_of_hertz`).
 
 use super::fit::Fit;
 use super::moments::{PatchSums, Polygon, where_positive};
 use crate::root;
 
-/// Size of `c` over the square of the largest pressure at which the correction of the first layer
-/// exceeds any pressure: the search ends there.
+/// Largest `c`, in units of the square of the largest pressure, at which the search ends: there the
+/// correction in the first layer exceeds any pressure.
 const LARGEST: f64 = 4.0;
 
-/// A face with a corner that is not believed.
+/// A face with at least one corner whose pair is not trusted.
 pub(super) struct EdgeFace {
     /// Corners of the face.
     pub(super) corners: Polygon,
     /// Parts of the face that the other body covers.
     pub(super) parts: Vec<Polygon>,
-    /// The square of the pressure by the pairs that are believed.
+    /// The square of the pressure, fitted to the trusted pairs.
     pub(super) fit: Fit,
-    /// Layers from each corner to those that are believed.
+    /// Number of layers from each corner to the trusted pairs.
     pub(super) layers: Vec<f64>,
-    /// Pressure at each corner; 0 at those that are open.
+    /// Pressure at each corner; 0 at open corners.
     pub(super) pressures: Vec<f64>,
 }
 
-/// The shares of a face's corners in a place: what two neighbours have more than all.
+/// The shares of a face's corners in the value at a place: the shares of two neighbours in excess
+/// of the equal share of all corners.
 #[derive(Clone, Copy)]
 struct CornerShares {
-    /// The first of the two.
+    /// Index of the first of the two neighbours.
     at: usize,
     of_first: f64,
     of_second: f64,
@@ -75,17 +77,17 @@ impl AtCorners {
 struct FacePiece {
     area: f64,
     shares: CornerShares,
-    /// Share of the corners that are not believed.
+    /// Total share of the corners that are not trusted.
     share: f64,
-    /// Value of the quadratic.
+    /// Value of the fitted quadratic.
     fitted: f64,
-    /// Cube of the distance, `d^3`.
+    /// Cube `d^3` of the distance beyond the trusted pairs.
     cubed: f64,
 }
 
 impl EdgeFace {
-    /// The shares of the corners at a place: linear in the triangles between two of them and the
-    /// middle, at which all have the same.
+    /// The shares of the corners in the value at a place. They are linear in the triangles between
+    /// two neighbouring corners and the middle, at which all corners have the same share.
     fn shares(&self, x: [f64; 2]) -> CornerShares {
         let n = self.corners.len();
         let middle = [0, 1].map(|d| self.corners.iter().map(|c| c[d]).sum::<f64>() / n as f64);
@@ -111,7 +113,8 @@ impl EdgeFace {
             })
     }
 
-    /// The cube roots of what is positive at open corners.
+    /// The values `o` at the corners: cube roots of the positive part of `q + c d^3` at open
+    /// corners, 0 at closed ones.
     fn over(&self, constant: f64) -> Vec<f64> {
         let corners = self.corners.iter().zip(&self.layers).zip(&self.pressures);
         let over = corners.map(|((&x, layer), pressure)| match *pressure > 0.0 {
@@ -123,7 +126,7 @@ impl EdgeFace {
         over.collect()
     }
 
-    /// The square of the pressure.
+    /// The square `s` of the pressure, as a function of the place.
     fn level(&self, constant: f64) -> impl Fn([f64; 2]) -> f64 + '_ {
         let over = AtCorners::new(self.over(constant));
         let layers = AtCorners::new(self.layers.clone());
@@ -154,7 +157,7 @@ impl EdgeFace {
         out
     }
 
-    /// Force of the pairs that are not believed.
+    /// Total force of the pairs that are not trusted, from their pressures.
     fn given(&self, pieces: &[FacePiece]) -> f64 {
         let ours = self.layers.iter().zip(&self.pressures);
         let ours = ours.map(|(l, p)| if *l > 0.0 { *p } else { 0.0 });
@@ -163,7 +166,7 @@ impl EdgeFace {
         pieces.iter().map(force).sum()
     }
 
-    /// Force of the level on these pairs.
+    /// Force of the pressure `sqrt(s)` on the pairs that are not trusted.
     fn force(&self, pieces: &[FacePiece], constant: f64) -> f64 {
         let over = AtCorners::new(self.over(constant));
         let force = |piece: &FacePiece| {
@@ -175,14 +178,14 @@ impl EdgeFace {
     }
 }
 
-/// The faces at the edge of a patch, and the constant `c`.
+/// The faces at the edge of a patch, and the constant `c` of the edge.
 pub(super) struct Edge {
     faces: Vec<EdgeFace>,
     constant: f64,
 }
 
 impl Edge {
-    /// The edge whose pairs carry their force.
+    /// The edge for which the pairs that are not trusted carry their force.
     pub(super) fn balanced(faces: Vec<EdgeFace>) -> Self {
         let pieces: Vec<Vec<FacePiece>> = faces.iter().map(EdgeFace::pieces).collect();
         let all = || faces.iter().zip(&pieces);
@@ -198,13 +201,13 @@ impl Edge {
         Edge { faces, constant }
     }
 
-    /// Whether the quadratic alone is positive at an open pair.
+    /// Whether the quadratic `q` alone is positive at an open pair.
     pub(super) fn passes_open_pairs(&self) -> bool {
         let over = self.faces.iter().flat_map(|face| face.over(0.0));
         over.fold(0.0, f64::max) > 0.0
     }
 
-    /// The part of the faces that belongs to the patch.
+    /// Adds the part of the faces that belongs to the patch.
     pub(super) fn add_to(&self, sums: &mut PatchSums) {
         for face in &self.faces {
             sums.add_parts(&face.parts, face.level(self.constant));
@@ -217,8 +220,8 @@ mod tests {
     use super::super::fit::{Cloud, Known};
     use super::*;
 
-    /// Two unit faces in a row: the pairs at `x = 0` and before are believed, those at 1 have the
-    /// pressure `closed`, those at 2 are open.
+    /// Two unit faces in a row: the pairs at `x <= 0` are trusted, the pairs at 1 have the pressure
+    /// `closed`, the pairs at 2 are open.
     fn row(square: impl Fn(f64) -> f64, closed: f64) -> Edge {
         let places = (-3..=0).flat_map(|x| (-3..=3).map(move |y| [f64::from(x), f64::from(y)]));
         let known = places.map(|at| Known {
@@ -240,14 +243,14 @@ mod tests {
         Edge::balanced(vec![face(0.0, [inside, closed]), face(1.0, [closed, 0.0])])
     }
 
-    /// Area of the row's part of the patch: the place of its edge.
+    /// Area of the row's part of the patch, which is also the place of its edge.
     fn end(edge: &Edge) -> f64 {
         let mut sums = PatchSums::default();
         edge.add_to(&mut sums);
         sums.moments(&[]).area
     }
 
-    /// Where the square of the pressure is a cubic, its own constant carries the force.
+    /// If the square of the pressure is a cubic, the constant found is that of the cubic.
     #[test]
     fn the_edge_is_where_the_pairs_there_carry_their_force() {
         for cubic in [-0.05, 0.0, -0.4] {
@@ -255,10 +258,10 @@ mod tests {
             let square = |x: f64| quadratic(x) + cubic * x.powi(3);
             const N: usize = 10_000;
             let places = (0..N).map(|i| 2.0 * (i as f64 + 0.5) / N as f64);
-            // The area 1 belongs to the pairs at 1: half of the face on either side.
+            // The area that belongs to the pairs at 1 is 1: half of the face on either side.
             let forces = places.map(|x| square(x).max(0.0).sqrt() * x.min(1.0));
             let edge = row(quadratic, forces.sum::<f64>() * 2.0 / N as f64);
-            // Midpoints of pieces a quarter of a face wide leave some thousandths of the force.
+            // Midpoints of pieces a quarter of a face wide miss some thousandths of the force.
             assert!(
                 (edge.constant - cubic).abs() < 0.01,
                 "{cubic}: {}",
@@ -273,15 +276,17 @@ mod tests {
         }
     }
 
-    /// Under a uniform pressure the quadratic passes the open pairs; the edge does not.
+    /// Under a uniform pressure the quadratic is positive at the open pairs, but the edge lies
+    /// before them.
     #[test]
     fn a_uniform_pressure_ends_before_open_pairs() {
         for exact in [1.1, 1.5, 1.8] {
-            // What half of the first face carries belongs to its other pairs.
+            // The force on half of the first face belongs to the other pairs of that face.
             let edge = row(|_| 1.0, exact - 0.5);
             assert!(edge.passes_open_pairs());
             let found = end(&edge);
-            // Falling with the cube of the way, the pressure carries five sixths of a uniform one.
+            // A pressure that falls with the cube of the distance carries five sixths of a uniform
+            // one.
             assert!(
                 found > exact && found <= (1.2 * exact + 0.05).min(2.0),
                 "{exact}: {found}"

@@ -1,24 +1,24 @@
-//! Polynomials through values that are known at places.
+//! Polynomials fitted to values known at scattered places.
 
 use crate::analysis::stress::patch_fit::{PatchFit, Terms};
 use crate::balls::Balls;
 
-/// Believed pairs that a quadratic is fitted to at least, one and a half times its terms.
+/// Least number of trusted pairs to which a quadratic is fitted: one and a half times its terms.
 const FITTED: usize = 9;
-/// Pivot of the scaled normal equations below which they do not determine a fit.
+/// Pivot of the scaled normal equations below which a fit does not count as determined.
 const LEAST_PIVOT: f64 = 1e-4;
-/// A quadratic, of which a plane is one.
+/// Fit of a quadratic polynomial; a plane is a special case.
 type FittedQuadratic = PatchFit<2, 2>;
 type FittedPlane = PatchFit<2, 1>;
 
-/// A value at a place.
+/// A value known at a place.
 #[derive(Clone, Copy)]
 pub(super) struct Known {
     pub(super) at: [f64; 2],
     pub(super) value: f64,
 }
 
-/// Values that are known at many places.
+/// Values known at many places, with a search tree.
 pub(super) struct Cloud {
     known: Vec<Known>,
     tree: Balls,
@@ -33,7 +33,7 @@ impl Cloud {
         }
     }
 
-    /// The polynomial round a place, through the values near it and some `more`.
+    /// Fits a polynomial around a place to the values near it and to some `more`.
     pub(super) fn fit(&self, origin: [f64; 2], more: &[Known]) -> Option<Fit> {
         let near = self.tree.nearest_few(in_space(origin), 2 * FITTED);
         let near = near.into_iter().map(|(_, item)| self.known[item]);
@@ -46,7 +46,8 @@ fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
     [x, y, 0.0]
 }
 
-/// A polynomial round a place: quadratic, linear where the known values do not determine that.
+/// A polynomial around a place: quadratic, or linear if the known values do not determine a
+/// quadratic.
 pub(super) struct Fit {
     origin: [f64; 2],
     scale: f64,
@@ -54,8 +55,8 @@ pub(super) struct Fit {
 }
 
 impl Fit {
-    /// A fit by least squares through the nearest known values, weighted by nearness; `None` where
-    /// they do not determine even a plane.
+    /// Fits the nearest known values by least squares, weighted by nearness; `None` if they do not
+    /// determine even a plane.
     fn new(known: &[Known], origin: [f64; 2]) -> Option<Self> {
         let off = |known: &Known| (known.at[0] - origin[0]).hypot(known.at[1] - origin[1]);
         let mut near: Vec<(f64, Known)> = known.iter().map(|known| (off(known), *known)).collect();
@@ -64,8 +65,7 @@ impl Fit {
             if near.len() < least {
                 return None;
             }
-            // Those as far away as the last one are used too: which of them came first means
-            // nothing.
+            // Values as far away as the last one are used too: their order is arbitrary.
             let last = near[most.min(near.len()) - 1].0 * (1.0 + 1e-9);
             let used = &near[..near.partition_point(|(off, _)| *off <= last)];
             let scale = used[used.len() - 1].0;
@@ -92,12 +92,12 @@ impl Fit {
         FittedQuadratic::value(&self.coefficients, 1.0, &place)
     }
 
-    /// The sum of both second derivatives.
+    /// The sum of the two second derivatives.
     pub(super) fn laplacian(&self) -> f64 {
         2.0 * (self.coefficients[3] + self.coefficients[5]) / self.scale.powi(2)
     }
 
-    /// The size of the gradient at its place.
+    /// The size of the gradient at the place of the fit.
     pub(super) fn slope(&self) -> f64 {
         self.coefficients[1].hypot(self.coefficients[2]) / self.scale
     }

@@ -1,16 +1,16 @@
-//! Moments of the part of faces where a level is positive.
+//! Moments of the part of faces in which a level function is positive.
 
 use nalgebra::{Matrix2, SymmetricEigen, Vector2};
 
-/// Pieces along each side of a face that the edge is cut by.
+/// Number of pieces along each side of a face into which the face is divided to locate the edge.
 const PIECES: usize = 4;
 
-/// Corners of a convex polygon, in order.
+/// Corners of a convex polygon in order.
 pub(super) type Polygon = Vec<[f64; 2]>;
 /// Corners of a triangle.
 pub(super) type Triangle = [[f64; 2]; 3];
 
-/// Moments of a patch's part of the model in its own two coordinates.
+/// Moments of a patch's part of the model in the two coordinates of the patch.
 #[derive(Clone, Copy)]
 pub(super) struct Moments {
     pub(super) area: f64,
@@ -19,7 +19,7 @@ pub(super) struct Moments {
     second: [[f64; 2]; 2],
 }
 
-/// Sums over the parts of faces that belong to a patch.
+/// Sums of moments over the parts of faces that belong to a patch.
 #[derive(Default)]
 pub(super) struct PatchSums {
     area: f64,
@@ -28,7 +28,7 @@ pub(super) struct PatchSums {
 }
 
 impl PatchSums {
-    /// Convex polygons.
+    /// Adds whole convex polygons.
     pub(super) fn add_all(&mut self, polygons: &[Polygon]) {
         for corners in polygons {
             for k in 2..corners.len() {
@@ -37,12 +37,13 @@ impl PatchSums {
         }
     }
 
-    /// The part of convex polygons where a function is positive.
+    /// Adds the part of convex polygons in which a function is positive.
     pub(super) fn add_parts(&mut self, parts: &[Polygon], level: impl Fn([f64; 2]) -> f64) {
         where_positive(parts, level, &mut |triangle| self.add_whole(triangle));
     }
 
-    /// The part of a face where a function of its corners is positive.
+    /// Adds the part of a face in which a function, given by its values at the corners, is
+    /// positive.
     pub(super) fn add_corners(&mut self, corners: &[[f64; 2]], levels: &[f64]) {
         let n = corners.len();
         let middle = [0, 1].map(|d| corners.iter().map(|x| x[d]).sum::<f64>() / n as f64);
@@ -56,7 +57,7 @@ impl PatchSums {
         }
     }
 
-    /// `int x x' dA = A/12 (sum p p' + 9 c c')` over a triangle with the centroid c.
+    /// Adds a triangle with `int x x' dA = A/12 (sum p p' + 9 c c')`, c its centroid.
     fn add_whole(&mut self, [p, q, r]: Triangle) {
         let [a, b] = [q, r].map(|x| [x[0] - p[0], x[1] - p[1]]);
         let area = 0.5 * (a[0] * b[1] - a[1] * b[0]).abs();
@@ -71,8 +72,8 @@ impl PatchSums {
         }
     }
 
-    /// The moments of the part and its images: `reflections` are theirs, about the origin, which
-    /// lies on the planes of symmetry.
+    /// The moments of the part together with its mirror images. `reflections` produce the images,
+    /// about the origin, which lies on the planes of symmetry.
     pub(super) fn moments(&self, reflections: &[[[f64; 2]; 2]]) -> Moments {
         let per_area = 1.0 / self.area.max(f64::MIN_POSITIVE);
         let first = Vector2::from(self.first) * per_area;
@@ -101,7 +102,8 @@ impl PatchSums {
     }
 }
 
-/// Shows the part of convex polygons where a function is positive, triangle by triangle.
+/// Passes the part of convex polygons in which a function is positive to `show`, triangle by
+/// triangle.
 pub(super) fn where_positive(
     parts: &[Polygon],
     level: impl Fn([f64; 2]) -> f64,
@@ -117,7 +119,8 @@ pub(super) fn where_positive(
     }
 }
 
-/// The part of a face where a function is positive, by small straight pieces.
+/// Passes the part of a face in which a function is positive to `show`, divided into small pieces
+/// with straight edges.
 fn of_face(corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64, show: &mut dyn FnMut(Triangle)) {
     let n = PIECES;
     let share = |i: usize| i as f64 / n as f64;
@@ -152,8 +155,8 @@ fn of_face(corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64, show: &mut dyn
     }
     for i in 0..n {
         for j in 0..n {
-            // Four triangles round the middle: no diagonal is preferred to the other, so mirror
-            // images have the same area.
+            // Each square is divided into four triangles round its middle: neither diagonal is
+            // preferred, so mirror images have the same area.
             let square = [
                 point(i, j),
                 point(i + 1, j),
@@ -169,7 +172,8 @@ fn of_face(corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64, show: &mut dyn
     }
 }
 
-/// The part of a triangle where what is linear between values at its corners is positive.
+/// Passes the part of a triangle in which a linear function, given at the corners, is positive to
+/// `show`.
 fn cut(corners: Triangle, levels: [f64; 3], show: &mut dyn FnMut(Triangle)) {
     let mut inside: Vec<[f64; 2]> = Vec::with_capacity(4);
     for k in 0..3 {
@@ -189,7 +193,7 @@ fn cut(corners: Triangle, levels: [f64; 3], show: &mut dyn FnMut(Triangle)) {
 }
 
 impl Moments {
-    /// The moments in the unit of which those along the axes are so many.
+    /// The moments after scaling the coordinates by `units`.
     pub(super) fn scaled(&self, units: [f64; 2]) -> Moments {
         let second = |i: usize, j: usize| self.second[i][j] * units[i] * units[j];
         Moments {
@@ -204,7 +208,7 @@ impl Moments {
         Moments { area, ..self }
     }
 
-    /// Half axes, the larger first, and the larger one's direction.
+    /// Half axes, the larger first, and the direction of the larger one.
     pub(super) fn axes(&self) -> ([f64; 2], [f64; 2]) {
         let [[a, b], [_, c]] = self.second;
         let eigen = SymmetricEigen::new(Matrix2::new(a, b, b, c));

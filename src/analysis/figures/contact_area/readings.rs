@@ -1,4 +1,4 @@
-//! A patch as its pairs show it, and a second reading of it.
+//! The moments of a patch read from its pairs, and a second reading for comparison.
 
 use super::edge::{Edge, EdgeFace};
 use super::fit::{Cloud, Known};
@@ -8,17 +8,18 @@ use crate::model::images::Reflection;
 use crate::space::{difference, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Layers of pairs at the edge whose pressures are not believed one by one where the contact is
-/// smooth, and where it is not: under plastic flow the pressure stays up to the edge, and what the
-/// pairs further inside go on to passes open ones.
+/// Number of layers of pairs at the edge whose pressures are not trusted one by one, for a smooth
+/// contact ([`SMOOTH`]) and otherwise ([`STEEP`]). Under plastic flow the pressure stays high up to
+/// the edge, and its extrapolation from the pairs further inside passes open pairs.
 const SMOOTH: usize = 2;
 const STEEP: usize = 1;
-/// Layers inside those whose pressures are corrected for being means.
+/// Number of trusted layers next to the edge whose pressures are corrected for being means over
+/// faces.
 const CORRECTED: usize = 3;
 
 impl Shape<'_> {
-    /// The patch's moments, and another reading of them: by how much they differ is what they may
-    /// be off by. The pairs are too few for that where there is none.
+    /// The patch's moments, and a second reading of them: the difference is an estimate of the
+    /// error. There is no second reading if the pairs are too few.
     pub(super) fn readings(&self) -> (Moments, Option<Moments>) {
         let layers = self.layers();
         let moments = |skipped| self.moments(&layers, skipped);
@@ -30,8 +31,9 @@ impl Shape<'_> {
         }
     }
 
-    /// The patch by the pairs inside the `skipped` outer layers, and whether these go on to no open
-    /// pair; `None` where they do not determine a polynomial at each face of the edge.
+    /// The patch's moments from the pairs inside the `skipped` outer layers, and whether the
+    /// extrapolated pressure vanishes before open pairs. `None` if the pairs do not determine a
+    /// polynomial at each face of the edge.
     fn moments(&self, layers: &BTreeMap<usize, usize>, skipped: usize) -> Option<(Moments, bool)> {
         let believed = self.believed(layers, skipped);
         let mut sums = PatchSums::default();
@@ -69,7 +71,7 @@ impl Shape<'_> {
         Some((self.with_images(&sums), !edge.passes_open_pairs()))
     }
 
-    /// Layer of each pair of the patch, counted from the open ones, and these with 0.
+    /// Layer of each pair of the patch, counted from the open pairs next to it, which have layer 0.
     fn layers(&self) -> BTreeMap<usize, usize> {
         let mut layers: BTreeMap<usize, usize> = BTreeMap::new();
         for &k in &self.members {
@@ -95,17 +97,17 @@ impl Shape<'_> {
             layers.extend(next.iter().map(|&k| (k, layer)));
             edge = next.into_iter().collect();
         }
-        // A patch that reaches the end of the candidates all round has no open pair beside it.
+        // A patch that reaches the end of the candidates all round has no open pair next to it.
         for &k in &self.members {
             layers.entry(k).or_insert(usize::MAX);
         }
         layers
     }
 
-    /// The square of the pressure at the pairs that are believed, and at their mirror images: those
-    /// inside the `skipped` outer layers.
+    /// The square of the pressure at the trusted pairs (inside the `skipped` outer layers) and at
+    /// their mirror images.
     ///
-    /// A pair's pressure is a mean over the faces round it: along each axis it exceeds
+    /// A pair's pressure is a mean over the faces around it: along each axis it exceeds
     /// `p = sqrt(s)` by `h^2/12 p''` (the mean of `x^2` by a hat function is `h^2/6`),
     /// `p'' = s''/(2 p) - s'^2/(4 p^3)`, so that `s = p^2 + h^2 (s'^2/(24 p^2) - s''/12)`; `h^2` is
     /// the pair's area.
@@ -134,7 +136,7 @@ impl Shape<'_> {
         }))
     }
 
-    /// Number of images of a pair's area, itself included, that lie round the pair.
+    /// Number of mirror images of a pair's area, itself included, that lie around the pair.
     fn copies_of(&self, k: usize) -> f64 {
         let x = self.model.mesh.point(self.model.pairs[k].slave);
         let near = 2e-6 * self.model.pairs[k].area.sqrt();
@@ -145,7 +147,7 @@ impl Shape<'_> {
         stays.filter(|off| *off <= near).count() as f64
     }
 
-    /// The patch halfway between pairs that touch and pairs that do not.
+    /// The moments of the patch if its edge lies halfway between closed and open pairs.
     fn moments_of_few(&self) -> Moments {
         let mut sums = PatchSums::default();
         for (face, corners) in self.member_faces() {
@@ -175,7 +177,8 @@ impl Shape<'_> {
         sums.moments(&reflections.map(in_plane).collect::<Vec<_>>())
     }
 
-    /// Pieces with too few pairs of their own beside a pair of the patch, with the pairs near.
+    /// Slivers next to a pair of the patch: pieces of faces with too few pairs of their own, with
+    /// the pairs near them.
     fn slivers(&self) -> impl Iterator<Item = (&[usize], Vec<Polygon>)> {
         let slivers = self.topology.slivers.iter();
         let ours = slivers.filter(|(near, _)| near.iter().any(|k| self.members.contains(k)));

@@ -1,4 +1,4 @@
-//! A patch on the plane across its mean normal: coordinates, moments and what is read of it.
+//! A patch projected on the plane across its mean normal: coordinates, moments and figures.
 
 use super::fit::{Cloud, Known};
 use super::moments::{Moments, PatchSums, Polygon};
@@ -10,21 +10,22 @@ use crate::results::ContactPatch;
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
 use std::collections::BTreeSet;
 
-/// Mean normal, as a share of the area's, below which a patch closes round a body: round-off.
+/// Length of the mean normal relative to the area below which a patch closes round a body:
+/// round-off.
 const CLOSED: f64 = 1e-6;
 
-/// A patch with how it was read.
+/// A patch, with information on how it was read.
 pub(in crate::analysis::figures) struct ReadPatch {
     pub(in crate::analysis::figures) patch: ContactPatch,
-    /// Error of the smaller half axis, from another reading.
+    /// Error of the smaller half axis, estimated from a second reading.
     pub(in crate::analysis::figures) reading: f64,
-    /// Closed pairs over that half axis over which fewer lie.
+    /// Number of closed pairs over the half axis over which fewer pairs lie.
     pub(in crate::analysis::figures) pairs: usize,
-    /// Pressure at the centroid.
+    /// Pressure at the centroid of the patch.
     pub(in crate::analysis::figures) pole_pressure: f64,
 }
 
-/// A unit vector across another.
+/// A unit vector perpendicular to a normal.
 fn across(normal: Vector) -> Vector {
     let share = |d: &usize| normal[*d].abs();
     let axis = (0..3).min_by(|a, b| share(a).total_cmp(&share(b)));
@@ -36,7 +37,7 @@ pub(super) fn middle(places: &[[f64; 2]]) -> [f64; 2] {
     [0, 1].map(|d| places.iter().map(|x| x[d]).sum::<f64>() / places.len() as f64)
 }
 
-/// A patch on the plane across its mean normal.
+/// A patch projected on the plane across its mean normal.
 pub(super) struct Shape<'a> {
     pub(super) model: &'a Model,
     pub(super) topology: &'a Topology<'a>,
@@ -46,14 +47,14 @@ pub(super) struct Shape<'a> {
     pub(super) images: Images,
     /// Planes of symmetry opposite to one of `planes`.
     pub(super) opposite: Vec<Mirror>,
-    /// Distance between the planes of symmetry at its two ends and the direction across them, where
-    /// it has both.
+    /// Distance between the planes of symmetry at the two ends of the patch, and the direction
+    /// across them; `None` unless the patch ends on both.
     pub(super) endless: Option<(f64, Vector)>,
     /// Whether the patch closes round a body.
     pub(super) closes: bool,
     pub(super) origin: Vector,
     pub(super) axes: [Vector; 2],
-    /// The unit of each coordinate.
+    /// The unit of each coordinate: the spacing of the pairs.
     pub(super) units: [f64; 2],
 }
 
@@ -99,7 +100,7 @@ impl<'a> Shape<'a> {
             .map_or_else(|| across(normal), |plane| plane.normal());
         let endless = opposite.first().map(|plane| {
             let between = planes.iter().map(|other| {
-                // Those at right angles differ in direction, and count nothing.
+                // Planes at right angles have another direction and contribute nothing.
                 let parallel = dot(other.normal(), plane.normal()).abs().round();
                 parallel
                     * plane
@@ -126,8 +127,8 @@ impl<'a> Shape<'a> {
         shape
     }
 
-    /// Turns the axes along the principal ones of the pairs' places, unless planes of symmetry give
-    /// them, and takes the spacing of the pairs along them as units.
+    /// Turns the axes into the principal directions of the pairs' places, unless planes of symmetry
+    /// give the axes, and takes the spacing of the pairs along the axes as units.
     pub(super) fn measure(&mut self) {
         if self.planes.is_empty() {
             let mut sums = PatchSums::default();
@@ -153,12 +154,12 @@ impl<'a> Shape<'a> {
         self.units = extents.map(|extent| extent / faces);
         let first = |plane: &Mirror| dot(plane.normal(), self.planes[0].normal()).abs();
         if self.planes.iter().skip(1).any(|plane| first(plane) > 1e-6) {
-            // A sector that fills the turn has no axis before another.
+            // In a sector that fills the turn with its images, no axis is distinguished.
             self.units = [0.5 * (self.units[0] + self.units[1]); 2];
         }
     }
 
-    /// The faces at the pairs that touch, by number and corners.
+    /// The faces at the closed pairs of the patch, by number and corners.
     pub(super) fn member_faces(&self) -> impl Iterator<Item = (usize, &[usize])> {
         let faces: BTreeSet<u32> = (self.members.iter())
             .flat_map(|&k| self.topology.at[k - self.topology.start].iter().copied())
@@ -168,7 +169,7 @@ impl<'a> Shape<'a> {
             .map(|face| (face as usize, self.topology.faces[face as usize].as_slice()))
     }
 
-    /// What is covered of a face, where that is not all.
+    /// The covered parts of a face; `None` if the whole face is covered.
     pub(super) fn covered(&self, face: usize) -> Option<Vec<Polygon>> {
         let parts = self.topology.covered.get(&face)?;
         Some(self.in_plane(parts))
@@ -192,12 +193,12 @@ impl<'a> Shape<'a> {
         [0, 1].map(|d| dot(self.axes[d], from) / self.units[d])
     }
 
-    /// A pair's area in these coordinates.
+    /// Area of a pair in the coordinates of the patch.
     pub(super) fn area(&self, k: usize) -> f64 {
         self.model.pairs[k].area / (self.units[0] * self.units[1])
     }
 
-    /// The place of a pair and its mirror images.
+    /// The places of a pair and of its mirror images.
     pub(super) fn mirrored(&self, k: usize) -> Vec<[f64; 2]> {
         let pair = &self.model.pairs[k];
         let near = 1e-6 * pair.area.sqrt();
@@ -221,8 +222,9 @@ impl<'a> Shape<'a> {
         images.into_iter().map(|x| self.place_of(x)).collect()
     }
 
-    /// How many mirror images make the whole, the model's part included, as far as the scene
-    /// declares them where it does; of a strip without end those across its width.
+    /// Number of mirror images, including the model's part, that make up the whole, limited to the
+    /// symmetry that the scene declares, if any. For an endless strip only images across its width
+    /// count.
     pub(super) fn copies(&self) -> f64 {
         let images = self.images.count();
         let copies = match self.model.scene.symmetry {
@@ -233,12 +235,12 @@ impl<'a> Shape<'a> {
         copies as f64
     }
 
-    /// Half axes, the larger first.
+    /// Half axes of the patch, the larger first.
     pub(super) fn semi_axes(&self, moments: &Moments) -> [f64; 2] {
         let Some((length, _)) = self.endless else {
             return moments.axes().0;
         };
-        // Planes across the width halve the model's share of it.
+        // Planes across the width divide the model's share of it into halves.
         let halves = (1usize << (self.planes.len() - 1)) as f64;
         [f64::INFINITY, 0.5 * halves * moments.area / length]
     }
@@ -254,7 +256,7 @@ impl<'a> Shape<'a> {
         let in_space =
             |[x, y]: [f64; 2], from: Vector| along(along(from, x, self.axes[0]), y, self.axes[1]);
         let pole = moments.center;
-        // An element more or less follows from where in it the edge is read.
+        // The number of pairs is rounded, since it depends on where in an element the edge is read.
         let layers = moments.axes().0[1];
         let closed = || self.members.iter().copied();
         let scaled = |moments: Moments| {
@@ -274,7 +276,7 @@ impl<'a> Shape<'a> {
         let off = other.map_or(0.5 * semi_axes[1] / layers.max(1.0), |other| {
             (self.semi_axes(&other)[1] - semi_axes[1]).abs()
         });
-        // Pairs on a plane of symmetry carry their share of the whole's already halved.
+        // Pairs on a plane of symmetry carry only their share of the force: already halved.
         let total: f64 = closed().map(|k| force[k]).sum::<f64>() * copies;
         let area = moments.area * copies;
         let pole_pressure = {

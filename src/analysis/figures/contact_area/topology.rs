@@ -1,16 +1,16 @@
-//! Pairs and the faces between them.
+//! The pairs of a contact, and the faces between them.
 
 use crate::model::ContactSurface;
 use crate::space::Vector;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Which pairs of a contact share faces.
+/// The relation between the pairs of a contact and their faces.
 pub(super) struct Topology<'m> {
     pub(super) start: usize,
     pub(super) faces: &'m [Vec<usize>],
-    /// What is covered of faces that are covered in part.
+    /// Covered parts of the faces that are covered only in part.
     pub(super) covered: &'m BTreeMap<usize, Vec<Vec<Vector>>>,
-    /// Pairs beside pieces that have too few of their own, and what is covered of these.
+    /// Pieces with too few pairs of their own: the pairs next to them, and their covered parts.
     pub(super) slivers: &'m [(Vec<usize>, Vec<Vec<Vector>>)],
     /// Faces at each pair.
     pub(super) at: Vec<Vec<u32>>,
@@ -34,13 +34,13 @@ impl<'m> Topology<'m> {
         }
     }
 
-    /// Pairs that share a face with a pair, itself included.
+    /// Pairs that share a face with pair `k`, itself included.
     pub(super) fn around(&self, k: usize) -> impl Iterator<Item = usize> + '_ {
         let faces = self.at[k - self.start].iter();
         faces.flat_map(|&face| self.faces[face as usize].iter().copied())
     }
 
-    /// The connected sets of some pairs.
+    /// Splits a set of pairs into connected sets.
     pub(super) fn connected(&self, closed: &BTreeSet<usize>) -> Vec<BTreeSet<usize>> {
         let mut left = closed.clone();
         let mut out = Vec::new();

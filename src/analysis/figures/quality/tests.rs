@@ -1,5 +1,5 @@
-//! Faults put in on purpose: each must show in the run's own figures. The structure that the solver
-//! works with is corrupted, the figures see the true one.
+//! Tests with faults put in on purpose: each fault must show in the run's own figures. The
+//! structure that the solver works with is corrupted; the figures are computed with the true one.
 
 use super::{Displacements, tolerances};
 use crate::analysis::increments::elastic::ElasticDrive;
@@ -53,8 +53,8 @@ fn model() -> (Model, System) {
     (model, system)
 }
 
-/// The quality of the state at the end of the load, found by a solver on `used`, `tamper`ed with
-/// before and `after` the way there, and judged by `system`.
+/// The quality, judged by `system`, of the state at the end of the load. The solver works on
+/// `used`; `tamper` changes it before it goes to this state, `after` once it is there.
 fn quality(
     model: &Model,
     system: &System,
@@ -98,7 +98,7 @@ fn a_sound_run_misses_nothing() {
     assert_eq!(q.misses(&tolerances(&model)), []);
 }
 
-/// One entry of the factored matrix is off by 1e-4 of itself: the factor is that of another
+/// One entry of the factored matrix is off by 1e-4 of its value, so the factor is that of another
 /// structure.
 #[test]
 fn a_corrupted_factor_is_caught() {
@@ -118,8 +118,8 @@ fn a_corrupted_factor_is_caught() {
     caught(&model, q, &["backward_error", "equilibrium"]);
 }
 
-/// The condensed contact matrix is off by 1e-4 in the entry that couples the outermost pair, which
-/// stays open, with the pole.
+/// The condensed contact matrix is off by 1e-4 in the entry that couples the pole with the
+/// outermost pair, which stays open.
 #[test]
 fn a_wrong_schur_complement_is_caught() {
     let (model, system) = model();
@@ -138,9 +138,9 @@ fn a_wrong_schur_complement_is_caught() {
     caught(&model, q, &["equilibrium"]);
 }
 
-/// The status of a pair is wrong in the end state: the surfaces overlap where it should be closed,
-/// hold together where it should be open. The flip clips gaps and forces as if they were sound:
-/// displacements and forces then do not belong together.
+/// The status of a pair is wrong in the final state: the surfaces overlap at a pair that should be
+/// closed, or stick together at one that should be open. Gaps and forces are clipped after the flip
+/// as if they were sound, so that displacements and forces do not belong together.
 #[test]
 fn a_flipped_status_is_caught() {
     let (model, system) = model();
@@ -166,8 +166,8 @@ fn a_flipped_status_is_caught() {
     }
 }
 
-/// A run keeps the worst condition of all its factorisations, not the last one's, and a run that
-/// goes on from a checkpoint knows it too.
+/// A run keeps the worst condition number of all its factorisations, not that of the last one, also
+/// when it is resumed from a checkpoint.
 #[test]
 fn the_condition_of_an_earlier_factorisation_is_not_forgotten() {
     let (model, system) = model();
@@ -177,7 +177,8 @@ fn the_condition_of_an_earlier_factorisation_is_not_forgotten() {
         let solver = Solver::new(&model, &system, backend, &[within], vec![within], &[false]);
         solver.expect("solver").structure.sub.condition()
     };
-    // Which freedoms come last in the factor is all that differs: so do the pivots.
+    // The two structures differ only in the freedoms that come last in the factor, and so in the
+    // pivots.
     let mut ordered = elements.map(|element| (bound(element), element));
     ordered.sort_by(|a, b| b.0.total_cmp(&a.0));
     let [(worst, first), (least, last)] = ordered;
@@ -214,7 +215,7 @@ fn loaded<'m>(model: &'m Model, system: &'m System) -> Solver<'m> {
     solver
 }
 
-/// Noise put in by hand shows with its size, but for what the sound state has.
+/// Checks that noise put in by hand shows with its own size, up to the error of the sound state.
 #[track_caller]
 fn shows(figure: f64, expected: f64, sound: f64) {
     let off = (figure - expected).abs();
@@ -239,7 +240,7 @@ fn entry(system: &System, i: usize, j: usize) -> f64 {
     at.copied().unwrap_or(0.0)
 }
 
-/// A node that is moved leaves its column of the stiffness out of balance.
+/// A displaced node leaves forces out of balance according to its column of the stiffness.
 #[test]
 fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
     let (model, system) = model();
@@ -262,8 +263,8 @@ fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
     }
 }
 
-/// A contact force that is off leaves as much out of balance on its two nodes, of the stresses and
-/// of the full solve.
+/// An error in a contact force leaves the same force out of balance on its two nodes, both in the
+/// balance of stresses and in the residual of the full solve.
 #[test]
 fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
     let (model, system) = model();
@@ -298,13 +299,13 @@ fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
     }
 }
 
-/// The surface of an open pair is pulled: the stresses there hold bodies together that nothing
+/// The surface of an open pair is pulled: its stresses then hold bodies together that nothing
 /// glues.
 #[test]
 fn tension_shows_as_adhesion() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
-    // Round-off that presses the surfaces together shows as no adhesion at all.
+    // Round-off that presses the surfaces together does not show as adhesion.
     let sound = solver.reading().quality_here().expect("quality").adhesion;
     let sound = sound.max(16.0 * f64::EPSILON);
     let n = model.pairs.len();
@@ -332,8 +333,8 @@ fn tension_shows_as_adhesion() {
     }
 }
 
-/// Surfaces of a pressed pair that are moved apart, or into each other, whatever the solver's own
-/// gaps are.
+/// The surfaces of a closed pair are moved apart or into each other: the figures show it whatever
+/// the solver's own gaps are.
 #[test]
 fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
     let (model, system) = model();
@@ -346,7 +347,7 @@ fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
     let widest = (solver.structure.delta(&solver.at).iter()).fold(0.0f64, |m, d| m.max(d.abs()));
     for shift in [1e-6, 1e-3, -1e-6, -1e-3] {
         let apart = shift * solver.scales.displacement;
-        // The first node moves up by it, or the second one down.
+        // Either the first node moves up by `apart`, or the second node moves down by it.
         for (place, by) in [(pole, apart), (n + pole, -apart)] {
             let mut u = solver.reading().displacements().expect("displacements");
             u.total[contact[place]] += by;
@@ -365,8 +366,8 @@ fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
     }
 }
 
-/// A pair with the wrong status, its gap or force clipped as if it were sound: stresses and
-/// displacements show what was clipped.
+/// A pair has the wrong status, and its gap or force is clipped as if it were sound: stresses and
+/// displacements show the clipped value.
 #[test]
 fn a_wrong_status_shows_with_its_tension_or_penetration() {
     let (model, system) = model();
@@ -396,8 +397,9 @@ fn a_wrong_status_shows_with_its_tension_or_penetration() {
     }
 }
 
-/// Nearly incompressible bodies cost digits of their stresses by their stiffness against a change
-/// of volume. What is lost is within the round-off that the state reports; more is not accepted.
+/// Nearly incompressible bodies lose digits of their stresses to their stiffness against a change
+/// of volume. The loss is within the round-off that the state reports; larger errors are not
+/// accepted.
 #[test]
 fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
     let text = SCENE.replace("poissons_ratio = 0.3", "poissons_ratio = 0.499999998");
@@ -408,7 +410,8 @@ fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
     let tolerances = tolerances(&model);
     assert!(sound.equilibrium > tolerances.equilibrium, "{sound:?}");
     assert_eq!(sound.misses(&tolerances), []);
-    // Displacements are known to half a rounding error; a thousand times as much is a fault.
+    // Displacements are accurate to half a rounding error; an error a thousand times larger is a
+    // fault.
     for (size, accepted) in [(0.5, true), (500.0, false)] {
         let mut u = solver.reading().displacements().expect("displacements");
         for (i, value) in u.deformation.iter_mut().flatten().enumerate() {
@@ -422,8 +425,8 @@ fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
     }
 }
 
-/// What is not a number is never waited for: with one among forces, gaps or initial loads every
-/// figure of a state is found, and the state is not called sound.
+/// NaN never ends in an endless loop: with a NaN among forces, gaps or initial loads, every figure
+/// of a state is found, and the state is not reported as sound.
 #[test]
 fn what_is_not_a_number_ends_in_no_loop_and_is_caught() {
     type Spoil = fn(&mut Solver, usize, f64);

@@ -1,10 +1,10 @@
-//! Where the stresses of quadratic elements are compared.
+//! Points at which the stresses of quadratic elements are compared.
 
 use crate::shape::{Functions, Integration, Place, Rule, Shape};
 use std::ops::Range;
 use std::sync::LazyLock;
 
-/// Abscissas and weights of three Gauss points.
+/// Abscissas and weights of the three-point Gauss rule.
 const GAUSS_3: [(f64, f64); 3] = {
     const G: f64 = 0.774_596_669_241_483_4;
     [(-G, 5.0 / 9.0), (0.0, 8.0 / 9.0), (G, 5.0 / 9.0)]
@@ -53,7 +53,7 @@ const TETRAHEDRON: [(Place, f64); 14] = {
     ]
 };
 
-/// The rule by which stresses of a quadratic element are compared.
+/// The quadrature rule for comparing the stresses of a quadratic element.
 fn rule(shape: Shape) -> Vec<(Place, f64)> {
     match (shape.n_corners(), shape.dimension()) {
         (3, _) => TRIANGLE.to_vec(),
@@ -63,7 +63,7 @@ fn rule(shape: Shape) -> Vec<(Place, f64)> {
     }
 }
 
-/// The product of a rule with that of a line along further coordinates.
+/// The product of a quadrature rule with the rule of a line along further coordinates.
 fn times_lines(mut points: Vec<(Place, f64)>, dimensions: Range<usize>) -> Vec<(Place, f64)> {
     for d in dimensions {
         let along = |(place, weight): (Place, f64)| {
@@ -82,7 +82,8 @@ fn times_lines(mut points: Vec<(Place, f64)>, dimensions: Range<usize>) -> Vec<(
 pub(super) struct Compared {
     pub(super) weight: f64,
     pub(super) functions: Functions,
-    /// Shares of the nodes there, see [`shares`].
+    /// Shares of the stresses at the superconvergent points in the stress at this point, see
+    /// [`shares`].
     pub(super) shares: Vec<f64>,
 }
 
@@ -98,8 +99,8 @@ pub(super) static COMPARED: LazyLock<[Vec<Compared>; Shape::ALL.len()]> = LazyLo
     })
 });
 
-/// What the values at the points of full integration count at each superconvergent point of a
-/// quadratic element.
+/// Shares of the values at the points of full integration in the value at each superconvergent
+/// point of a quadratic element.
 pub(super) static FROM_FULL: LazyLock<[Vec<Vec<f64>>; Shape::ALL.len()]> = LazyLock::new(|| {
     Shape::ALL.map(|shape| {
         let [reduced, full] = Integration::ALL.map(|integration| shape.rule(integration));
@@ -108,17 +109,17 @@ pub(super) static FROM_FULL: LazyLock<[Vec<Vec<f64>>; Shape::ALL.len()]> = LazyL
     })
 });
 
-/// What the stress at each point of a rule of a quadratic element counts at a place: the polynomial
-/// through them.
+/// Shares of the stresses at the points of a rule in the stress at a place, for a quadratic
+/// element: the polynomial through these points.
 fn shares(shape: Shape, gauss: &Rule, at: Place) -> Vec<f64> {
-    // Points of the simplex in its first coordinates: all of a triangle or tetrahedron, the base of
-    // a prism, none of a square or cube.
+    // Number of points of the rule's simplex, and of the coordinates that it takes up first: all of
+    // a triangle or tetrahedron, the base of a prism, none of a square or cube.
     let (points, first) = match (shape.is_simplex(), shape.n_corners()) {
         (true, n) if n == gauss.len() => (n, n - 1),
         (false, 6) => (3, 2),
         _ => (1, 0),
     };
-    // Linear, one at its own point and zero at the others, in volume coordinates.
+    // Linear functions of the volume coordinates: one at their own point and zero at the others.
     let volumes = |place: Place| {
         let within: Place = std::array::from_fn(|d| if d < first { place[d] } else { 0.0 });
         let [x, y, z] = within;
@@ -132,7 +133,7 @@ fn shares(shape: Shape, gauss: &Rule, at: Place) -> Vec<f64> {
             let near = volumes(gauss[(own + 1) % points].0)[own];
             share = (here[own] - near) / (volumes(gauss[own].0)[own] - near);
         }
-        // Lagrange's polynomial, one at its own abscissa and zero at the others.
+        // Lagrange polynomial: one at its own abscissa and zero at the others.
         let along = |d: usize| {
             let own = gauss[k].0[d];
             let mut others: Vec<f64> = gauss.iter().map(|(place, _)| place[d]).collect();
@@ -151,8 +152,8 @@ fn shares(shape: Shape, gauss: &Rule, at: Place) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// Rules have the volume of their element and are exact for cubics; stresses at the Gauss
-    /// points count one at their own and add up to one, with either integration.
+    /// Rules have the volume of their element and are exact for cubics. With either integration,
+    /// the share of a Gauss point is one at that point, and shares add up to one.
     #[test]
     fn rules_are_exact_and_shares_interpolate() {
         for shape in Shape::ALL.into_iter().filter(|shape| shape.is_quadratic()) {
@@ -160,8 +161,8 @@ mod tests {
             let volume: f64 = row.gauss.iter().map(|(_, weight)| weight).sum();
             let sum: f64 = rule(shape).iter().map(|(_, weight)| weight).sum();
             assert!((sum - volume).abs() < 1e-14, "{shape:?}");
-            // int x^3 by the same rule as by the element's own functions: x over a simplex is d!
-            // 3!/(d + 3)! times the volume, and nothing over a cube; over a prism as over its base.
+            // int x^3 by the rule and in closed form: over a simplex it is d! 3!/(d + 3)! times the
+            // volume, over a cube zero, over a prism as over its base.
             let cubes = rule(shape)
                 .iter()
                 .map(|(x, w)| w * x[0].powi(3))

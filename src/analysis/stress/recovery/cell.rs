@@ -1,4 +1,4 @@
-//! What an element is searched by: images of a square or cube.
+//! Cells of an element in which its maximum is searched: images of a square or cube.
 
 use crate::shape::{CORNERS_OF_CUBE, Place, Shape};
 use crate::space::along;
@@ -9,12 +9,12 @@ pub(super) struct Cell<const D: usize, const N: usize> {
     pub(super) element: u32,
     shape: Shape,
     nodes: [[f64; D]; N],
-    /// Reference coordinates of its corners, in the order of [`CORNERS_OF_CUBE`].
+    /// Reference coordinates of the cell's corners, in the order of [`CORNERS_OF_CUBE`].
     corners: [Place; 8],
 }
 
 impl<const D: usize, const N: usize> Cell<D, N> {
-    /// Cells that together make an element.
+    /// The cells that together make up an element.
     pub(super) fn of(element: u32, shape: Shape, nodes: [[f64; D]; N]) -> Vec<Self> {
         let cell = |corners: [Place; 8]| Cell {
             element,
@@ -35,7 +35,7 @@ impl<const D: usize, const N: usize> Cell<D, N> {
         };
         let round = |a: usize| {
             if !row.n_corners.is_multiple_of(4) {
-                // A triangle, or base and top of a prism.
+                // The element is a triangle, or a prism with a base and a top.
                 let [b, c] = [(a + 1) % 3, (a + 2) % 3];
                 let at = |start: usize| {
                     let [a, b, c] = [a, b, c].map(|k| start + k);
@@ -60,7 +60,7 @@ impl<const D: usize, const N: usize> Cell<D, N> {
         (0..n).map(round).collect()
     }
 
-    /// The coordinates of a point.
+    /// The coordinates of a point of the cell.
     pub(super) fn point(&self, at: [f64; D]) -> [f64; D] {
         let mut place = [0.0; 3];
         for (corner, sign) in self.corners.iter().zip(CORNERS_OF_CUBE).take(1 << D) {
@@ -83,14 +83,14 @@ mod tests {
     use super::super::{Maximum, SPACINGS};
     use super::*;
 
-    /// The search covers a triangle, whichever of its corners comes first: the highest point of
-    /// this function lies on the side between the last two of one numbering, and the corners are
-    /// higher than what lies between.
+    /// The search covers a whole triangle, whichever of its corners comes first. The highest point
+    /// of this function lies on the side between the last two corners of one numbering, and the
+    /// corners are higher than the points between them.
     #[test]
     fn a_triangle_is_searched_whole() {
         let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]];
         let f = |[x, y]: [f64; 2]| 1.0 + 0.02 * (y - 1.0) + 0.04 * x - 0.05 * x * x;
-        // On x + y = 1: 1 + 0.02 x - 0.05 x^2, highest at x = 0.2.
+        // On x + y = 1 the function is 1 + 0.02 x - 0.05 x^2, with its maximum at x = 0.2.
         for first in 0..3 {
             let mut nodes = [[0.0; 2]; 8];
             for (i, node) in nodes.iter_mut().take(3).enumerate() {

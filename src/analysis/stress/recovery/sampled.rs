@@ -1,4 +1,4 @@
-//! Where an element's stress is sampled.
+//! The points at which the stress of an element is sampled.
 
 use crate::analysis::stress::layers::Layers;
 use crate::analysis::stress::neighbours::Neighbours;
@@ -7,19 +7,19 @@ use crate::model::Model;
 use crate::space::Vector;
 use serde::{Deserialize, Serialize};
 
-/// Where the stress is watched for first yield.
+/// Choice of the points at which the stress is watched for first yield.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Watched {
-    /// Between superconvergent points, by the polynomials through them.
+    /// Between superconvergent points, on the polynomials through them.
     #[default]
     Recovered,
-    /// Watched at the Gauss points of the elements, where the material yields: on a mesh that is
-    /// too coarse for the polynomials they may be beyond yield before.
+    /// At the Gauss points of the elements, where the material yields. On a mesh that is too coarse
+    /// for the polynomials, Gauss points may be beyond yield earlier.
     GaussPoints,
 }
 
-/// An element with its samples: at its superconvergent points, on either side of them across a
-/// body that is one element thick, or at its Gauss points.
+/// An element with its samples. They lie at its superconvergent points, on either side of the
+/// middle across a body that is one element thick, or at its Gauss points.
 pub(super) struct Sampled<const D: usize, const S: usize, const P: usize, const N: usize> {
     pub(super) points: Sampling<D, S, P, N>,
     layers: Option<Layers>,
@@ -28,7 +28,7 @@ pub(super) struct Sampled<const D: usize, const S: usize, const P: usize, const 
 }
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> Sampled<D, S, P, N> {
-    /// The element `e` of a list with its neighbours.
+    /// Samples the element `e` of a list, with the neighbours in that list.
     pub(super) fn new(
         kernel: &Kernel<D, S, P, N>,
         model: &Model,
@@ -68,7 +68,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Sampled<D, 
         }
     }
 
-    /// Values at the samples, for those at the points.
+    /// Values at the samples, from values at the points.
     pub(super) fn of_points(&self, at_points: &Components<S, P>) -> Components<S, P> {
         match &self.layers {
             Some(layers) => layers.means(at_points),

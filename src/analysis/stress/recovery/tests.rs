@@ -1,4 +1,4 @@
-//! The stress between the points, and where it is searched.
+//! Tests of the stress between the sampling points, and of the search for its maximum.
 
 use super::*;
 use crate::analysis::Analysis;
@@ -15,8 +15,8 @@ fn plane(recovery: Option<&mut Recovery>) -> &mut RecoveryOf<2, 4, 4, 8> {
     }
 }
 
-/// The largest sample with its own place, the first of equal ones whatever their round-off,
-/// none where there is no stress.
+/// Far below yield the peak is the largest sample with its own place: the first of equal samples
+/// whatever their round-off, and none if there is no stress.
 #[test]
 fn far_below_yield_the_first_of_the_largest_samples_is_the_peak() {
     let scene = Scene::load("data/scenes/thick_cylinder.toml").unwrap();
@@ -44,8 +44,8 @@ fn far_below_yield_the_first_of_the_largest_samples_is_the_peak() {
     }
 }
 
-/// Looser searches miss no more than is said, and take fewer values. The field has its highest
-/// point between the samples.
+/// Looser searches miss no more than [`left_of_search`] reports, and need fewer values. The field
+/// has its highest point between the samples.
 #[test]
 fn a_looser_search_misses_no_more_than_it_says() {
     let coarse = "mesh.parts.0.ring.elements=[10,10]".to_string();
