@@ -130,7 +130,7 @@ impl Curve {
         ))
     }
 
-    /// The same surface with `outward` set, so that the body lies on the chosen side of it.
+    /// A copy of the surface with `outward` set, so that the body lies on the chosen side of it.
     pub(crate) fn facing(self, outward: bool) -> Curve {
         let mut out = self;
         match &mut out {

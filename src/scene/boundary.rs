@@ -21,12 +21,12 @@ pub struct Contact {
     /// Initial gap of all contact pairs, used instead of the gap in the mesh: a number, a formula
     /// of the position, or values at nodes. A formula or nodal values are read at the slave nodes.
     pub gap: Option<Field>,
-    /// Which surface is the slave: gaps and pressures live at the slave nodes. `"auto"` takes the
-    /// finer surface, with three exceptions. The coarser surface is the slave if its facets are
-    /// linear and more than twice as long as those of the finer one (or longer at all, on a curved
-    /// surface whose shape is not known). If the nodes of the two surfaces face each other, the
-    /// second surface is the slave. If nodes at an edge are already slaves of an earlier contact,
-    /// the other surface is.
+    /// Which surface is the slave: gaps and pressures are defined at the slave nodes. `"auto"`
+    /// takes the finer surface, with three exceptions. The coarser surface is the slave if its
+    /// facets are linear and more than twice as long as those of the finer one (or longer at all,
+    /// on a curved surface whose shape is not known). The second surface is the slave if the nodes
+    /// of the two surfaces face each other. The other surface becomes the slave if nodes at an edge
+    /// are already slaves of an earlier contact.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
     /// Stiffness of soft contact, pressure over overlap: `g + p / stiffness >= 0` in place of

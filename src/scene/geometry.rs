@@ -370,8 +370,10 @@ pub struct DiscInPlate {
 
 /// A block, brick, ring sector or disc sector that is one body. The surfaces of a block are
 /// `BODY.left`, `.right`, `.bottom`, `.top`; those of a ring sector `.inner`, `.outer`, `.start`,
-/// `.end`; those of a disc sector `.outer`, `.start`, `.end`. The corners of a block are node sets
-/// `BODY.bottom_left`, `BODY.bottom_right`, `BODY.top_left`, `BODY.top_right`.
+/// `.end`; those of a disc sector `.outer`, `.start`, `.end`. A closed ring or a full disc has no
+/// `.start` and `.end`. The corners of a block are node sets `BODY.bottom_left`,
+/// `BODY.bottom_right`, `BODY.top_left`, `BODY.top_right`; the centre of a disc is the node set
+/// `BODY.center`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
