@@ -1,11 +1,12 @@
-//! What two elastic bodies are to a local contact: one modulus and one radius, or two.
+//! Parameters by which two elastic bodies enter a local contact: one contact modulus and one or two
+//! relative radii.
 
 use crate::error::{Error, Result};
 
 /// Contact modulus `E* = [(1 - nu1^2)/E1 + (1 - nu2^2)/E2]^-1`, plane strain or three-dimensional.
 ///
 /// `f64::INFINITY` for a Young's modulus makes that body rigid. For plane stress pass `poisson = 0`
-/// for both bodies: only the moduli of the planes enter.
+/// for both bodies, because only the in-plane moduli enter.
 ///
 /// # Source
 /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, p. 92.
@@ -20,9 +21,9 @@ pub fn contact_modulus(young1: f64, poisson1: f64, young2: f64, poisson2: f64) -
 
 /// Relative radius `R = [1/R1 + 1/R2]^-1` of two surfaces that touch.
 ///
-/// `f64::INFINITY` is a plane, a negative radius a hollow (a ball in a socket). Where the hollow is
-/// the tighter one the result is negative and the bodies do not touch in a point: constructors
-/// reject it.
+/// `f64::INFINITY` is a plane, a negative radius a hollow (a ball in a socket). If the hollow is
+/// tighter than the body in it, the result is negative and the bodies do not touch in a point:
+/// constructors reject it.
 ///
 /// # Source
 /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, p. 85 and p. 100.
@@ -33,31 +34,32 @@ pub fn relative_radius(radius1: f64, radius2: f64) -> f64 {
 /// Relative curvature of two surfaces that touch in a point or along a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RelativeRadii {
-    /// Larger and smaller relative radius; the larger one is infinite along a line of contact.
+    /// Larger and smaller relative radius; the larger one is infinite for a line contact.
     pub radii: [f64; 2],
-    /// Angle from the first principal plane of the first surface to the larger radius, in degrees
-    /// from 0 on, less than 180.
+    /// Angle in degrees, at least 0 and less than 180, from the first principal plane of the first
+    /// surface to the plane of the larger radius.
     pub direction: f64,
 }
 
 impl RelativeRadii {
-    /// Round-off of sums of curvatures over the largest of them.
+    /// Round-off of a sum of curvatures relative to the largest of them.
     const ROUND_OFF: f64 = 1e-12;
 
-    /// The relative curvature of surfaces with two principal radii each, positive convex, negative
-    /// hollow, 0 or infinite flat; the principal planes of the second are turned by `angle` degrees
-    /// from those of the first.
+    /// The relative curvature of surfaces with two principal radii each, positive if convex,
+    /// negative if hollow, 0 or infinite if flat. The principal planes of the second surface are
+    /// turned by `angle` degrees from those of the first. The two relative curvatures are
     ///
     /// ```text
     /// k = sum/2 -+ ((d1 + d2 cos 2 angle)^2 + (d2 sin 2 angle)^2)^(1/2)
     /// ```
     ///
-    /// with the sum of all four curvatures and d1, d2 half the difference of a surface's own.
+    /// with the sum of all four curvatures, and d1 and d2 half the difference of the two curvatures
+    /// of each surface.
     ///
     /// # Errors
-    /// `Input` where the surfaces do not part from each other in a direction, unless both are flat
-    /// along it (a line contact): a hollow that is no wider than what lies in it, flat on flat; a
-    /// radius or an angle that is not a number.
+    /// `Input` if there is a direction in which no gap opens between the surfaces, unless both are
+    /// flat along it (a line contact): a hollow that is no wider than the body in it, or flat on
+    /// flat. Also for a radius or an angle that is not a number.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, p. 85 and appendix 2, pp. 414-415.
@@ -94,9 +96,9 @@ impl RelativeRadii {
     }
 }
 
-/// Smaller and larger sum of curvatures and the direction of the smaller.
+/// Smaller and larger sum of curvatures, and the direction of the smaller one.
 fn principal(k1: [f64; 2], k2: [f64; 2], angle: f64) -> [f64; 3] {
-    // Planes that agree need no differences, in which digits would be lost.
+    // If the principal planes coincide, no differences are needed, in which digits would be lost.
     let aligned = match angle.rem_euclid(180.0) {
         0.0 => Some(k2),
         90.0 => Some([k2[1], k2[0]]),
@@ -111,7 +113,8 @@ fn principal(k1: [f64; 2], k2: [f64; 2], angle: f64) -> [f64; 3] {
     let mean = 0.5 * (k1[0] + k1[1] + k2[0] + k2[1]);
     let (along, across) = (d1 + d2 * cos, d2 * sin);
     let half = along.hypot(across);
-    // The larger curvature lies at half the angle of the difference, the smaller across.
+    // The larger curvature lies at half the angle of the difference, the smaller one perpendicular
+    // to it.
     let direction = 90.0 + 0.5 * across.atan2(along).to_degrees();
     [mean - half, mean + half, direction.rem_euclid(180.0)]
 }
@@ -124,12 +127,13 @@ mod tests {
     fn curvatures_of_turned_planes() {
         let flat = f64::INFINITY;
         let of = |first, second, angle| RelativeRadii::new(first, second, angle).unwrap();
-        // Along the axes it is the sum of each.
+        // Along the axes each relative curvature is the sum of the two curvatures.
         let groove = of([5.0, 5.0], [-5.2, 20.0], 0.0);
         assert!((groove.radii[0] - 130.0).abs() < 1e-10 && groove.direction == 0.0);
         assert!((groove.radii[1] - 4.0).abs() < 1e-14);
         assert_eq!(of([5.0, 5.0], [20.0, -5.2], 90.0), groove);
-        // Equal cylinders at an angle w: R'/R'' = cot^2(w/2), between them.
+        // Equal cylinders at an angle w: R'/R'' = cot^2(w/2), and the larger radius lies between
+        // them.
         for angle in [10.0f64, 45.0, 90.0, 120.0] {
             let crossed = of([3.0, flat], [3.0, flat], angle);
             let half = 0.5 * angle.to_radians();
@@ -141,14 +145,15 @@ mod tests {
                 "{angle}"
             );
             if angle < 90.0 {
-                // Flat directions are at 90 and 90 + angle.
+                // The flat directions are at 90 and 90 + angle degrees.
                 assert!(
                     (crossed.direction - 90.0 - 0.5 * angle).abs() < 1e-12,
                     "{angle}"
                 );
             }
         }
-        // Parallel cylinders touch along a line, and so do turned ones on a plane.
+        // Parallel cylinders touch along a line, and so do turned cylindrical surfaces if one of
+        // the two is a plane.
         assert_eq!(of([6.0, flat], [3.0, flat], 0.0).radii, [flat, 2.0]);
         assert_eq!(of([6.0, 0.0], [flat, 0.0], 30.0).radii[0], flat);
         assert_eq!(of([6.0, flat], [-12.0, flat], 0.0).radii, [flat, 12.0]);

@@ -1,4 +1,5 @@
-//! A smooth disc that fills a hole in an infinite plate under tension: the paper's second example.
+//! A smooth disc that fills a hole in an infinite plate under tension: the second example of the
+//! paper.
 
 use super::domain::{poisson as check_poisson, positive};
 use super::quadrature::integrate;
@@ -11,9 +12,10 @@ use std::sync::OnceLock;
 
 /// Frictionless disc in a hole of the same diameter and material, remote tension `S` along `x`.
 ///
-/// The hole closes on the disc round the two poles of the `y` axis and leaves it elsewhere. The
-/// contact recedes: its half angle `e` is 19.625 degrees from the first load on, whatever the
-/// tension, modulus, Poisson's ratio and plane; every stress is proportional to `S`.
+/// The hole closes on the disc around the two poles on the `y` axis and lifts off it elsewhere. The
+/// contact is receding: its half angle `e` is 19.625 degrees from the first load on, independent of
+/// the tension, modulus, Poisson's ratio and plane idealisation. Every stress is proportional to
+/// `S`.
 ///
 /// # Equations
 /// With `t` the angle from the pole and `p(t) = sum q_n cos n t` over even `n`, Muskhelishvili's
@@ -35,7 +37,7 @@ use std::sync::OnceLock;
 /// and `e` is the root of the one condition the differentiation loses, `g(0) = 0`. The stress
 /// fields follow from `F(z) = q_0 + sum q_n z^n`, also closed. So nothing here is a table.
 ///
-/// Stresses positive in tension, pressures in compression; units consistent, any.
+/// Stresses are positive in tension, pressures in compression. Units are any consistent ones.
 ///
 /// # Source
 /// The problem: N. Endahl, section 5.2; M. Stippes, Proc. 4th U.S. Nat. Congr. Appl. Mech. (1962)
@@ -62,7 +64,7 @@ impl DiscInPlate {
     /// Solves for the contact angle of a disc and hole of radius `radius`.
     ///
     /// # Errors
-    /// Where the radius is not finite and positive.
+    /// `Input` if the radius is not finite and positive.
     pub fn new(radius: f64) -> Result<Self> {
         let radius = positive("disc in a plate", "radius", radius)?;
         let half_angle = half_angle();
@@ -84,12 +86,12 @@ impl DiscInPlate {
     }
 
     /// Contact pressure at the angle `from_pole` (radians from the `y` axis) under the remote
-    /// tension `tension >= 0`; 0 outside the contact. 0.60908 S at the pole.
+    /// tension `tension >= 0`; 0 outside the contact, 0.60908 S at the pole.
     pub fn pressure(&self, from_pole: f64, tension: f64) -> f64 {
         tension * unit_pressure(from_pole, self.half_angle, self.mean_pressure)
     }
 
-    /// Force by which the plate presses the disc at one pole, per thickness: the resultant of the
+    /// Force per thickness with which the plate presses the disc at one pole: the resultant of the
     /// pressure along `y`.
     pub fn pole_force(&self, tension: f64) -> f64 {
         let e = self.half_angle;
@@ -97,10 +99,11 @@ impl DiscInPlate {
         2.0 * self.radius * half
     }
 
-    /// Gap between disc and hole at the angle `from_pole`, 0 in the contact. `contact_modulus` is
-    /// `E*` of the pair: half of [`Plane::modulus`] for the equal bodies. Length.
+    /// Gap between disc and hole, a length, at the angle `from_pole`; 0 in the contact.
+    /// `contact_modulus` is `E*` of the pair: half of [`Plane::modulus`] for the equal bodies.
     pub fn gap(&self, from_pole: f64, tension: f64, contact_modulus: f64) -> f64 {
-        // Fold to the quarter turn next to the pole: the state is symmetric in both axes.
+        // Fold to the quarter turn next to the pole, because the state is symmetric about both
+        // axes.
         let t = (from_pole.sin().abs()).atan2(from_pole.cos().abs());
         let e = self.half_angle;
         if t <= e {
@@ -150,11 +153,12 @@ impl DiscInPlate {
         ]
     }
 
-    /// Remote tension at which the plate first yields after von Mises, at the edge of the hole at
-    /// the pole: 0.3392 Y in plane stress, 0.3566 Y in plane strain with `nu = 0.3`.
+    /// Remote tension at which the plate first yields according to von Mises, at the edge of the
+    /// hole at the pole: 0.3392 Y in plane stress, 0.3566 Y in plane strain with `nu = 0.3`.
     ///
     /// # Errors
-    /// Where Poisson's ratio lies outside (-1, 0.5] or the yield stress is not finite and positive.
+    /// `Input` if Poisson's ratio lies outside (-1, 0.5] or the yield stress is not finite and
+    /// positive.
     pub fn yield_tension(&self, plane: Plane, poisson: f64, yield_stress: f64) -> Result<f64> {
         check_poisson("disc in a plate", poisson)?;
         positive("disc in a plate", "yield stress", yield_stress)?;
@@ -179,7 +183,8 @@ impl DiscInPlate {
         let s2 = e.sin().powi(2);
         let z2 = z * z;
         let (g, n) = (z2 + 1.0, Complex::new(1.0, 0.0) - z2);
-        // Each factor has a positive real part in the disc: principal roots, no branch to choose.
+        // Each factor has a positive real part in the disc, so the principal roots apply and no
+        // branch has to be chosen.
         let edge = Complex::from_polar(1.0, 2.0 * e);
         let one = Complex::new(1.0, 0.0);
         let h = (one - z2 * edge).sqrt() * (one - z2 * edge.conj()).sqrt();
@@ -194,7 +199,8 @@ impl DiscInPlate {
     }
 }
 
-/// Round-off of `|z|^2` at the rim must not meet the singular slope at the edges of the contact.
+/// The distance from the rim, set to zero within round-off of `|z|^2`, because the slope it
+/// multiplies is singular at the edges of the contact.
 fn edge_factor(distance: f64) -> f64 {
     if distance.abs() <= 8.0 * f64::EPSILON {
         0.0
@@ -210,7 +216,7 @@ fn turned(sum: f64, deviator: Complex<f64>, tension: f64) -> [f64; 3] {
     [tension * s22, tension * s11, -0.5 * tension * deviator.im]
 }
 
-/// `q_0/S` for the half angle `e`.
+/// Mean pressure over the tension, `q_0/S`, for the half angle `e`.
 fn mean_pressure(e: f64) -> f64 {
     let log = -e.cos().ln();
     (0.25 * log + 0.75 * e.sin().powi(2)) / (1.0 - 0.5 * log)
@@ -230,7 +236,7 @@ fn unit_pressure(t: f64, e: f64, q0: f64) -> f64 {
     (0.5 * q0 + 0.25) * w.atanh() + 1.5 * c2 * w
 }
 
-/// Half angle of the contact: the same for every disc, so found once.
+/// Half angle of the contact, which is the same for every disc and therefore computed only once.
 fn half_angle() -> f64 {
     static FOUND: OnceLock<f64> = OnceLock::new();
     // The tension alone lifts the hole off the disc beyond 30 degrees from the pole.
@@ -262,11 +268,11 @@ fn pole_gap(e: f64) -> f64 {
     -0.25 - 0.5 * q0 + (0.5 * q0 + 0.25) * j1 + 1.5 * j2
 }
 
-/// `E* g/(2 a S)` at the angle `t` in `[0, pi/2]`, by the integral of the pressure over the
-/// contact.
+/// Scaled gap `E* g/(2 a S)` at the angle `t` in `[0, pi/2]`, by the integral of the pressure over
+/// the contact.
 fn unit_gap(t: f64, e: f64, q0: f64) -> f64 {
-    // sum_{n even} n/(n^2-1) cos n x = cos x ln|cot(x/2)| - 1/2; the logarithm at x = 0 is put at
-    // an end.
+    // sum_{n even} n/(n^2-1) cos n x = cos x ln|cot(x/2)| - 1/2. The interval is split so that the
+    // logarithmic singularity at x = 0 lies at an end.
     let kernel = |x: f64| x.cos() * (0.5 * x).tan().abs().ln();
     let right = |s: f64| unit_pressure(t + s, e, q0) * kernel(s);
     let left = |s: f64| unit_pressure(t - s, e, q0) * kernel(s);

@@ -1,4 +1,4 @@
-//! The disc in the plate against the published figures and against its own field equations.
+//! The disc in the plate compared with the published figures and with its own field equations.
 
 use super::*;
 
@@ -22,7 +22,8 @@ fn bodies_touch_in_the_contact_and_nowhere_else() {
     let d = disc();
     let (e, q0) = (d.half_angle, d.mean_pressure);
     for i in 0..20 {
-        // Root singularity at the far end of the integral: see `integrate`.
+        // The integrand has a root singularity at the far end of the interval, as described at
+        // `integrate`.
         let t = e * f64::from(i) / 20.0;
         assert!(unit_gap(t, e, q0).abs() < 1e-9, "{}", unit_gap(t, e, q0));
         assert!(d.pressure(t, 1.0) > 0.0);
@@ -45,7 +46,7 @@ fn mean_pressure_is_the_mean_and_the_pole_carries_the_cut() {
     let d = disc();
     let mean = 2.0 * integrate(|t| d.pressure(t, 1.0), 0.0, d.half_angle) / PI;
     assert!((mean - d.mean_pressure).abs() < 1e-10);
-    // The diameter y = 0 of the disc carries the force of one pole.
+    // The cut y = 0 through the disc carries the force of one pole.
     let cut = -integrate(|x| d.disc_stress(x, 0.0, 1.0)[1], -1.0, 1.0);
     assert!((cut / d.pole_force(1.0) - 1.0).abs() < 1e-9, "{cut}");
 }

@@ -1,8 +1,8 @@
-//! Checks that the parameters of a closed form lie where it holds.
+//! Checks that the parameters of a closed form lie in its range of validity.
 
 use crate::error::{Error, Result};
 
-/// `value` if it is finite and greater than zero.
+/// Returns `value` if it is finite and greater than zero.
 pub(super) fn positive(what: &str, name: &str, value: f64) -> Result<f64> {
     if value.is_finite() && value > 0.0 {
         return Ok(value);
@@ -12,7 +12,7 @@ pub(super) fn positive(what: &str, name: &str, value: f64) -> Result<f64> {
     )))
 }
 
-/// `value` if it is finite.
+/// Returns `value` if it is finite.
 pub(super) fn finite(what: &str, name: &str, value: f64) -> Result<f64> {
     if value.is_finite() {
         return Ok(value);
@@ -22,7 +22,7 @@ pub(super) fn finite(what: &str, name: &str, value: f64) -> Result<f64> {
     )))
 }
 
-/// `value` if it is a Poisson ratio of a stable isotropic material, -1 < nu <= 1/2.
+/// Returns `value` if it is a Poisson's ratio of a stable isotropic material, -1 < nu <= 1/2.
 pub(super) fn poisson(what: &str, value: f64) -> Result<f64> {
     if value > -1.0 && value <= 0.5 {
         return Ok(value);
@@ -32,7 +32,7 @@ pub(super) fn poisson(what: &str, value: f64) -> Result<f64> {
     )))
 }
 
-/// `value` if it lies in `[low, high]`.
+/// Returns `value` if it lies in `[low, high]`.
 pub(super) fn between(what: &str, name: &str, value: f64, low: f64, high: f64) -> Result<f64> {
     if value >= low && value <= high {
         return Ok(value);

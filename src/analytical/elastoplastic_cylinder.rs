@@ -11,8 +11,8 @@ use crate::error::Result;
 /// `k = Y/sqrt(3)`. In the plastic part `s_rr = -k [2 ln(c/r) + 1 - c^2/b^2]`, `s_tt = s_rr + 2 k`;
 /// outside `s_rr = -k c^2 (1/r^2 - 1/b^2)`, `s_tt = k c^2 (1/r^2 + 1/b^2)`; everywhere
 /// `s_zz = (s_rr + s_tt)/2` and, the volume being constant, `u = 3 k c^2/(2 E r)`. The elastic
-/// Poisson ratio of the exact solution is 1/2; below that it is close, not exact. Units consistent,
-/// any; displacement outwards.
+/// Poisson ratio of the exact solution is 1/2; below that it is close, not exact. Units are
+/// any consistent ones; displacements are positive outwards.
 ///
 /// # Source
 /// R. Hill, *The Mathematical Theory of Plasticity*, Oxford 1950, ch. V par. 2, pp. 106-114; W.
@@ -30,10 +30,11 @@ pub struct ElastoplasticCylinder {
 }
 
 impl ElastoplasticCylinder {
-    /// A cylinder of the given radii, modulus and tensile yield stress.
+    /// A cylinder with the given radii, modulus and tensile yield stress.
     ///
     /// # Errors
-    /// Unless `0 < inner_radius < outer_radius`, `young > 0` and `yield_stress > 0`, all finite.
+    /// `Input` unless `0 < inner_radius < outer_radius`, `young > 0` and `yield_stress > 0`, all
+    /// finite.
     pub fn new(
         inner_radius: f64,
         outer_radius: f64,
@@ -67,11 +68,12 @@ impl ElastoplasticCylinder {
         self.shear_yield_stress() * (plastic + (1.0 - ratio) * (1.0 + ratio))
     }
 
-    /// Radius of the plastic front under `pressure`; the inner radius while all is elastic.
+    /// Radius of the plastic front under `pressure`; the inner radius as long as the wall is
+    /// elastic.
     ///
     /// # Errors
-    /// Where the pressure is negative or not a number ([`Input`](crate::ErrorKind::Input)) or above
-    /// collapse ([`Collapse`](crate::ErrorKind::Collapse)).
+    /// [`Input`](crate::ErrorKind::Input) if the pressure is negative or not a number,
+    /// [`Collapse`](crate::ErrorKind::Collapse) if it exceeds the collapse pressure.
     pub fn plastic_front(&self, pressure: f64) -> Result<f64> {
         let wall = [self.inner_radius, self.outer_radius];
         plastic_front("elastoplastic cylinder", pressure, wall, |front| {
@@ -82,7 +84,7 @@ impl ElastoplasticCylinder {
     /// Stresses `[s_rr, s_tt (hoop), s_zz]` at the radius `r` in `[a, b]` under `pressure`.
     ///
     /// # Errors
-    /// As [`plastic_front`](Self::plastic_front).
+    /// As for [`plastic_front`](Self::plastic_front).
     pub fn stress(&self, r: f64, pressure: f64) -> Result<[f64; 3]> {
         let front = self.plastic_front(pressure)?;
         if pressure <= self.yield_pressure() {
@@ -103,7 +105,7 @@ impl ElastoplasticCylinder {
     /// Radial displacement at the radius `r` under `pressure`.
     ///
     /// # Errors
-    /// As [`plastic_front`](Self::plastic_front).
+    /// As for [`plastic_front`](Self::plastic_front).
     pub fn displacement(&self, r: f64, pressure: f64) -> Result<f64> {
         let front = self.plastic_front(pressure)?;
         if pressure <= self.yield_pressure() {
@@ -112,11 +114,11 @@ impl ElastoplasticCylinder {
         Ok(1.5 * self.shear_yield_stress() * front * front / (self.young * r))
     }
 
-    /// Residual stresses `[s_rr, s_tt, s_zz]` after `pressure` has been taken off (autofrettage).
+    /// Residual stresses `[s_rr, s_tt, s_zz]` after `pressure` has been removed (autofrettage).
     ///
     /// # Errors
-    /// As [`plastic_front`](Self::plastic_front), and where the pressure exceeds twice the yield
-    /// pressure: the bore then yields again in unloading.
+    /// As for [`plastic_front`](Self::plastic_front), and `Input` if the pressure exceeds twice the
+    /// yield pressure, because the bore then yields again in unloading.
     pub fn residual_stress(&self, r: f64, pressure: f64) -> Result<[f64; 3]> {
         let loaded = self.stress(r, pressure)?;
         refuse_reverse_yield("elastoplastic cylinder", pressure, self.yield_pressure())?;
@@ -160,7 +162,7 @@ mod tests {
         let c = cylinder();
         for front in [100.0, 130.0, 170.0, 200.0] {
             let back = c.plastic_front(c.pressure(front)).unwrap();
-            // p' vanishes at c = b: there the front is known to sqrt(eps).
+            // p' vanishes at c = b, so the front is determined there to sqrt(eps) only.
             assert!((back / front - 1.0).abs() < 4.0 * f64::EPSILON.sqrt());
         }
         let err = c.plastic_front(200.0).unwrap_err();

@@ -69,7 +69,7 @@ mod tests {
     use super::super::quadrature::integrate;
     use super::*;
 
-    /// Against their integrals, the limit of a circle, and Legendre's relation.
+    /// The integrals agree with their definitions, the limit of a circle, and Legendre's relation.
     #[test]
     fn integrals_are_those_of_their_definition() {
         for m in [0.0, 1e-9, 0.1, 0.5, 0.9, 0.999] {
@@ -89,8 +89,8 @@ mod tests {
         assert!((elliptic_d(0.0) - 0.25 * PI).abs() < 1e-15);
     }
 
-    /// `R_D` against its integral, and `K` and `D` next to the line by their series: for small `k`
-    /// `K = ln(4/k) + k^2 (ln(4/k) - 1)/4`, `E = 1 + k^2 (ln(4/k) - 1/2)/2`.
+    /// `R_D` compared with its integral, and `K` and `D` near the limit of a line with their
+    /// series: for small `k`, `K = ln(4/k) + k^2 (ln(4/k) - 1)/4`, `E = 1 + k^2 (ln(4/k) - 1/2)/2`.
     #[test]
     fn carlsons_integral_and_long_ellipses() {
         for [x, y, z] in [
@@ -99,7 +99,7 @@ mod tests {
             [2.0, 2.0, 2.0],
             [1e-3, 40.0, 5.0],
         ] {
-            // t = tan^2 s.
+            // Substitution t = tan^2 s.
             let whole = integrate(
                 |s: f64| {
                     let t = s.tan().powi(2);

@@ -1,4 +1,4 @@
-//! Flat rigid punches: elastic pressure and plastic limit, in the plane and round.
+//! Flat rigid punches, plane and circular: elastic pressure and plastic limit.
 
 use super::domain::positive;
 use crate::error::Result;
@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 ///
 /// Elastic: `p(x) = P/(pi sqrt(b^2 - x^2))`, infinite at the corners, so a real body yields there
 /// from the first load on. Perfectly plastic: the mean pressure cannot exceed `(2 + pi) k`, `k` the
-/// yield stress in shear (`Y/sqrt(3)` after von Mises, `Y/2` after Tresca), rough or smooth. Units
-/// consistent, any.
+/// yield stress in shear (`Y/sqrt(3)` according to von Mises, `Y/2` according to Tresca), rough or
+/// smooth. Units are any consistent ones.
 ///
 /// # Source
 /// Elastic: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 2.8, eq. (2.64), p. 38. Limit:
@@ -25,17 +25,18 @@ impl FlatPunch {
     /// Mean pressure at the limit load over the yield stress in shear: `2 + pi`, exact.
     pub const LIMIT_OVER_SHEAR_YIELD: f64 = 2.0 + PI;
 
-    /// A punch of half width `half_width`.
+    /// A punch with half width `half_width`.
     ///
     /// # Errors
-    /// Where it is not finite and positive.
+    /// `Input` if the half width is not finite and positive.
     pub fn new(half_width: f64) -> Result<Self> {
         Ok(FlatPunch {
             half_width: positive("flat punch", "half width", half_width)?,
         })
     }
 
-    /// Elastic pressure at `x` under `load` per length; 0 outside, infinite at the corner.
+    /// Elastic pressure at `x` under `load` per length; 0 outside the contact, infinite at the
+    /// corner.
     pub fn pressure(&self, x: f64, load: f64) -> f64 {
         if x.abs() > self.half_width {
             return 0.0;
@@ -43,12 +44,12 @@ impl FlatPunch {
         load / (PI * ((self.half_width - x) * (self.half_width + x)).sqrt())
     }
 
-    /// Mean pressure at the limit load after von Mises: `(2 + pi) Y/sqrt(3)` = 2.9685 Y.
+    /// Mean pressure at the limit load according to von Mises: `(2 + pi) Y/sqrt(3)` = 2.9685 Y.
     pub fn limit_mean_pressure(yield_stress: f64) -> f64 {
         Self::LIMIT_OVER_SHEAR_YIELD * yield_stress / 3.0_f64.sqrt()
     }
 
-    /// Limit load per length after von Mises.
+    /// Limit load per length according to von Mises.
     pub fn limit_load(&self, yield_stress: f64) -> f64 {
         2.0 * self.half_width * Self::limit_mean_pressure(yield_stress)
     }
@@ -56,10 +57,10 @@ impl FlatPunch {
 
 /// Flat rigid punch of circular section on a half space.
 ///
-/// Elastic: `p(r) = P/(2 pi a sqrt(a^2 - r^2))`, penetration `P/(2 a E*)`. Perfectly plastic after
+/// Elastic: `p(r) = P/(2 pi a sqrt(a^2 - r^2))`, penetration `P/(2 a E*)`. Perfectly plastic with
 /// Tresca: mean pressure 5.69 k for a smooth punch, 6.05 k for a rough one, `k = Y/2`; both are
-/// published numerical solutions of the slip-line equations, to the digits given. Units consistent,
-/// any.
+/// published numerical solutions of the slip-line equations, to the digits given. Units are
+/// any consistent ones.
 ///
 /// # Source
 /// Elastic: K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 3.4, eqs (3.34), (3.36), pp.
@@ -78,17 +79,18 @@ impl CircularPunch {
     /// Tresca.
     pub const ROUGH_LIMIT_OVER_SHEAR_YIELD: f64 = 6.05;
 
-    /// A punch of radius `radius`.
+    /// A punch with radius `radius`.
     ///
     /// # Errors
-    /// Where it is not finite and positive.
+    /// `Input` if the radius is not finite and positive.
     pub fn new(radius: f64) -> Result<Self> {
         Ok(CircularPunch {
             radius: positive("circular punch", "radius", radius)?,
         })
     }
 
-    /// Elastic pressure at the radius `r` under `load`; 0 outside, infinite at the edge.
+    /// Elastic pressure at the radius `r` under `load`; 0 outside the contact, infinite at the
+    /// edge.
     pub fn pressure(&self, r: f64, load: f64) -> f64 {
         if r.abs() > self.radius {
             return 0.0;
@@ -123,7 +125,7 @@ mod tests {
 
     #[test]
     fn elastic_pressures_carry_the_load() {
-        // x = b sin t removes the infinite ends.
+        // The substitution x = b sin t removes the infinite ends.
         let punch = FlatPunch::new(3.0).unwrap();
         let round = CircularPunch::new(3.0).unwrap();
         let n = 50;
@@ -135,7 +137,7 @@ mod tests {
             disc += 2.0 * PI * x * round.pressure(x, 7.0) * dx;
         }
         assert!((flat / 7.0 - 1.0).abs() < 1e-12);
-        // Midpoint rule on sin t: (pi/(2 n))^2/24.
+        // Error of the midpoint rule on sin t: (pi/(2 n))^2/24.
         let step = 0.5 * PI / f64::from(n);
         assert!((disc / 7.0 - 1.0).abs() < step * step / 20.0);
         assert_eq!(punch.pressure(3.1, 7.0), 0.0);

@@ -1,25 +1,25 @@
-//! Hertz's contact, whatever the curvatures: a circle, an ellipse or a line.
+//! Hertz's contact for any curvatures: a circle, an ellipse or a line.
 
 use super::{HertzEllipse, HertzLine, Peak, RelativeRadii};
 use crate::error::Result;
 
-/// Frictionless contact of elastic bodies: [`HertzLine`] where both are flat along a direction,
-/// else [`HertzEllipse`], of which a circle is one.
+/// Frictionless contact of elastic bodies: [`HertzLine`] if both bodies are flat along one
+/// direction, otherwise [`HertzEllipse`], which includes the circle.
 ///
-/// A load is a force, of a line a force per length. Units are consistent, any.
+/// A load is a force, or for a line contact a force per length. Units are any consistent ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum HertzContact {
-    /// Bodies that touch along a line.
+    /// A contact along a line.
     Line(HertzLine),
-    /// Bodies that touch in a point; the larger half axis lies along the first of the radii.
+    /// A contact in a point; the larger half axis lies along the first of the radii.
     Ellipse(HertzEllipse),
 }
 
 impl HertzContact {
-    /// The contact of bodies with these relative radii and contact modulus.
+    /// The contact of bodies with these relative radii and this contact modulus.
     ///
     /// # Errors
-    /// Where the modulus is not finite and positive.
+    /// `Input` if the modulus is not finite and positive.
     pub fn new(relative: RelativeRadii, contact_modulus: f64) -> Result<Self> {
         let [large, small] = relative.radii;
         Ok(match large.is_infinite() {
@@ -28,7 +28,7 @@ impl HertzContact {
         })
     }
 
-    /// Half axes, the larger one first; of a line it is infinite, the other one its half width.
+    /// Half axes, the larger one first; for a line contact infinity and the half width.
     pub fn semi_axes(&self, load: f64) -> [f64; 2] {
         match self {
             HertzContact::Line(line) => [f64::INFINITY, line.half_width(load)],
@@ -36,7 +36,7 @@ impl HertzContact {
         }
     }
 
-    /// Greatest pressure, in the middle.
+    /// Greatest pressure, at the middle of the contact.
     pub fn max_pressure(&self, load: f64) -> f64 {
         match self {
             HertzContact::Line(line) => line.max_pressure(load),
@@ -52,7 +52,8 @@ impl HertzContact {
         }
     }
 
-    /// Largest shear below the middle of a body with Poisson's ratio `poisson`.
+    /// Largest shear stress below the middle of the contact, in a body with Poisson's ratio
+    /// `poisson`.
     pub fn largest_shear(&self, load: f64, poisson: f64) -> Peak {
         match self {
             HertzContact::Line(line) => line.largest_shear(load, poisson),
@@ -60,7 +61,8 @@ impl HertzContact {
         }
     }
 
-    /// Largest von Mises stress below the middle of a body with Poisson's ratio `poisson`.
+    /// Largest von Mises stress below the middle of the contact, in a body with Poisson's ratio
+    /// `poisson`.
     pub fn largest_von_mises(&self, load: f64, poisson: f64) -> Peak {
         match self {
             HertzContact::Line(line) => line.largest_von_mises(load, poisson),
@@ -68,8 +70,8 @@ impl HertzContact {
         }
     }
 
-    /// Amplitude of the shear parallel to the surface for rolling along the smaller half axis, and
-    /// of a point contact along the larger one.
+    /// Amplitude of the shear stress parallel to the surface for rolling along the smaller half
+    /// axis and, for a point contact, for rolling along the larger one.
     pub fn orthogonal_shears(&self, load: f64) -> (Peak, Option<Peak>) {
         match self {
             HertzContact::Line(line) => (line.orthogonal_shear(load), None),
@@ -80,8 +82,8 @@ impl HertzContact {
         }
     }
 
-    /// Load at which a body with this Poisson's ratio and tensile yield stress first yields after
-    /// von Mises.
+    /// Load at which a body with this Poisson's ratio and tensile yield stress first yields
+    /// according to von Mises.
     pub fn yield_load(&self, poisson: f64, yield_stress: f64) -> f64 {
         match self {
             HertzContact::Line(line) => line.yield_load(poisson, yield_stress),

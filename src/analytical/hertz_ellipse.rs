@@ -19,8 +19,8 @@ use std::f64::consts::PI;
 /// 1/(2 R') = p0/E* (b/a^2) D         1/(2 R'') = p0/E* B/b         approach = p0 b K/E*
 /// ```
 ///
-/// so that `R'/R'' = B a^2/(D b^2)` gives the shape of the ellipse, and any of the three its size.
-/// Units are consistent, any; pressures are positive in compression.
+/// so that `R'/R'' = B a^2/(D b^2)` determines the shape of the ellipse, and any of the three
+/// equations its size. Units are any consistent ones; pressures are positive in compression.
 ///
 /// # Source
 /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 4.2, eqs (4.25)-(4.28), pp. 95-98.
@@ -35,18 +35,18 @@ pub struct HertzEllipse {
 }
 
 impl HertzEllipse {
-    /// The contact of bodies with the relative radii along x and y.
+    /// The contact of bodies with the given relative radii along x and y.
     ///
     /// # Errors
-    /// Where a value is not finite and positive: surfaces that do not part in a direction have no
-    /// elliptical contact.
+    /// `Input` if a value is not finite and positive: surfaces between which no gap opens in some
+    /// direction have no elliptical contact.
     pub fn new(radii: [f64; 2], contact_modulus: f64) -> Result<Self> {
         for radius in radii {
             positive("elliptical contact", "relative radius", radius)?;
         }
         positive("elliptical contact", "contact modulus", contact_modulus)?;
         let [large, small] = [radii[0].max(radii[1]), radii[0].min(radii[1])];
-        // R'/R'' falls with b/a, from infinity to 1.
+        // R'/R'' decreases with b/a, from infinity to 1.
         let off = |k: f64| {
             let d = complementary_d(k);
             (complementary_k(k) - d) / (d * k * k) - large / small
@@ -62,12 +62,13 @@ impl HertzEllipse {
         })
     }
 
-    /// Relative radii along x and y of two bodies whose principal directions are these:
-    /// `1/R = 1/R_1 + 1/R_2`, positive radii convex, negative ones hollow, 0 or infinity flat.
+    /// Relative radii along x and y of two bodies whose principal directions are x and y:
+    /// `1/R = 1/R_1 + 1/R_2`, with positive radii for convex surfaces, negative ones for hollow
+    /// surfaces, 0 or infinity for flat surfaces.
     ///
     /// # Errors
-    /// Where the bodies do not part along an axis: a hollow that is no wider than what lies in it,
-    /// or flat on flat.
+    /// `Input` if no gap opens between the bodies along an axis: a hollow that is no wider than the
+    /// body in it, or flat on flat.
     ///
     /// # Source
     /// Johnson, eq. (4.3) for axes that agree.
@@ -88,7 +89,7 @@ impl HertzEllipse {
         Ok(out)
     }
 
-    /// `b/a`, at most 1.
+    /// Ratio `b/a` of the half axes, at most 1.
     pub fn axis_ratio(&self) -> f64 {
         self.ratio
     }
@@ -104,7 +105,8 @@ impl HertzEllipse {
         }
     }
 
-    /// Load under which the half axis along x (0) or y (1) has a length: `P` grows with its cube.
+    /// Load under which the half axis along x (0) or y (1) has the given length; `P` is
+    /// proportional to its cube.
     pub fn load_for_semi_axis(&self, axis: usize, length: f64) -> f64 {
         (length / self.semi_axes(1.0)[axis]).powi(3)
     }
@@ -125,25 +127,25 @@ impl HertzEllipse {
         self.max_pressure(load) * x.min(y) * k / self.contact_modulus
     }
 
-    /// Load at which the greatest pressure is `p0`: `P` grows with its cube.
+    /// Load at which the greatest pressure is `p0`; `P` is proportional to its cube.
     pub fn load_for_max_pressure(&self, pressure: f64) -> f64 {
         (pressure / self.max_pressure(1.0)).powi(3)
     }
 
-    /// Load at the approach `d >= 0`: `P` grows with its power of 3/2.
+    /// Load at the approach `d >= 0`; `P` is proportional to its power of 3/2.
     pub fn load_for_approach(&self, approach: f64) -> f64 {
         (approach / self.approach(1.0)).powf(1.5)
     }
 
-    /// Contact pressure at a place; 0 outside the contact.
+    /// Contact pressure at a point of the surface; 0 outside the contact.
     pub fn pressure(&self, [x, y]: [f64; 2], load: f64) -> f64 {
         let [a, b] = self.semi_axes(load);
         let inside = 1.0 - (x / a).powi(2) - (y / b).powi(2);
         self.max_pressure(load) * inside.max(0.0).sqrt()
     }
 
-    /// Stresses `[s_xx, s_yy, s_zz]` at the depth `z >= 0` below the middle of the contact, in a
-    /// body with Poisson's ratio `poisson`; they are principal stresses.
+    /// Principal stresses `[s_xx, s_yy, s_zz]` at the depth `z >= 0` below the middle of the
+    /// contact, in a body with Poisson's ratio `poisson`.
     ///
     /// With `A^2 = a^2 + z^2`, `B^2 = b^2 + z^2` and, after Carlson,
     /// `I_x = 2/3 R_D(z^2, B^2, A^2)`, `I_y = 2/3 R_D(z^2, A^2, B^2)`, the half axis a along x,
@@ -172,15 +174,15 @@ impl HertzEllipse {
         }
     }
 
-    /// Shear `s_xz` where `y = 0`, or `s_yz` where `x = 0`, in either body: `axis` is 0 or 1, `at`
-    /// the distance from the middle along that axis, `z >= 0` the depth.
+    /// Shear stress `s_xz` at `y = 0`, or `s_yz` at `x = 0`, in either body: `axis` is 0 or 1, `at`
+    /// the distance from the middle along this axis, `z >= 0` the depth.
     ///
-    /// With `lambda >= 0` of `x^2/(a^2 + lambda) + z^2/lambda = 1` it is
-    /// `-p0 a b x z^2/((a^2 + l)^(3/2) (b^2 + l)^(1/2) l^(3/2) S)`,
-    /// `S = x^2/(a^2 + l)^2 + z^2/l^2`, for any Poisson's ratio.
+    /// With `lambda >= 0` (l for short) the root of `x^2/(a^2 + lambda) + z^2/lambda =
+    /// 1`, the shear stress is `-p0 a b x z^2/((a^2 + l)^(3/2) (b^2 + l)^(1/2) l^(3/2) S)`, `S =
+    /// x^2/(a^2 + l)^2 + z^2/l^2`, for any Poisson's ratio.
     ///
     /// # Source
-    /// As [`stress_below_middle`](Self::stress_below_middle): `s_xz = -z psi_xz/(2 pi)`.
+    /// As for [`stress_below_middle`](Self::stress_below_middle): `s_xz = -z psi_xz/(2 pi)`.
     pub fn shear(&self, axis: usize, at: f64, z: f64, load: f64) -> f64 {
         let axes = self.semi_axes(load);
         let (along, across) = (axes[axis], axes[1 - axis]);
@@ -200,8 +202,8 @@ impl HertzEllipse {
         -self.max_pressure(load) * size
     }
 
-    /// Largest shear below the middle of the contact under `load >= 0`: half the difference of the
-    /// principal stresses.
+    /// Largest shear stress below the middle of the contact under `load >= 0`: half the largest
+    /// difference of principal stresses.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, table 4.1, p. 99, for `nu = 0.3`.
@@ -217,12 +219,13 @@ impl HertzEllipse {
         )
     }
 
-    /// Amplitude of the shear parallel to the surface, along x (0) or y (1), by which a contact
-    /// that rolls along that axis fatigues the material: it has this size with either sign before
-    /// and behind the middle.
+    /// Amplitude of the shear stress parallel to the surface, along x (0) or y (1), by which a
+    /// contact rolling along this axis fatigues the material. The stress reaches this size, with
+    /// opposite signs, before and behind the middle of the contact.
     ///
-    /// With `t` of `(s/o)^2 = (t^2 - 1)(2 t - 1)`, s the half axis along that axis and o the other
-    /// one, it is `p0 (2 t - 1)^(1/2)/(2 t (t + 1))` at the depth `s/((t + 1)(2 t - 1)^(1/2))`.
+    /// With `t` the root of `(s/o)^2 = (t^2 - 1)(2 t - 1)`, where s is the half axis along the
+    /// direction of rolling and o the other one, the amplitude is `p0 (2 t - 1)^(1/2)/(2 t (t +
+    /// 1))` at the depth `s/((t + 1)(2 t - 1)^(1/2))`.
     ///
     /// # Source
     /// G. Lundberg, A. Palmgren, Dynamic capacity of rolling bearings, Acta Polytechnica, Mech.
@@ -243,15 +246,15 @@ impl HertzEllipse {
         }
     }
 
-    /// Pressure `p0` at first yield after von Mises of a body with Poisson's ratio `poisson` and
-    /// tensile yield stress `yield_stress`: where the stress below the middle of the contact is
-    /// largest. For ellipses with `b/a` from 0.1 on and `nu` from 0.2 to 0.5 no other point is
-    /// stressed more (tested).
+    /// Pressure `p0` at which a body with Poisson's ratio `poisson` and tensile yield stress
+    /// `yield_stress` first yields according to von Mises, at the point below the middle of the
+    /// contact where the stress is largest. For ellipses with `b/a` from 0.1 and `nu` from 0.2 to
+    /// 0.5 the stress is no larger at any other point (tested).
     pub fn yield_pressure(&self, poisson: f64, yield_stress: f64) -> f64 {
         yield_stress / self.yield_peak(poisson).stress
     }
 
-    /// Load at first yield.
+    /// Load at first yield according to von Mises.
     pub fn yield_load(&self, poisson: f64, yield_stress: f64) -> f64 {
         self.load_for_max_pressure(self.yield_pressure(poisson, yield_stress))
     }
@@ -266,10 +269,12 @@ impl HertzEllipse {
         self.peak(|stresses| von_mises(stresses, 0.0), poisson)
     }
 
-    /// The largest of a figure of the principal stresses below the middle, for `p0 = b = 1`.
+    /// The largest value below the middle of a function of the principal stresses, for
+    /// `p0 = b = 1`.
     fn peak(&self, figure: impl Fn([f64; 3]) -> f64, poisson: f64) -> Peak {
         let at = |depth: f64| figure(axis_stress(1.0 / self.ratio, depth, poisson));
-        // Three half axes down the stresses are below a third of p0, less than any peak.
+        // At a depth of three half axes the stresses are below a third of p0, and so less than any
+        // peak.
         let (depth, stress) = maximum(at, 0.0, 3.0, 300);
         Peak { stress, depth }
     }
@@ -283,12 +288,13 @@ impl HertzEllipse {
     }
 }
 
-/// Stresses at the depth `z` below the middle along the half axes `a` and 1, and down, for
+/// Stresses at the depth `z` below the middle, along the half axes `a` and 1 and downwards, for
 /// `p0 = 1`.
 fn axis_stress(a: f64, z: f64, poisson: f64) -> [f64; 3] {
     let squares = [z * z, a * a + z * z, 1.0 + z * z];
     let [za, zb] = match z > 0.0 {
-        // The integral has a root of z^2 as its lower end: z times it vanishes at the surface.
+        // The integral has a root of z^2 as its lower end, so z times the integral vanishes at the
+        // surface.
         true => [[0, 2, 1], [0, 1, 2]]
             .map(|order| 2.0 / 3.0 * z * carlson_rd(order.map(|i| squares[i]))),
         false => [0.0; 2],

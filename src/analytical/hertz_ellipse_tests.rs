@@ -1,4 +1,4 @@
-//! Elliptical contact against published tables, its limits, and sums over point forces.
+//! Elliptical contact compared with published tables, its limits, and sums over point forces.
 
 use super::super::{HertzLine, HertzPoint, contact_modulus};
 use super::*;
@@ -23,13 +23,12 @@ fn a_circle_is_the_point_contact() {
         let depth = ellipse.yield_depth(nu, 500.0) / point.yield_depth(nu, 500.0);
         assert!((depth - 1.0).abs() < 1e-6);
     }
-    // Nearly a circle, without cancellation.
+    // Nearly a circle, for which the formulas must not cancel.
     let nearly = HertzEllipse::new([8.0, 8.0 * (1.0 + 1e-9)], modulus).unwrap();
     assert!((nearly.axis_ratio() - 1.0).abs() < 1e-9);
 }
 
-/// Johnson's integrals are satisfied: the displacement of the pressure is the gap that is
-/// closed.
+/// Johnson's integral equations are satisfied: the displacement under the pressure closes the gap.
 #[test]
 fn the_pressure_closes_the_gap() {
     let ellipse = HertzEllipse::new([30.0, 4.0], 1000.0).unwrap();
@@ -44,7 +43,8 @@ fn the_pressure_closes_the_gap() {
             let phi = 2.0 * PI * (i as f64 + 0.5) / rays as f64;
             let (c, s) = (phi.cos() / a, phi.sin() / b);
             let (x, y) = (px / a, py / b);
-            // Along the ray 1 - |.|^2 is C - 2 B r - A r^2, of which int sqrt dr is elementary.
+            // Along the ray 1 - |.|^2 is C - 2 B r - A r^2, and the integral of its square root is
+            // elementary.
             let (qa, qb, qc) = (c * c + s * s, x * c + y * s, 1.0 - x * x - y * y);
             let d = qc / qa + (qb / qa).powi(2);
             let u0 = qb / qa;
@@ -80,15 +80,15 @@ fn loads_invert_and_axes_exchange() {
     ] {
         assert!((back / load - 1.0).abs() < 1e-13);
     }
-    // Equal cylinders that cross at right angles touch in a circle.
+    // Equal cylinders crossed at right angles touch in a circle.
     let crossed = HertzEllipse::relative_radii([5.0, f64::INFINITY], [0.0, 5.0]).unwrap();
     assert_eq!(crossed, [5.0, 5.0]);
     assert!(HertzEllipse::relative_radii([5.0, 5.0], [-5.0, 20.0]).is_err());
     assert!(HertzEllipse::relative_radii([5.0, 0.0], [0.0, 0.0]).is_err());
 }
 
-/// The stress below the middle is the largest: everywhere else it is found by the sum over all
-/// point forces too.
+/// The stress below the middle is the largest. At all other points the stress is found by summing
+/// over all point forces.
 #[test]
 fn no_other_point_is_stressed_more() {
     for ratio in [0.1, 0.3, 0.6, 1.0] {
@@ -121,7 +121,7 @@ fn no_other_point_is_stressed_more() {
     }
 }
 
-/// Gauss' rule with 8 points on each of 8 parts of an interval.
+/// Gauss's rule with 8 points on each of 8 parts of an interval.
 fn gauss(from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
     const HALF: [(f64, f64); 4] = [
         (0.183_434_642_495_649_8, 0.362_683_783_378_362),
@@ -144,7 +144,7 @@ fn principal_at(a: f64, [px, py, z]: [f64; 3], nu: f64) -> [f64; 3] {
     let rays = 256;
     for ray in 0..rays {
         let (sin, cos) = (2.0 * PI * (ray as f64 + 0.5) / rays as f64).sin_cos();
-        // From the point outward the square of the pressure is C - 2 B r - A r^2.
+        // From the point outwards the square of the pressure is C - 2 B r - A r^2.
         let qa = (cos / a).powi(2) + sin * sin;
         let qb = px * cos / (a * a) + py * sin;
         let qc = 1.0 - (px / a).powi(2) - py * py;
@@ -153,7 +153,7 @@ fn principal_at(a: f64, [px, py, z]: [f64; 3], nu: f64) -> [f64; 3] {
             let r = end * v * (2.0 - v);
             let p = (qc - 2.0 * qb * r - qa * r * r).max(0.0).sqrt();
             let share = weight * 2.0 * end * (1.0 - v) * p * r / rays as f64;
-            // To the point from there.
+            // Vector from the point force to the point.
             let (x, y) = (-r * cos, -r * sin);
             let (r2, z2) = (r * r, z * z);
             let rho = (r2 + z2).sqrt();
@@ -189,7 +189,7 @@ fn largest_shears_of_johnsons_table() {
         (1.0, 0.480, 0.310),
     ] {
         let found = of_ratio(ratio).peak(greatest_shear, 0.3);
-        // The table has depths to 0.005, of a maximum that is flat.
+        // The table gives depths to 0.005, for a maximum that is flat.
         assert!((found.stress - shear).abs() < 1e-3, "{ratio}: {found:?}");
         assert!((found.depth - depth).abs() < 7e-3, "{ratio}: {found:?}");
     }
@@ -221,8 +221,8 @@ fn coefficients_of_roarks_table() {
         let ellipse = HertzEllipse::new(radii, 1.0).unwrap();
         let [a, b] = ellipse.semi_axes(1.0);
         for (found, published) in [(a, alpha), (b, beta), (ellipse.approach(1.0), lambda)] {
-            // Three digits behind the point, of which the last ones of the original (Hertz's own
-            // interpolations) are off by up to four.
+            // Three digits after the decimal point, of which the last ones in the original (Hertz's
+            // own interpolations) are off by up to four.
             assert!(
                 (found - published).abs() < 4e-3,
                 "{cosine}: {found} {published}"
@@ -231,7 +231,8 @@ fn coefficients_of_roarks_table() {
     }
 }
 
-/// Lundberg and Palmgren's amplitude is the largest of the field, on either side, along both axes.
+/// Lundberg and Palmgren's amplitude is the largest shear of the field, on both sides of the middle
+/// and along both axes.
 #[test]
 fn orthogonal_shear_is_the_largest_of_the_field() {
     for ratio in [0.05, 0.3, 1.0] {
@@ -255,7 +256,8 @@ fn orthogonal_shear_is_the_largest_of_the_field() {
     assert!((peak.depth / circle.semi_axes(1.0)[0] - 0.351).abs() < 5e-4);
 }
 
-/// The stress below the middle is the sum over all point forces, and that of a circle Huber's.
+/// The stress below the middle is the sum over all point forces, and for a circle it agrees with
+/// Huber's.
 #[test]
 fn stress_below_the_middle() {
     for ratio in [0.3, 1.0] {
@@ -286,7 +288,7 @@ fn stress_below_the_middle() {
             "{depth}"
         );
     }
-    // Axes exchange with the radii.
+    // Exchanging the radii exchanges the axes.
     let [long, turned] = [[9.0, 2.0], [2.0, 9.0]].map(|r| HertzEllipse::new(r, modulus).unwrap());
     let [x, y, z] = long.stress_below_middle(0.1, load, 0.3);
     let found = turned.stress_below_middle(0.1, load, 0.3);
@@ -295,9 +297,9 @@ fn stress_below_the_middle() {
     }
 }
 
-/// Long ellipses are lines with the load per length of their middle, `p0 pi b/2`: half widths and
-/// shears across differ by the order of `(b/a)^2` and its logarithm, stresses along by that of
-/// `b/a`.
+/// Long ellipses approach a line contact with the load per length at their middle, `p0 pi b/2`:
+/// half widths and shears across differ by the order of `(b/a)^2` and its logarithm, stresses along
+/// the contact by the order of `b/a`.
 #[test]
 fn long_ellipses_approach_the_line() {
     for ratio in [1e-2, 1e-4] {
@@ -332,7 +334,7 @@ fn long_ellipses_approach_the_line() {
     }
 }
 
-/// An ellipse of a ratio of its axes, the longer one along x.
+/// An ellipse with the given ratio of its axes, the longer one along x.
 fn of_ratio(ratio: f64) -> HertzEllipse {
     let d = complementary_d(ratio);
     let large = (complementary_k(ratio) - d) / (d * ratio * ratio);

@@ -11,12 +11,12 @@ use std::f64::consts::PI;
 ///
 /// Half width `b = sqrt(4 P R/(pi E*))`, pressure `p(x) = p0 sqrt(1 - x^2/b^2)` with
 /// `p0 = sqrt(P E*/(pi R))`, load `P = pi b p0/2` per length. Valid for `b` small compared with the
-/// radii and the size of the bodies. The approach of the bodies depends on their size: what each of
-/// them contributes is [`cylinder_compression`](Self::cylinder_compression) or
+/// radii and the size of the bodies. The approach of the bodies depends on their size: each body
+/// contributes [`cylinder_compression`](Self::cylinder_compression) or
 /// [`half_space_compression`](Self::half_space_compression).
 ///
-/// Units are consistent, any: `radius` a length, `contact_modulus` a stress, load a force per
-/// length. Stresses are positive in tension, pressures in compression.
+/// Units are any consistent ones: `radius` is a length, `contact_modulus` a stress, the load a
+/// force per length. Stresses are positive in tension, pressures in compression.
 ///
 /// # Source
 /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, pp. 99-103, eqs (4.43)-(4.49).
@@ -37,10 +37,10 @@ pub struct HertzLine {
 }
 
 impl HertzLine {
-    /// A line contact of relative radius `radius` and contact modulus `contact_modulus`.
+    /// A line contact with relative radius `radius` and contact modulus `contact_modulus`.
     ///
     /// # Errors
-    /// Where either is not finite and positive.
+    /// `Input` if either is not finite and positive.
     pub fn new(radius: f64, contact_modulus: f64) -> Result<Self> {
         Ok(HertzLine {
             radius: positive("line contact", "relative radius", radius)?,
@@ -53,12 +53,12 @@ impl HertzLine {
         (4.0 * load * self.radius / (PI * self.contact_modulus)).sqrt()
     }
 
-    /// Greatest pressure `p0`, in the middle, under `load >= 0` per length.
+    /// Greatest pressure `p0`, at the middle of the contact, under `load >= 0` per length.
     pub fn max_pressure(&self, load: f64) -> f64 {
         (load * self.contact_modulus / (PI * self.radius)).sqrt()
     }
 
-    /// Load per length that opens a contact of half width `b`: `P = pi E* b^2/(4 R)`.
+    /// Load per length that produces a contact of half width `b`: `P = pi E* b^2/(4 R)`.
     pub fn load_for_half_width(&self, half_width: f64) -> f64 {
         PI * self.contact_modulus * half_width * half_width / (4.0 * self.radius)
     }
@@ -74,22 +74,22 @@ impl HertzLine {
         if x.abs() >= half_width {
             return 0.0;
         }
-        // (b - x)(b + x) keeps its digits at the edge.
+        // The product (b - x)(b + x) keeps its digits at the edge.
         let root = ((half_width - x) * (half_width + x)).sqrt();
         self.max_pressure(load) * root / half_width
     }
 
-    /// Stresses `[s_xx, s_yy, s_zz, s_xz]` in either body at `x` along the surface and depth
+    /// Stresses `[s_xx, s_yy, s_zz, s_xz]` in either body at `x` along the surface and at the depth
     /// `z >= 0`.
     ///
-    /// `y` is the axis of the cylinders, where the strain is zero: `s_yy = nu (s_xx + s_zz)`. At
-    /// the edge of the contact itself (`|x| = b`, `z = 0`) all are 0, as the limit along the
-    /// surface is.
+    /// `y` is the axis of the cylinders, along which the strain is zero: `s_yy = nu (s_xx + s_zz)`.
+    /// At the edge of the contact itself (`|x| = b`, `z = 0`) all stresses are 0, their limit along
+    /// the surface.
     ///
-    /// With `m` and `n` of the signs of `z` and `x` and `m^2 - n^2 = b^2 - x^2 + z^2`, `m n = x z`:
-    /// `s_xx = -(p0/b) [m (1 + (z^2+n^2)/(m^2+n^2)) - 2 z]`,
-    /// `s_zz = -(p0/b) m (1 - (z^2+n^2)/(m^2+n^2))`, `s_xz = -(p0/b) n (m^2-z^2)/(m^2+n^2)`,
-    /// evaluated in a form that does not cancel at any distance.
+    /// With `m` and `n`, which have the signs of `z` and `x`, from `m^2 - n^2 = b^2 - x^2 + z^2`,
+    /// `m n = x z`: `s_xx = -(p0/b) [m (1 + (z^2+n^2)/(m^2+n^2)) - 2 z]`, `s_zz = -(p0/b) m (1 -
+    /// (z^2+n^2)/(m^2+n^2))`, `s_xz = -(p0/b) n (m^2-z^2)/(m^2+n^2)`, evaluated in a form that does
+    /// not cancel at any distance.
     ///
     /// # Source
     /// E. McEwen, Phil. Mag. 40 (1949) 454; K. L. Johnson, *Contact Mechanics*, eq. (4.49), p. 103.
@@ -102,9 +102,9 @@ impl HertzLine {
         unit_stress(x / half_width, z / half_width, poisson).map(|s| peak * s)
     }
 
-    /// Compression of a cylinder between the contact and its axis, under `load > 0` per length on
-    /// either side of a diameter: `P (1 - nu^2)/(pi E) (2 ln(4 R/b) - 1)`, for `b` small compared
-    /// with the radius R of that body.
+    /// Compression of a cylinder between the contact and its axis, under `load > 0` per length at
+    /// both ends of a diameter: `P (1 - nu^2)/(pi E) (2 ln(4 R/b) - 1)`, for `b` small compared
+    /// with the radius R of this body.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, section 5.6, pp. 129-131.
@@ -113,9 +113,9 @@ impl HertzLine {
         load * (1.0 - poisson * poisson) / (PI * young) * (2.0 * logarithm - 1.0)
     }
 
-    /// Displacement of the surface of a half space relative to the depth `depth` below the contact,
-    /// under `load > 0` per length: `P (1 - nu^2)/(pi E) (2 ln(2 d/b) - nu/(1 - nu))`, for `b`
-    /// small compared with the depth d.
+    /// Displacement of the surface of a half space relative to a point at the depth `depth` below
+    /// the contact, under `load > 0` per length: `P (1 - nu^2)/(pi E) (2 ln(2 d/b) - nu/(1 -
+    /// nu))`, for `b` small compared with the depth d.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, section 5.6, pp. 130-131.
@@ -125,8 +125,8 @@ impl HertzLine {
             * (2.0 * logarithm - poisson / (1.0 - poisson))
     }
 
-    /// Largest shear below the middle of the contact under `load >= 0` per length, half the
-    /// difference of the principal stresses: `0.300 p0` at `0.786 b` for `nu` from 0.19 on.
+    /// Largest shear stress below the middle of the contact under `load >= 0` per length, half the
+    /// largest difference of principal stresses: `0.300 p0` at `0.786 b` for `nu` from 0.19 on.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, p. 102 and p. 103.
@@ -139,12 +139,12 @@ impl HertzLine {
         self.scaled(load, peak(|stresses| von_mises(stresses, 0.0), poisson))
     }
 
-    /// Amplitude of the shear parallel to the surface, `p0/4` at the depth `b/2` and
-    /// `x = 3^(1/2)/2 b` before and behind the middle, by which a rolling contact fatigues the
-    /// material.
+    /// Amplitude of the shear stress parallel to the surface, by which a rolling contact fatigues
+    /// the material: `p0/4` at the depth `b/2` and `x = 3^(1/2)/2 b` before and behind the middle.
     ///
     /// # Source
-    /// K. L. Johnson, *Contact Mechanics*, p. 103 and section 9.2; [`Self::stress`] has it.
+    /// K. L. Johnson, *Contact Mechanics*, p. 103 and section 9.2; the value also follows from
+    /// [`Self::stress`].
     pub fn orthogonal_shear(&self, load: f64) -> Peak {
         Peak {
             stress: 0.25 * self.max_pressure(load),
@@ -160,10 +160,10 @@ impl HertzLine {
     }
 
     /// Pressure `p0` at which a body with Poisson's ratio `poisson` and tensile yield stress
-    /// `yield_stress` first yields after von Mises: 1.7937 Y for `nu = 0.3`.
+    /// `yield_stress` first yields according to von Mises: 1.7937 Y for `nu = 0.3`.
     ///
-    /// Found by maximising the von Mises stress over the depth, not from a table. For `nu` below
-    /// 0.1938 first yield is at the surface, where the von Mises stress is `(1 - 2 nu) p0`.
+    /// Found by maximising the von Mises stress over the depth, not taken from a table. For `nu`
+    /// below 0.1938 first yield is at the surface, where the von Mises stress is `(1 - 2 nu) p0`.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, pp. 154-155 (Tresca 1.67 Y and, for von Mises and
@@ -190,8 +190,8 @@ impl HertzLine {
 
 /// Stresses for `b = p0 = 1`.
 fn unit_stress(x: f64, z: f64, poisson: f64) -> [f64; 4] {
-    // m^2 and -n^2 are the roots of t^2 - q t - x^2 z^2: the larger by its sum, the other by the
-    // product.
+    // m^2 and -n^2 are the roots of t^2 - q t - x^2 z^2: the root of larger size is computed as a
+    // sum, the other one from the product.
     let q = (1.0 - x) * (1.0 + x) + z * z;
     let root = q.hypot(2.0 * x * z);
     let (m, n) = if q >= 0.0 {
@@ -205,7 +205,7 @@ fn unit_stress(x: f64, z: f64, poisson: f64) -> [f64; 4] {
     if spread == 0.0 {
         return [0.0; 4];
     }
-    // From the definitions m^2 - z^2 = m^2/(m^2 + x^2), so d = m - z needs no subtraction.
+    // The definitions give m^2 - z^2 = m^2/(m^2 + x^2), so d = m - z needs no subtraction.
     let reach = m * m + x * x;
     let excess = if reach > 0.0 { m * m / reach } else { 1.0 };
     let d = if m + z > 0.0 { excess / (m + z) } else { 0.0 };
@@ -215,18 +215,20 @@ fn unit_stress(x: f64, z: f64, poisson: f64) -> [f64; 4] {
     [sxx, poisson * (sxx + szz), szz, sxz]
 }
 
-/// The most stressed point after von Mises for `b = p0 = 1`; it lies on the axis for every `nu`.
+/// The point with the largest von Mises stress for `b = p0 = 1`; it lies on the axis for every
+/// `nu`.
 fn peak_von_mises(poisson: f64) -> Peak {
     peak(|stresses| von_mises(stresses, 0.0), poisson)
 }
 
-/// The largest of a figure of the principal stresses below the middle, for `b = p0 = 1`.
+/// The largest value below the middle of a function of the principal stresses, for `b = p0 = 1`.
 fn peak(figure: impl Fn([f64; 3]) -> f64, poisson: f64) -> Peak {
     let at = |depth: f64| {
         let [sxx, syy, szz, _] = unit_stress(0.0, depth, poisson);
         figure([sxx, syy, szz])
     };
-    // Three half widths down the stresses are below a third of p0, less than any peak.
+    // At a depth of three half widths the stresses are below a third of p0, and so less than any
+    // peak.
     let (depth, stress) = maximum(at, 0.0, 3.0, 300);
     Peak { stress, depth }
 }
@@ -261,8 +263,8 @@ mod tests {
 
     #[test]
     fn incompressible_yield_is_trescas_and_small_poisson_yields_at_the_surface() {
-        // nu = 1/2: von Mises is sqrt(3) times the greatest shear, 0.300 p0 at 0.786 b (Johnson p.
-        // 102).
+        // For nu = 1/2 the von Mises stress is sqrt(3) times the greatest shear, 0.300 p0 at 0.786
+        // b (Johnson p. 102).
         let Peak {
             depth,
             stress: peak,
@@ -327,7 +329,7 @@ mod tests {
         let b = line.half_width(load);
         let total = super::super::quadrature::integrate(|x| line.pressure(x, load), -b, b);
         assert!((total / load - 1.0).abs() < 1e-12);
-        // -s_zz over the plane z = b, x = z tan(t).
+        // The integral of -s_zz over the plane z = b, with x = z tan(t).
         let below = super::super::quadrature::integrate(
             |t| -line.stress(b * t.tan(), b, load, 0.3)[2] * b / t.cos().powi(2),
             -0.5 * PI,
@@ -338,7 +340,7 @@ mod tests {
 
     #[test]
     fn far_away_it_is_flamants_point_load() {
-        // s_rr = -2 P cos(t)/(pi r), to (b/r)^2 relative.
+        // s_rr = -2 P cos(t)/(pi r), with a relative error of (b/r)^2.
         let (line, load) = (contact(), 35e3);
         let r = 1e4 * line.half_width(load);
         for angle in [0.0_f64, 0.4, -1.2] {
@@ -363,7 +365,8 @@ mod tests {
         assert!(HertzLine::new(1.0, f64::NAN).is_err());
     }
 
-    /// Johnson pp. 102-103: 0.30 p0 at 0.786 b, p0/4 at b/2; the field has no larger one.
+    /// Johnson pp. 102-103: 0.30 p0 at 0.786 b, p0/4 at b/2; the shear of the field is nowhere
+    /// larger.
     #[test]
     fn largest_shears() {
         let (line, load) = (contact(), 35e3);
@@ -384,8 +387,8 @@ mod tests {
         }
     }
 
-    /// The compressions are the strains of McEwen's field and of what a cylinder adds to it, from
-    /// the surface to the depth; terms of (b/d)^2 are left out.
+    /// The compressions are the integrals, from the surface to the depth, of the strains of
+    /// McEwen's field and of the field that a cylinder adds to it; terms of (b/d)^2 are neglected.
     #[test]
     fn compressions_are_integrals_of_the_strain() {
         let (line, load, young, nu) = (contact(), 200.0, 210e3, 0.3);
@@ -402,8 +405,8 @@ mod tests {
         );
         let found = line.half_space_compression(load, depth, young, nu);
         assert!((below / found - 1.0).abs() < 1e-7, "{below} {found}");
-        // The opposite line load and the tension that frees the circle (Timoshenko and Goodier,
-        // par. 41).
+        // The opposite line load, and the tension that makes the circle traction-free (Timoshenko
+        // and Goodier, par. 41).
         let radius = depth;
         let whole = -super::super::quadrature::integrate(
             |z| {

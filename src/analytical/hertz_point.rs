@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 /// `p0 = 3 P/(2 pi a^2)`, approach of distant points `a^2/R`. Valid for `a` small compared with the
 /// radii.
 ///
-/// Units are consistent, any. Stresses are positive in tension, pressures in compression.
+/// Units are any consistent ones. Stresses are positive in tension, pressures in compression.
 ///
 /// # Source
 /// K. L. Johnson, *Contact Mechanics*, Cambridge 1985, pp. 60-63 and 90-93, eqs (3.39)-(3.45),
@@ -26,10 +26,10 @@ pub struct HertzPoint {
 }
 
 impl HertzPoint {
-    /// A point contact of relative radius `radius` and contact modulus `contact_modulus`.
+    /// A point contact with relative radius `radius` and contact modulus `contact_modulus`.
     ///
     /// # Errors
-    /// Where either is not finite and positive.
+    /// `Input` if either is not finite and positive.
     pub fn new(radius: f64, contact_modulus: f64) -> Result<Self> {
         Ok(HertzPoint {
             radius: positive("point contact", "relative radius", radius)?,
@@ -53,7 +53,7 @@ impl HertzPoint {
         self.contact_radius(load).powi(2) / self.radius
     }
 
-    /// Load that opens a contact of radius `a`: `P = 4 E* a^3/(3 R)`.
+    /// Load that produces a contact of radius `a`: `P = 4 E* a^3/(3 R)`.
     pub fn load_for_contact_radius(&self, contact_radius: f64) -> f64 {
         4.0 * self.contact_modulus * contact_radius.powi(3) / (3.0 * self.radius)
     }
@@ -78,12 +78,13 @@ impl HertzPoint {
         self.max_pressure(load) * root / contact_radius
     }
 
-    /// Stresses `[s_rr, s_tt (hoop), s_zz, s_rz]` at the radius `r >= 0` and depth `z >= 0`, on and
-    /// off the axis, at the surface too.
+    /// Stresses `[s_rr, s_tt (hoop), s_zz, s_rz]` at the radius `r >= 0` and the depth `z >= 0`, on
+    /// and off the axis, and at the surface.
     ///
-    /// In oblate spheroidal coordinates, `u >= 0` with `r^2/(a^2+u) + z^2/u = 1` and
-    /// `c = z/sqrt(u)`. On the axis it reduces to `s_zz = -p0/(1 + z^2/a^2)`, `s_rr = s_tt = -p0
-    /// [(1+nu)(1 - (z/a) atan(a/z)) - 1/(2 (1 + z^2/a^2))]`.
+    /// The stresses are given in oblate spheroidal coordinates, `u >= 0` with
+    /// `r^2/(a^2+u) + z^2/u = 1` and `c = z/sqrt(u)`. On the axis they reduce to
+    /// `s_zz = -p0/(1 + z^2/a^2)`, `s_rr = s_tt = -p0 [(1+nu)(1 - (z/a) atan(a/z)) - 1/(2 (1 +
+    /// z^2/a^2))]`.
     ///
     /// # Source
     /// M. T. Huber, Ann. Phys. 14 (1904) 153; on the axis and at the
@@ -97,9 +98,9 @@ impl HertzPoint {
         unit_stress(r / contact_radius, z / contact_radius, poisson).map(|s| peak * s)
     }
 
-    /// Pressure `p0` at first yield after von Mises of a body with Poisson's ratio `poisson` and
-    /// tensile yield stress `yield_stress`: 1.6128 Y for `nu = 0.3`. Found by maximising over the
-    /// depth.
+    /// Pressure `p0` at which a body with Poisson's ratio `poisson` and tensile yield stress
+    /// `yield_stress` first yields according to von Mises: 1.6128 Y for `nu = 0.3`. Found by
+    /// maximising over the depth.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, p. 155 (1.60 Y).
@@ -125,7 +126,8 @@ impl HertzPoint {
 
 /// Stresses for `a = p0 = 1`.
 fn unit_stress(r: f64, z: f64, poisson: f64) -> [f64; 4] {
-    // u and -c^2 are the roots of t^2 - q t - z^2: the larger by its sum, the other by the product.
+    // u and -c^2 are the roots of t^2 - q t - z^2: the root of larger size is computed as a sum,
+    // the other one from the product.
     let q = (r - 1.0) * (r + 1.0) + z * z;
     let root = q.hypot(2.0 * z);
     let (u, c) = if q >= 0.0 {
@@ -140,7 +142,7 @@ fn unit_stress(r: f64, z: f64, poisson: f64) -> [f64; 4] {
     let spread = u + c * c;
     // (1 - c^3)/r^2, with 1 - c^2 = r^2/(1 + u).
     let ring = (1.0 - 2.0 * poisson) / 3.0 * (1.0 + c + c * c) / ((1.0 + c) * inside);
-    // c^3 u/(u^2 + z^2) = c^3/spread; at the edge itself (u = c = 0) its limit along the surface is
+    // c^3 u/(u^2 + z^2) = c^3/spread; at the edge itself (u = c = 0) the limit along the surface is
     // 0.
     let axial = if spread > 0.0 {
         c * c * c / spread
@@ -160,7 +162,8 @@ fn unit_stress(r: f64, z: f64, poisson: f64) -> [f64; 4] {
     [srr, stt, -axial, -shear]
 }
 
-/// `(depth/a, von Mises/p0)` of the most stressed point; it lies on the axis.
+/// Values `(depth/a, von Mises/p0)` at the point with the largest von Mises stress, which lies on
+/// the axis.
 fn peak_von_mises(poisson: f64) -> (f64, f64) {
     let at = |depth: f64| {
         let [srr, stt, szz, srz] = unit_stress(0.0, depth, poisson);
@@ -254,7 +257,7 @@ mod tests {
         let a = contact.contact_radius(load);
         let total = integrate(|r| 2.0 * PI * r * contact.pressure(r, load), 0.0, a);
         assert!((total / load - 1.0).abs() < 1e-12);
-        // -s_zz falls as r^-5 over the plane z = a/2; r = tan(t) a.
+        // -s_zz falls as r^-5 over the plane z = a/2; substitution r = tan(t) a.
         let below = integrate(
             |t| {
                 let r = a * t.tan();

@@ -1,12 +1,12 @@
-//! What is read off an indentation by a ball: Brinell's hardness, the pile-up, and the modulus from
-//! the stiffness with which unloading begins.
+//! Evaluation of an indentation by a ball: Brinell's hardness, the pile-up, and the modulus from
+//! the initial stiffness of unloading.
 
 use super::domain::positive;
 use crate::error::{Error, Result};
 use std::f64::consts::PI;
 
-/// An indentation by a ball, under its largest load. Units are consistent, any; forces and depths
-/// are positive into the body.
+/// An indentation by a ball, under its largest load. Units are any consistent ones; forces and
+/// depths are positive into the body.
 ///
 /// ```
 /// use brinell::analytical::Indentation;
@@ -19,30 +19,31 @@ use std::f64::consts::PI;
 pub struct Indentation {
     /// Radius of the ball.
     pub radius: f64,
-    /// Depth: the approach of ball and body.
+    /// Depth of the indentation: the approach of ball and body.
     pub depth: f64,
     /// Force on the ball.
     pub force: f64,
-    /// Contact radius.
+    /// Radius of the contact under the load.
     pub contact_radius: f64,
 }
 
 impl Indentation {
-    /// Kilogram-force over newton, `1/9.80665` rounded as the standard has it.
+    /// Kilogram-force over newton, `1/9.80665` rounded as in the standard.
     ///
     /// # Source
     /// ISO 6506-1.
     const STANDARD: f64 = 0.102;
-    /// `epsilon` of a paraboloid of revolution.
+    /// Oliver and Pharr's `epsilon` for a paraboloid of revolution.
     ///
     /// # Source
     /// W. C. Oliver, G. M. Pharr, J. Mater. Res. 7 (1992) 1564, doi:10.1557/JMR.1992.1564.
     const PARABOLOID: f64 = 0.75;
 
-    /// An indentation of depth `depth` by a force, that touches out to `contact_radius`.
+    /// An indentation to the depth `depth` by the force `force`, with a contact out to
+    /// `contact_radius`.
     ///
     /// # Errors
-    /// Where one of them is not finite and positive, or the contact is wider than the ball.
+    /// `Input` if a value is not finite and positive, or if the contact is wider than the ball.
     pub fn new(radius: f64, depth: f64, force: f64, contact_radius: f64) -> Result<Self> {
         let of = |name, value| positive("indentation", name, value);
         if contact_radius > radius {
@@ -64,30 +65,30 @@ impl Indentation {
         PI * self.contact_radius * self.contact_radius
     }
 
-    /// Mean pressure `p_m = P/(pi a^2)`: Meyer's hardness.
+    /// Mean pressure `p_m = P/(pi a^2)`, which is Meyer's hardness.
     pub fn mean_pressure(&self) -> f64 {
         self.force / self.area()
     }
 
-    /// Brinell's hardness as a stress, the force over the area of the indent's cap,
+    /// Brinell's hardness as a stress, the force over the area of the spherical cap of the indent,
     ///
     /// ```text
     /// 2 P/(pi D (D - (D^2 - d^2)^(1/2))),  D = 2 R, d = 2 a
     /// ```
     ///
-    /// The standard measures `d` on the indent that stays; here it is that of the contact under the
-    /// load.
+    /// The standard measures `d` on the indent that remains after unloading; here `d` belongs to
+    /// the contact under the load.
     ///
     /// # Source
     /// ISO 6506-1.
     pub fn brinell_stress(&self) -> f64 {
         let [ball, indent] = [2.0 * self.radius, 2.0 * self.contact_radius];
-        // D - (D^2 - d^2)^(1/2) without a difference of near numbers.
+        // Computes D - (D^2 - d^2)^(1/2) without a difference of nearly equal numbers.
         let sagitta = indent * indent / (ball + (ball * ball - indent * indent).sqrt());
         2.0 * self.force / (PI * ball * sagitta)
     }
 
-    /// The number HBW, where force and lengths are in N and mm (stresses in MPa):
+    /// Brinell's hardness number HBW, if force and lengths are in N and mm (stresses in MPa):
     /// `0.102` [`Self::brinell_stress`].
     ///
     /// ```
@@ -103,8 +104,8 @@ impl Indentation {
         Self::STANDARD * self.brinell_stress()
     }
 
-    /// `c^2 = a^2/(2 R h)`: more than 1 where the surface is piled up round the ball, less where it
-    /// has sunk in; 1/2 in an elastic contact.
+    /// Pile-up `c^2 = a^2/(2 R h)`: more than 1 if the surface is piled up around the ball, less
+    /// than 1 if it has sunk in; 1/2 in an elastic contact.
     ///
     /// # Source
     /// R. Hill, B. Storakers, A. B. Zdunek, Proc. R. Soc. A 423 (1989) 301,
@@ -113,8 +114,8 @@ impl Indentation {
         self.contact_radius * self.contact_radius / (2.0 * self.radius * self.depth)
     }
 
-    /// Reduced modulus `E_r = pi^(1/2)/2 S/A^(1/2)` from the stiffness `S` with which unloading
-    /// begins and the area of the contact.
+    /// Reduced modulus `E_r = pi^(1/2)/2 S/A^(1/2)` from the initial stiffness `S` of unloading and
+    /// the area of the contact.
     ///
     /// # Source
     /// G. M. Pharr, W. C. Oliver, F. R. Brotzen, J. Mater. Res. 7 (1992) 613,
@@ -123,8 +124,8 @@ impl Indentation {
         of_area(stiffness, self.area())
     }
 
-    /// Reduced modulus as it is had where the contact is not seen: with the area of the ball's cap
-    /// at the depth `h_c = h - 0.75 P/S`. None where that is not positive.
+    /// Reduced modulus from measurements in which the contact is not seen, with the area of the
+    /// ball's cap at the depth `h_c = h - 0.75 P/S`. `None` if this depth or area is not positive.
     ///
     /// # Source
     /// W. C. Oliver, G. M. Pharr, J. Mater. Res. 7 (1992) 1564, doi:10.1557/JMR.1992.1564.
@@ -144,8 +145,8 @@ mod tests {
     use super::*;
     use crate::analytical::HertzPoint;
 
-    /// An elastic contact unloads as it was loaded: both moduli are the contact modulus, the one by
-    /// depth but for the ball's not being a paraboloid, `h_c/(2 R)`.
+    /// An elastic contact unloads as it was loaded: both moduli equal the contact modulus, the one
+    /// by depth up to `h_c/(2 R)`, because the ball is not a paraboloid.
     #[test]
     fn an_elastic_contact_gives_its_modulus() {
         let (radius, modulus, load) = (5.0, 1e5, 100.0);
@@ -157,9 +158,9 @@ mod tests {
         let by_depth = test.reduced_modulus_by_depth(stiffness).unwrap();
         assert!((by_depth / modulus - 1.0).abs() < depth / radius);
         assert!((test.mean_pressure() / hertz.max_pressure(load) * 1.5 - 1.0).abs() < 1e-12);
-        // Shallow: the cap is as large as the circle.
+        // The indentation is shallow, so the cap is about as large as the circle.
         assert!((test.brinell_stress() / test.mean_pressure() - 1.0).abs() < depth / radius);
-        // Stiffer than the depth allows.
+        // A stiffness too small for the depth: the resulting contact depth is not positive.
         assert_eq!(test.reduced_modulus_by_depth(0.5 * load / depth), None);
     }
 

@@ -1,15 +1,16 @@
-//! Kirsch's field: a round hole in an infinite plate under remote stress.
+//! Kirsch's field: a circular hole in an infinite plate under remote stress.
 
 use super::Plane;
 use super::domain::{finite, positive};
 use crate::error::Result;
 
-/// Stress and displacement round a traction-free circular hole in an infinite plate.
+/// Stress and displacement around a traction-free circular hole in an infinite plate.
 ///
-/// Origin at the centre of the hole; the remote state is `s_xx = stress_x`, `s_yy = stress_y`,
-/// `s_xy = 0`. The in-plane stresses hold in plane strain and plane stress alike. Used as far-field
-/// traction on the outer edge of a finite mesh. Stresses positive in tension; units consistent,
-/// any. Points inside the hole are outside the domain of the formulas.
+/// The origin is at the centre of the hole. The remote state is `s_xx = stress_x`,
+/// `s_yy = stress_y`, `s_xy = 0`. The in-plane stresses hold in both plane strain and plane stress.
+/// The field is used as far-field traction on the outer edge of a finite mesh. Stresses are
+/// positive in tension; units are any consistent ones. Points inside the hole are outside the
+/// domain of the formulas.
 ///
 /// # Source
 /// G. Kirsch, Z. VDI 42 (1898) 797; S. P. Timoshenko, J. N. Goodier, *Theory of Elasticity*, 3rd
@@ -26,10 +27,10 @@ pub struct KirschField {
 }
 
 impl KirschField {
-    /// The field of remote stresses `stress_x`, `stress_y` round a hole of radius `radius`.
+    /// The field of the remote stresses `stress_x` and `stress_y` around a hole of radius `radius`.
     ///
     /// # Errors
-    /// Where a stress is not finite or the radius is not finite and positive.
+    /// `Input` if a stress is not finite or the radius is not finite and positive.
     pub fn new(stress_x: f64, stress_y: f64, radius: f64) -> Result<Self> {
         Ok(KirschField {
             stress_x: finite("plate with a hole", "remote stress along x", stress_x)?,
@@ -62,7 +63,7 @@ impl KirschField {
     }
 
     /// Traction `[t_x, t_y]` that the material outside exerts on a cut at `(x, y)` with the unit
-    /// outward normal `normal`: what to apply to the edge of a finite mesh.
+    /// outward normal `normal`: the traction to apply to the edge of a finite mesh.
     pub fn traction(&self, x: f64, y: f64, normal: [f64; 2]) -> [f64; 2] {
         let [sxx, syy, sxy] = self.stress(x, y);
         [
@@ -71,13 +72,13 @@ impl KirschField {
         ]
     }
 
-    /// Displacement `[u_x, u_y]` at `(x, y)` outside the hole, without rigid motion (0 along the
-    /// axes of symmetry across them).
+    /// Displacement `[u_x, u_y]` at `(x, y)` outside the hole, without rigid body motion: on each
+    /// axis of symmetry the component across the axis is 0.
     pub fn displacement(&self, x: f64, y: f64, young: f64, poisson: f64, plane: Plane) -> [f64; 2] {
         let kolosov = plane.kolosov(poisson);
         let shear = young / (2.0 * (1.0 + poisson));
         let along = self.uniaxial_displacement(x, y, kolosov);
-        // Tension along y is tension along x turned by a quarter: x' = y, y' = -x.
+        // Tension along y is tension along x turned by a quarter turn: x' = y, y' = -x.
         let across = self.uniaxial_displacement(y, -x, kolosov);
         let scale = self.radius / (8.0 * shear);
         [
@@ -143,7 +144,7 @@ mod tests {
         assert!((pull[1] * n[0] - pull[0] * n[1] - srt).abs() < 1e-14);
         assert!((sxx + syy - srr - stt).abs() < 1e-14);
         assert!((sxx * syy - sxy * sxy - (srr * stt - srt * srt)).abs() < 1e-13);
-        // The disturbance falls as (a/r)^2, by at most 5 of the greater stress.
+        // The disturbance falls as (a/r)^2, with a factor of at most 5 of the greater stress.
         let far = f.stress(2e4, 1e4);
         assert!((far[0] - 3.0).abs() < 2e-7 && (far[1] + 1.2).abs() < 2e-7 && far[2].abs() < 2e-7);
     }
@@ -160,7 +161,7 @@ mod tests {
                 let gamma = (e[1] - w[1] + n[0] - s[0]) / (2.0 * h);
                 let [sxx, syy, sxy] = f.stress(x, y);
                 let szz = plane.out_of_plane(sxx + syy, nu);
-                // Central differences: h^2 times third derivatives, and eps/h.
+                // Errors of central differences: h^2 times third derivatives, and eps/h.
                 assert!((young * exx - (sxx - nu * (syy + szz))).abs() < 1e-8);
                 assert!((young * eyy - (syy - nu * (sxx + szz))).abs() < 1e-8);
                 assert!((young * gamma - 2.0 * (1.0 + nu) * sxy).abs() < 1e-8);

@@ -1,10 +1,11 @@
 //! Closed forms of contact and plasticity, as documented types that tests, plots and reports share.
 //!
-//! Each file is one solution with its equations, validity, units and source. All take and give
-//! consistent units of the caller's choice; stresses are positive in tension, pressures and contact
-//! forces in compression. Constructors check that the parameters lie where the solution holds; a
-//! method that takes a load or an angle states its domain, and returns an error where the closed
-//! form ends inside it. Nothing here depends on the rest of the crate but its error type.
+//! Each file is one solution with its equations, validity, units and source. All methods take and
+//! return consistent units of the caller's choice; stresses are positive in tension, pressures and
+//! contact forces in compression. Constructors check that the parameters lie in the range of the
+//! solution. A method that takes a load or an angle states its domain, and returns an error if the
+//! closed form does not cover the whole of it. Nothing here depends on the rest of the crate except
+//! its error type.
 //!
 //! | case | file | what it gives | source |
 //! |---|---|---|---|
@@ -23,8 +24,8 @@
 //! | what an indentation is read by | `indentation.rs`: [`Indentation`] | Brinell and Meyer hardness, pile-up, modulus from the unloading stiffness | ISO 6506; Hill et al. 1989; Oliver and Pharr 1992 |
 //! | two bodies as one | `contact_pair.rs`: [`contact_modulus`], [`relative_radius`], [`RelativeRadii`] | contact modulus, relative radii, planes at an angle too | Johnson pp. 85-92 |
 //!
-//! The published figures that these reproduce are in `data/reference`; a test compares them row by
-//! row.
+//! The published figures that these closed forms reproduce are in `data/reference`; a test compares
+//! them row by row.
 
 mod contact_pair;
 mod disc_in_plate;

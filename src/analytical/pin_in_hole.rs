@@ -1,4 +1,4 @@
-//! Persson's pin in a hole: conforming contact of like materials.
+//! Persson's pin in a hole: conforming contact of bodies of the same material.
 
 use super::domain::{finite, positive};
 use crate::error::{Error, Result};
@@ -17,8 +17,9 @@ use std::f64::consts::PI;
 /// ```
 ///
 /// Neat fit (`dR = 0`): `e` = 84.828 degrees and `p(0) R/Q = 0.59963` at any load. With
-/// interference (`dR < 0`) the contact is wider, and closed all round below `Q = pi E* |dR|`, where
-/// `p = E* |dR|/R + Q/(pi R) cos f`. Units consistent, any; pressures positive.
+/// interference (`dR < 0`) the contact is wider, and closed all around below `Q = pi E* |dR|`,
+/// where `p = E* |dR|/R + Q/(pi R) cos f`. Units are any consistent ones; pressures are positive in
+/// compression.
 ///
 /// # Source
 /// B. G. A. Persson, *On the stress distribution of cylindrical elastic bodies in contact*,
@@ -26,9 +27,9 @@ use std::f64::consts::PI;
 /// (2001) 4507-4523; K. L. Johnson, *Contact Mechanics*, Cambridge 1985, par. 5.3, pp. 114-119.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PinInHole {
-    /// Radius `R` of the pin and, but for the clearance, of the hole.
+    /// Radius `R` of the pin and, apart from the clearance, of the hole.
     pub radius: f64,
-    /// Clearance `dR` on the radius, negative for interference.
+    /// Clearance `dR` on the radius, negative for an interference.
     pub clearance: f64,
     /// Contact modulus `E*` of the two equal bodies, half of
     /// [`Plane::modulus`](super::Plane::modulus).
@@ -36,10 +37,11 @@ pub struct PinInHole {
 }
 
 impl PinInHole {
-    /// A pin and hole of radius `radius`.
+    /// A pin in a hole, both with radius `radius` apart from the clearance.
     ///
     /// # Errors
-    /// Where the radius or the modulus is not finite and positive, or the clearance not finite.
+    /// `Input` if the radius or the modulus is not finite and positive, or the clearance is not
+    /// finite.
     pub fn new(radius: f64, clearance: f64, contact_modulus: f64) -> Result<Self> {
         let what = "pin in a hole";
         Ok(PinInHole {
@@ -49,14 +51,14 @@ impl PinInHole {
         })
     }
 
-    /// `E* dR/Q` at which the half angle of the contact is `half_angle`, in `(0, pi)`: falls from
-    /// infinity through 0 (neat fit) to `-1/pi`.
+    /// Ratio `E* dR/Q` for which the half angle of the contact is `half_angle`, in `(0, pi)`. The
+    /// ratio falls from infinity through 0 (neat fit) to `-1/pi`.
     pub fn clearance_ratio(half_angle: f64) -> f64 {
         let t2 = (0.5 * half_angle).tan().powi(2);
         (2.0 - t2.ln_1p() - 2.0 * t2 * t2) / (2.0 * PI * t2 * (1.0 + t2))
     }
 
-    /// Half angle of the contact of a neat fit, 84.828 degrees (in radians), whatever the load.
+    /// Half angle in radians of the contact of a neat fit, which is 84.828 degrees at any load.
     pub fn neat_half_angle() -> f64 {
         root::of(Self::clearance_ratio, 1.0, 2.0)
     }
@@ -64,8 +66,8 @@ impl PinInHole {
     /// Load per thickness at which the half angle of the contact is `half_angle`.
     ///
     /// # Errors
-    /// Where no positive load gives that angle: with clearance, angles from the neat fit's up; with
-    /// interference, up to it; with neither, all.
+    /// `Input` if no positive load gives this angle: with clearance, for angles from that of the
+    /// neat fit upwards; with interference, for angles up to it; with neither, for all angles.
     pub fn load_for_half_angle(&self, half_angle: f64) -> Result<f64> {
         let load = self.contact_modulus * self.clearance / Self::clearance_ratio(half_angle);
         if half_angle > 0.0 && half_angle < PI && load.is_finite() && load > 0.0 {
@@ -77,11 +79,11 @@ impl PinInHole {
         )))
     }
 
-    /// Half angle of the contact under `load` per thickness, in radians; `pi` where it is closed
-    /// all round.
+    /// Half angle of the contact under `load` per thickness, in radians; `pi` if the contact is
+    /// closed all around.
     ///
     /// # Errors
-    /// Where the load is not finite and positive.
+    /// `Input` if the load is not finite and positive.
     pub fn half_angle(&self, load: f64) -> Result<f64> {
         let load = positive("pin in a hole", "load", load)?;
         let target = self.contact_modulus * self.clearance / load;
@@ -94,7 +96,7 @@ impl PinInHole {
     /// Contact pressure at the angle `from_load` (radians from the line of the load) under `load`.
     ///
     /// # Errors
-    /// As [`half_angle`](Self::half_angle).
+    /// As for [`half_angle`](Self::half_angle).
     pub fn pressure(&self, from_load: f64, load: f64) -> Result<f64> {
         let half_angle = self.half_angle(load)?;
         let (sin, cos) = from_load.sin_cos();
@@ -102,20 +104,20 @@ impl PinInHole {
             let shrink = -self.contact_modulus * self.clearance;
             return Ok((shrink + load / PI * cos) / self.radius);
         }
-        // Folded to (-pi, pi].
+        // The angle is folded to (-pi, pi].
         Ok(load / self.radius * unit_pressure(sin.atan2(cos), half_angle))
     }
 
     /// Greatest pressure, on the line of the load.
     ///
     /// # Errors
-    /// As [`half_angle`](Self::half_angle).
+    /// As for [`half_angle`](Self::half_angle).
     pub fn max_pressure(&self, load: f64) -> Result<f64> {
         self.pressure(0.0, load)
     }
 }
 
-/// `p R/Q` at the angle `f` for the half angle `e` of the contact.
+/// Scaled pressure `p R/Q` at the angle `f`, for the half angle `e` of the contact.
 fn unit_pressure(f: f64, e: f64) -> f64 {
     if f.abs() >= e {
         return 0.0;
@@ -159,7 +161,7 @@ mod tests {
 
     #[test]
     fn small_contact_is_hertz() {
-        // Relative radius R^2/dR; both agree to e^2.
+        // Relative radius R^2/dR; the two solutions agree up to e^2.
         let pin = PinInHole::new(20.0, 0.2, 1e5).unwrap();
         let load = pin.load_for_half_angle(1e-3).unwrap();
         let line = super::super::HertzLine::new(20.0 * 20.0 / 0.2, 1e5).unwrap();
@@ -171,9 +173,9 @@ mod tests {
 
     #[test]
     fn gap_is_closed_over_the_contact() {
-        // sum_{n>=2} n/(n^2-1) cos n x = -cos x ln|2 sin(x/2)| - 1/2 - cos(x)/4 and the terms of n
-        // = 0; what is left of E* g/(2 R) after the rigid shift (cos f) must vanish: three angles
-        // fit two terms.
+        // sum_{n>=2} n/(n^2-1) cos n x = -cos x ln|2 sin(x/2)| - 1/2 - cos(x)/4, plus the terms of
+        // n = 0. The remainder of E* g/(2 R) after the rigid shift (cos f) must vanish; three
+        // angles are more than the two free terms could fit.
         let e = 1.2;
         let q0 = integrate(|f| unit_pressure(f, e), 0.0, e) / PI;
         let residual = |f: f64| {
@@ -182,7 +184,7 @@ mod tests {
             let left = integrate(|s| unit_pressure(f - s, e) * kernel(s), 0.0, e + f);
             0.5 * q0 + (right + left) / PI + 0.5 * PinInHole::clearance_ratio(e)
         };
-        // residual = C cos f with one C, because cos(x)/4 too is a shift.
+        // residual = C cos f with one C, because cos(x)/4 is a rigid shift too.
         let shift = residual(0.0);
         for f in [0.2, 0.5_f64, 0.9, 1.1] {
             assert!(
@@ -200,7 +202,7 @@ mod tests {
         assert_eq!(pin.half_angle(0.99 * separation).unwrap(), PI);
         assert!(pin.half_angle(1.01 * separation).unwrap() < PI);
         assert!(pin.pressure(PI, separation).unwrap().abs() < 1e-12);
-        // The two forms meet at the load of separation.
+        // The two forms agree at the load of separation.
         for f in [0.0, 1.0, 2.5] {
             let closed = pin.pressure(f, separation).unwrap();
             let open = pin.pressure(f, separation * (1.0 + 1e-8)).unwrap();

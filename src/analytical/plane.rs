@@ -1,6 +1,6 @@
-//! Plane strain and plane stress: the two ways a plane problem closes in the third direction.
+//! Plane strain and plane stress, the two closures of a plane problem in the third direction.
 
-/// Which plane idealisation a closed form is evaluated in.
+/// The plane idealisation in which a closed form is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Plane {
     /// No strain out of the plane: `s_z = nu (s_x + s_y)`.
@@ -22,8 +22,7 @@ impl Plane {
         }
     }
 
-    /// Modulus of the plane `E' = 8 G/(kolosov + 1)`: `E/(1 - nu^2)` in plane strain, `E` in plane
-    /// stress.
+    /// Plane modulus `E' = 8 G/(kolosov + 1)`: `E/(1 - nu^2)` in plane strain, `E` in plane stress.
     pub fn modulus(self, young: f64, poisson: f64) -> f64 {
         match self {
             Plane::Strain => young / (1.0 - poisson * poisson),
@@ -31,7 +30,7 @@ impl Plane {
         }
     }
 
-    /// Stress out of the plane that accompanies the sum `s_x + s_y` of those in it.
+    /// Out-of-plane stress that accompanies the sum `s_x + s_y` of the in-plane stresses.
     pub fn out_of_plane(self, in_plane_sum: f64, poisson: f64) -> f64 {
         match self {
             Plane::Strain => poisson * in_plane_sum,

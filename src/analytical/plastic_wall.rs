@@ -1,16 +1,16 @@
-//! A wall that is plastic up to a front, under internal pressure: what cylinder and sphere have in
-//! common.
+//! A wall under internal pressure that is plastic up to a front: the part common to cylinder and
+//! sphere.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::root;
 
-/// Radius of the plastic front of `body` under `pressure`, in the wall `[a, b]` (radii);
-/// `of_front(c)` is the pressure that holds the front at `c`, rising from first yield at `a` to
-/// collapse at `b`. The inner radius while all is elastic.
+/// Radius of the plastic front of `body` under `pressure`, in the wall `[a, b]` (radii); the inner
+/// radius as long as the wall is elastic. `of_front(c)` is the pressure that holds the front at
+/// `c`, rising from first yield at `a` to collapse at `b`.
 ///
 /// # Errors
-/// Where the pressure is negative or not a number ([`ErrorKind::Input`]) or above collapse
-/// ([`ErrorKind::Collapse`]).
+/// [`ErrorKind::Input`] if the pressure is negative or not a number, [`ErrorKind::Collapse`] if it
+/// exceeds the collapse pressure.
 pub(super) fn plastic_front(
     body: &str,
     pressure: f64,
@@ -35,11 +35,11 @@ pub(super) fn plastic_front(
     Ok(root::of(|front| of_front(front) - pressure, a, b))
 }
 
-/// Refuses a pressure after which unloading makes the bore yield again: that above twice the
-/// pressure at first yield.
+/// Refuses a pressure above twice the pressure at first yield, because the bore then yields again
+/// in unloading.
 ///
 /// # Errors
-/// [`ErrorKind::Input`].
+/// [`ErrorKind::Input`] for such a pressure.
 pub(super) fn refuse_reverse_yield(body: &str, pressure: f64, first_yield: f64) -> Result<()> {
     let limit = 2.0 * first_yield;
     if pressure > limit {

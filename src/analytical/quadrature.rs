@@ -1,13 +1,14 @@
 //! Integrals over an interval by the double-exponential rule, for integrands with weak
 //! singularities (roots, logarithms) at the ends.
 
-/// Integral of `f` over `[a, b]`: `x = (a+b)/2 + (b-a)/2 tanh(pi/2 sinh t)`, trapezoidal rule in
-/// `t`.
+/// Integral of `f` over `[a, b]`: `x = (a+b)/2 + (b-a)/2 tanh(pi/2 sinh
+/// t)`, trapezoidal rule in `t`.
 ///
-/// The ends themselves are never evaluated. Relative error about 1e-14 for integrands that are
-/// analytic inside the interval at distances from it of the order of its length or, towards the
-/// ends, of the order of the distance to the end; about 1e-8 times the strength of the singularity
-/// for a root singularity at `b` when `|b|` exceeds `b - a` (the distance to `b` is then rounded).
+/// The ends themselves are never evaluated. The relative error is about 1e-14 for integrands that
+/// are analytic inside the interval at distances from it of the order of its length or, towards the
+/// ends, of the order of the distance to the end. For a root singularity at `b` the error is about
+/// 1e-8 times the strength of the singularity if `|b|` exceeds `b - a` (the distance to `b` is then
+/// rounded).
 ///
 /// # Source
 /// H. Takahasi, M. Mori, Publ. RIMS Kyoto Univ. 9 (1974) 721-741.
@@ -19,7 +20,7 @@ pub(super) fn integrate(f: impl Fn(f64) -> f64, a: f64, b: f64) -> f64 {
     for i in -LAST..=LAST {
         let t = f64::from(i) * step;
         let s = std::f64::consts::PI * t.sinh();
-        // Fraction of the interval to the nearer end, without cancellation.
+        // Fraction of the interval to the nearer end, computed without cancellation.
         let fraction = 1.0 / (1.0 + s.abs().exp());
         let x = if i < 0 {
             a + (b - a) * fraction

@@ -1,25 +1,25 @@
-//! A shaft shrunk into a ring.
+//! Shrink fit of a shaft in a ring.
 
 use super::domain::{between, poisson as check_poisson, positive};
 use super::{Plane, ThickCylinder};
 use crate::error::{Error, Result};
 
-/// Elastic interference fit of a shaft, solid or hollow, in a ring; materials may differ.
+/// Elastic interference fit of a solid or hollow shaft in a ring; the materials may differ.
 ///
 /// The pressure closes the interference: `p = d/(u_ring(p = 1) - u_shaft(p = 1))`. For a solid
-/// shaft and a ring of one material in plane stress `p = E d (b^2 - a^2)/(2 a b^2)`, `d` on the
-/// *radius*. Frictionless; units consistent, any.
+/// shaft and a ring of one material in plane stress `p = E d (b^2 - a^2)/(2 a b^2)`, with `d` on
+/// the *radius*. Frictionless; units are any consistent ones.
 ///
 /// # Source
 /// S. Timoshenko, *Strength of Materials*, Part II, 3rd ed. 1956, ch. VI (shrink-fit pressures of
 /// built-up cylinders); the fields are Lame's, see [`ThickCylinder`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShrinkFit {
-    /// Interference on the radius: radius of the free shaft less that of the free bore.
+    /// Interference on the radius: radius of the free shaft minus radius of the free bore.
     pub interference: f64,
     /// The ring; its inner radius is the contact radius.
     pub ring: ThickCylinder,
-    /// Inner radius of the shaft, 0 for a solid one.
+    /// Inner radius of the shaft; 0 for a solid shaft.
     pub shaft_bore: f64,
     /// Young's modulus of the shaft.
     pub shaft_young: f64,
@@ -28,12 +28,12 @@ pub struct ShrinkFit {
 }
 
 impl ShrinkFit {
-    /// A fit with the radial interference `interference >= 0` of a shaft in `ring`, both in the
-    /// ring's plane.
+    /// A fit of a shaft in `ring` with the radial interference `interference >= 0`, both in the
+    /// ring's plane idealisation.
     ///
     /// # Errors
-    /// Where the interference is negative or not finite, the bore of the shaft is not inside the
-    /// contact radius, or the constants of the shaft are out of range.
+    /// `Input` if the interference is negative or not finite, if the bore of the shaft is not
+    /// smaller than the contact radius, or if the constants of the shaft are out of range.
     pub fn new(
         interference: f64,
         ring: ThickCylinder,
@@ -58,7 +58,7 @@ impl ShrinkFit {
         })
     }
 
-    /// Contact pressure.
+    /// Contact pressure between shaft and ring.
     pub fn pressure(&self) -> f64 {
         let a = self.ring.inner_radius;
         self.interference / (self.ring.displacement(a, 1.0, 0.0) - self.shaft_displacement(a, 1.0))
@@ -83,7 +83,7 @@ impl ShrinkFit {
         }
     }
 
-    /// Interference at which the ring first yields after von Mises, at its bore.
+    /// Interference at which the ring first yields according to von Mises, at its bore.
     pub fn ring_yield_interference(&self, yield_stress: f64) -> f64 {
         let a = self.ring.inner_radius;
         let compliance = self.ring.displacement(a, 1.0, 0.0) - self.shaft_displacement(a, 1.0);
@@ -104,8 +104,8 @@ impl ShrinkFit {
         })
     }
 
-    /// Radial displacement (inwards, so negative) of the shaft at `r` under the pressure
-    /// `pressure`.
+    /// Radial displacement of the shaft at `r` under the pressure `pressure`, negative because
+    /// inwards.
     fn shaft_displacement(&self, r: f64, pressure: f64) -> f64 {
         match self.hollow_shaft() {
             Some(shaft) => shaft.displacement(r, 0.0, pressure),
@@ -131,7 +131,7 @@ mod tests {
         assert!((fit.pressure() - 78.75).abs() < 1e-12);
         assert_eq!(fit.shaft_stress(20.0)[0], -fit.pressure());
         assert!((fit.ring_stress(50.0)[0] + 78.75).abs() < 1e-12);
-        // Plane strain: the modulus of the plane takes the place of E.
+        // In plane strain the plane modulus takes the place of E.
         let strain = ShrinkFit::new(0.05, ring(Plane::Strain), 0.0, 210e3, 0.3).unwrap();
         assert!((strain.pressure() * 0.91 / 78.75 - 1.0).abs() < 1e-14);
     }

@@ -1,9 +1,9 @@
-//! Every published figure of `data/reference` against the closed form that gives it.
+//! Compares every published figure of `data/reference` with the closed form that gives it.
 
 use super::*;
 use std::path::PathBuf;
 
-/// The closed form's value for a quantity named in an `exact.csv`.
+/// The closed form's value of a quantity named in an `exact.csv`.
 fn computed(quantity: &str) -> Option<f64> {
     let line = HertzLine::new(1.0, 1.0).unwrap();
     let point = HertzPoint::new(1.0, 1.0).unwrap();

@@ -1,4 +1,4 @@
-//! Lame's thick cylinder: elastic, under pressure inside and outside.
+//! Lame's thick cylinder: elastic, under internal and external pressure.
 
 use super::domain::{nested_radii, poisson as check_poisson, positive};
 use super::{Plane, von_mises};
@@ -6,9 +6,9 @@ use crate::error::Result;
 
 /// Elastic thick-walled cylinder (or ring) under internal and external pressure.
 ///
-/// `s_rr = A - B/r^2`, `s_tt = A + B/r^2` with `A = (p_i a^2 - p_o b^2)/(b^2 - a^2)`,
-/// `B = (p_i - p_o) a^2 b^2/(b^2 - a^2)`; plane strain (`e_zz = 0`) or plane stress. Stresses
-/// positive in tension, pressures in compression, displacement outwards; units consistent, any.
+/// `s_rr = A - B/r^2`, `s_tt = A + B/r^2` with `A = (p_i a^2 - p_o b^2)/(b^2 - a^2)`, `B = (p_i -
+/// p_o) a^2 b^2/(b^2 - a^2)`; plane strain (`e_zz = 0`) or plane stress. Stresses are positive in
+/// tension, pressures in compression, displacements outwards; units are any consistent ones.
 ///
 /// # Source
 /// S. P. Timoshenko, J. N. Goodier, *Theory of Elasticity*, 3rd ed. 1970, par. 28, pp. 68-71.
@@ -27,10 +27,11 @@ pub struct ThickCylinder {
 }
 
 impl ThickCylinder {
-    /// A cylinder of the given radii and elastic constants.
+    /// A cylinder with the given radii and elastic constants.
     ///
     /// # Errors
-    /// Unless `0 < inner_radius < outer_radius`, `young > 0` and `-1 < poisson <= 1/2`, all finite.
+    /// `Input` unless `0 < inner_radius < outer_radius`, `young > 0` and `-1 < poisson <= 1/2`, all
+    /// finite.
     pub fn new(
         inner_radius: f64,
         outer_radius: f64,
@@ -60,17 +61,17 @@ impl ThickCylinder {
         ]
     }
 
-    /// Radial displacement `u = [(k - 1) A r/2 + B/r]/(2 G)` at the radius `r`, `k` Kolosov's
-    /// constant.
+    /// Radial displacement `u = [(k - 1) A r/2 + B/r]/(2
+    /// G)` at the radius `r`, with Kolosov's constant `k`.
     pub fn displacement(&self, r: f64, inner_pressure: f64, outer_pressure: f64) -> f64 {
         let (uniform, ring) = self.constants(inner_pressure, outer_pressure);
         let bulk = 0.5 * (self.plane.kolosov(self.poisson) - 1.0);
         (1.0 + self.poisson) / self.young * (bulk * uniform * r + ring / r)
     }
 
-    /// Internal pressure at which the bore first yields after von Mises (no external pressure):
-    /// `Y/sqrt(3 b^4 + (1 - 2 nu)^2 a^4) (b^2 - a^2)` in plane strain, with 1 for `1 - 2 nu` in
-    /// plane stress.
+    /// Internal pressure at which the bore first yields according to von Mises (no external
+    /// pressure): `Y/sqrt(3 b^4 + (1 - 2 nu)^2 a^4) (b^2 - a^2)` in plane strain, with 1 instead of
+    /// `1 - 2 nu` in plane stress.
     pub fn yield_pressure(&self, yield_stress: f64) -> f64 {
         yield_stress / von_mises(self.stress(self.inner_radius, 1.0, 0.0), 0.0)
     }
@@ -115,7 +116,7 @@ mod tests {
             assert!((210e3 * hoop - (stt - 0.3 * (srr + szz))).abs() < 1e-11);
             let ends = c.displacement(r + h, 80.0, 30.0) - c.displacement(r - h, 80.0, 30.0);
             let radial = ends / (2.0 * h);
-            // (h/r)^2 of stresses of the order of 100.
+            // The error is (h/r)^2 of stresses of the order of 100.
             assert!((210e3 * radial - (srr - 0.3 * (stt + szz))).abs() < 1e-5);
         }
     }
@@ -135,7 +136,7 @@ mod tests {
     #[test]
     fn a_thin_one_is_a_pipe() {
         let c = ThickCylinder::new(100.0, 100.001, 210e3, 0.3, Plane::Stress).unwrap();
-        // p r/t to t/r relative.
+        // The hoop stress is p r/t, with a relative error of t/r.
         assert!((c.stress(100.0, 1.0, 0.0)[1] / 1e5 - 1.0).abs() < 2e-5);
         assert!(ThickCylinder::new(2.0, 1.0, 1.0, 0.3, Plane::Stress).is_err());
         assert!(ThickCylinder::new(1.0, 2.0, 1.0, 0.51, Plane::Stress).is_err());

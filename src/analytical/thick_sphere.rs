@@ -1,4 +1,4 @@
-//! Hill's thick sphere: elastic-perfectly plastic under internal pressure, exact for any Poisson
+//! Hill's thick sphere: elastic-perfectly plastic under internal pressure, exact for any Poisson's
 //! ratio.
 
 use super::domain::{nested_radii, poisson as check_poisson, positive};
@@ -12,8 +12,8 @@ use crate::error::Result;
 /// `s_rr = -2 Y ln(c/r) - (2/3) Y (1 - c^3/b^3)`, `s_tt = s_rr + Y`, `u = (Y r/E) [(1-nu) c^3/r^3 -
 /// (2/3)(1-2nu)(1 + 3 ln(c/r) - c^3/b^3)]`. Outside: `s_rr = -(2/3) Y c^3 (1/r^3 - 1/b^3)`, `s_tt =
 /// (2/3) Y c^3 (1/(2 r^3) + 1/b^3)`, `u = (Y c^3/E)
-/// [(2/3)(1-2nu) r/b^3 + (1+nu)/(3 r^2)]`, so `u(b) = Y c^3 (1-nu)/(E b^2)`. Units consistent, any;
-/// displacement outwards.
+/// [(2/3)(1-2nu) r/b^3 + (1+nu)/(3 r^2)]`, so `u(b) = Y c^3 (1-nu)/(E b^2)`. Units are any
+/// consistent ones; displacements are positive outwards.
 ///
 /// # Source
 /// R. Hill, *The Mathematical Theory of Plasticity*, Oxford 1950, ch. V par. 1, pp. 97-103.
@@ -32,11 +32,11 @@ pub struct ThickSphere {
 }
 
 impl ThickSphere {
-    /// A sphere of the given radii and material.
+    /// A sphere with the given radii and material.
     ///
     /// # Errors
-    /// Unless `0 < inner_radius < outer_radius`, `young > 0`, `-1 < poisson <= 1/2` and
-    /// `yield_stress > 0`, all finite.
+    /// `Input` unless `0 < inner_radius < outer_radius`, `young > 0`, `-1 < poisson <=
+    /// 1/2` and `yield_stress > 0`, all finite.
     pub fn new(
         inner_radius: f64,
         outer_radius: f64,
@@ -71,21 +71,22 @@ impl ThickSphere {
         2.0 * self.yield_stress * (plastic + self.shell(front) / 3.0)
     }
 
-    /// Radius of the plastic front under `pressure`; the inner radius while all is elastic.
+    /// Radius of the plastic front under `pressure`; the inner radius as long as the wall is
+    /// elastic.
     ///
     /// # Errors
-    /// Where the pressure is negative or not a number ([`Input`](crate::ErrorKind::Input)) or above
-    /// collapse ([`Collapse`](crate::ErrorKind::Collapse)).
+    /// [`Input`](crate::ErrorKind::Input) if the pressure is negative or not a number,
+    /// [`Collapse`](crate::ErrorKind::Collapse) if it exceeds the collapse pressure.
     pub fn plastic_front(&self, pressure: f64) -> Result<f64> {
         let wall = [self.inner_radius, self.outer_radius];
         plastic_front("thick sphere", pressure, wall, |front| self.pressure(front))
     }
 
-    /// Stresses `[s_rr, s_tt]` (both hoop directions alike) at the radius `r` in `[a, b]` under
-    /// `pressure`.
+    /// Stresses `[s_rr, s_tt]` at the radius `r` in `[a, b]` under `pressure`; both hoop stresses
+    /// are equal.
     ///
     /// # Errors
-    /// As [`plastic_front`](Self::plastic_front).
+    /// As for [`plastic_front`](Self::plastic_front).
     pub fn stress(&self, r: f64, pressure: f64) -> Result<[f64; 2]> {
         let front = self.plastic_front(pressure)?;
         let y = self.yield_stress;
@@ -99,7 +100,7 @@ impl ThickSphere {
     /// Radial displacement at the radius `r` under `pressure`.
     ///
     /// # Errors
-    /// As [`plastic_front`](Self::plastic_front).
+    /// As for [`plastic_front`](Self::plastic_front).
     pub fn displacement(&self, r: f64, pressure: f64) -> Result<f64> {
         let front = self.plastic_front(pressure)?;
         let bulk = 2.0 / 3.0 * (1.0 - 2.0 * self.poisson);
@@ -114,11 +115,11 @@ impl ThickSphere {
         Ok(strength / self.young * (bulk * r / b3 + shear / (r * r)))
     }
 
-    /// Residual stresses `[s_rr, s_tt]` after `pressure` has been taken off.
+    /// Residual stresses `[s_rr, s_tt]` after `pressure` has been removed.
     ///
     /// # Errors
-    /// As [`plastic_front`](Self::plastic_front), and where the pressure exceeds twice the yield
-    /// pressure: the bore then yields again in unloading.
+    /// As for [`plastic_front`](Self::plastic_front), and `Input` if the pressure exceeds twice the
+    /// yield pressure, because the bore then yields again in unloading.
     pub fn residual_stress(&self, r: f64, pressure: f64) -> Result<[f64; 2]> {
         let loaded = self.stress(r, pressure)?;
         refuse_reverse_yield("thick sphere", pressure, self.yield_pressure())?;
@@ -126,13 +127,14 @@ impl ThickSphere {
         Ok([loaded[0] - relief[0], loaded[1] - relief[1]])
     }
 
-    /// `1 - c^3/b^3`, without cancellation for a front near the outside.
+    /// `1 - c^3/b^3`, computed without cancellation for a front near the outer radius.
     fn shell(&self, front: f64) -> f64 {
         let ratio = front / self.outer_radius;
         (1.0 - ratio) * (1.0 + ratio + ratio * ratio)
     }
 
-    /// `Y c^3` of the elastic part; below first yield the same scaled by the pressure.
+    /// The strength `Y c^3` of the elastic part; below first yield scaled by the ratio of the
+    /// pressure to the yield pressure.
     fn strength(&self, pressure: f64, front: f64) -> f64 {
         let scale = if front <= self.inner_radius {
             pressure / self.yield_pressure()
@@ -181,7 +183,7 @@ mod tests {
         let p = s.pressure(150.0);
         assert!((s.stress(100.0, p).unwrap()[0] + p).abs() < 1e-11);
         assert!(s.stress(200.0, p).unwrap()[0].abs() < 1e-12);
-        // Half the sphere: int s_tt 2 pi r dr = p pi a^2.
+        // Balance of half the sphere: int s_tt 2 pi r dr = p pi a^2.
         let hoop = |r: f64| 2.0 * r * s.stress(r, p).unwrap()[1];
         let section = integrate(hoop, 100.0, 150.0) + integrate(hoop, 150.0, 200.0);
         assert!((section / (p * 1e4) - 1.0).abs() < 1e-12);
@@ -205,7 +207,7 @@ mod tests {
             let u = |r| s.displacement(r, p).unwrap();
             let dilatation = (u(r + h) - u(r - h)) / (2.0 * h) + 2.0 * u(r) / r;
             let [srr, stt] = s.stress(r, p).unwrap();
-            // (h/r)^2 times strains of 1e-3.
+            // The error is (h/r)^2 times strains of 1e-3.
             assert!((dilatation - 0.4 * (srr + 2.0 * stt) / 210e3).abs() < 1e-10);
         }
     }

@@ -1,4 +1,4 @@
-//! What closed-form stress states are judged by, and where that is largest.
+//! Measures of a stress state, such as the von Mises stress, and the depth at which one is largest.
 
 /// Von Mises stress of three normal stresses and the one shear stress of a plane or axisymmetric
 /// state: `sqrt(((s1-s2)^2 + (s2-s3)^2 + (s3-s1)^2)/2 + 3 t^2)`. Units of stress.
@@ -13,7 +13,7 @@ pub(super) fn greatest_shear([s1, s2, s3]: [f64; 3]) -> f64 {
     0.5 * (s1.max(s2).max(s3) - s1.min(s2).min(s3))
 }
 
-/// A stress that is largest at some depth below a contact.
+/// The largest value of a stress below a contact, with its depth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
     /// The largest stress.

@@ -1,7 +1,8 @@
 //! Nodes of slave surfaces that are moved onto the master surface (`ADJUST` of `*CONTACT PAIR`).
 //!
-//! Those within a distance of the other surface, or those of a set, move to its nearest point, from
-//! either side: faces are cut in triangles, edges of the plane are straight.
+//! Slave nodes within a given distance of the master surface, or the nodes of a given set, move to
+//! the nearest point of the master surface, from either side. Faces are divided into triangles;
+//! edges in the plane are straight.
 
 use super::Deck;
 use super::data::{Account, Adjust};
@@ -12,8 +13,8 @@ use crate::number::exact;
 use crate::space::{Vector, along, difference, dot, length};
 
 impl Deck {
-    /// Moves the nodes of all pairs that ask for it. A name that there is not is told where the
-    /// pair is used.
+    /// Moves the nodes of all contact pairs that ask for it. An undefined name is reported later,
+    /// when the pair is used.
     pub(super) fn adjust(&mut self) {
         for number in 0..self.properties.contacts.len() {
             let pair = self.properties.contacts[number].clone();
@@ -70,7 +71,8 @@ impl Adjust {
     }
 }
 
-/// A surface as triangles, or lines whose last two corners are one.
+/// A surface as triangles; in the plane as lines, given as triangles whose last two corners
+/// coincide.
 struct SurfacePieces {
     corners: Vec<[Vector; 3]>,
     around: Balls,
@@ -102,7 +104,7 @@ impl SurfacePieces {
         SurfacePieces { corners, around }
     }
 
-    /// The nearest point.
+    /// The point of the surface nearest to `x`.
     fn nearest(&self, x: Vector) -> Vector {
         let found = std::cell::Cell::new((f64::INFINITY, x));
         self.around.nearest(x, |piece| {
@@ -117,7 +119,7 @@ impl SurfacePieces {
     }
 }
 
-/// The point of a triangle that is nearest to another one.
+/// The point of a triangle that is nearest to the point `x`.
 ///
 /// # Source
 /// C. Ericson, *Real-Time Collision Detection* (2005), section 5.1.5.

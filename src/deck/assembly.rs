@@ -1,9 +1,10 @@
-//! Decks of parts and an assembly, as Abaqus/CAE writes them, as flat ones.
+//! Conversion of decks with parts and an assembly, as written by Abaqus/CAE, into flat decks.
 //!
-//! From the first `*PART` on all blocks are gathered, then written anew: those of a part once for
-//! each of its instances, at the place of the instance. Nodes and points are moved with it, numbers
-//! are those of [`super::instances`], names begin with the instance and a dot, as references from
-//! outside a part do. Readers see flat decks only.
+//! From the first `*PART` on, all blocks are collected and then written again. The blocks of a part
+//! are written once for each of its instances, at the position of the instance: nodes and points
+//! are moved, numbers are changed according to [`super::instances`], and names are prefixed with
+//! the instance's name and a dot, as in references from outside a part. The readers of keywords see
+//! flat decks only.
 //!
 //! # Source
 //! *Abaqus Analysis User's Guide* 6.14, 2.10.1, "Defining an assembly".
@@ -28,7 +29,8 @@ const FRAMES: [&str; 6] = [
     "END INSTANCE",
 ];
 
-/// Keywords that belong to the whole model: within a part, its end is missing.
+/// Keywords that belong to the whole model: if one occurs within a part, the end of the part is
+/// missing.
 const OF_MODEL: [&str; 5] = [
     "STEP",
     "MATERIAL",
@@ -37,10 +39,10 @@ const OF_MODEL: [&str; 5] = [
     "INITIAL CONDITIONS",
 ];
 
-/// Most instances whose numbers a note lists.
+/// Largest number of instances whose number offsets are listed in a note.
 const MOST_NAMED: usize = 4;
 
-/// Whether a keyword is one of parts and assemblies.
+/// Whether a keyword begins or ends a part, an instance or an assembly.
 pub(super) fn frames(keyword: &Keyword) -> bool {
     FRAMES.contains(&keyword.name.as_str())
 }
@@ -52,13 +54,13 @@ struct Block {
 }
 
 impl Block {
-    /// The values of one of its lines.
+    /// The values of one of the block's lines.
     fn fields<'a>(&'a self, source: &'a Source, line: Line) -> Fields<'a> {
         let place = self.keyword.at(source.file(line), line.place);
         Fields::new(source.bytes(line), place)
     }
 
-    /// Requires that it has no more than some lines.
+    /// Requires the block to have no more than `n` data lines.
     fn no_more(&self, source: &Source, n: usize) -> Result<()> {
         self.lines.get(n).map_or(Ok(()), |&line| {
             let place = self.fields(source, line).place;
@@ -71,14 +73,14 @@ impl Block {
     }
 }
 
-/// A part with what it is made of.
+/// A part with its blocks.
 struct PartBlocks {
     keyword: Keyword,
     name: String,
     blocks: Vec<Block>,
 }
 
-/// A part somewhere, with what is in this instance alone.
+/// An instance of a part with its placement, and the blocks that belong to this instance alone.
 struct Instance {
     keyword: Keyword,
     name: String,
@@ -87,13 +89,13 @@ struct Instance {
     blocks: Vec<Block>,
 }
 
-/// What stands outside of parts, in the order of the deck.
+/// An item outside of parts, in the order of the deck.
 enum Item {
     Instance(usize),
     Block(Block),
 }
 
-/// The rest of a deck from its first part on.
+/// The rest of a deck, from its first part on.
 #[derive(Default)]
 pub(super) struct Assembled {
     parts: Vec<PartBlocks>,
@@ -101,16 +103,16 @@ pub(super) struct Assembled {
     items: Vec<Item>,
     /// The name of the assembly.
     name: Option<String>,
-    /// Keywords of parts, instances and assembly.
+    /// Keywords that begin and end parts, instances and the assembly.
     frame: Vec<Keyword>,
 }
 
 impl Assembled {
-    /// Reads from the first of these keywords to the end of the deck.
+    /// Reads from the first keyword of parts or assemblies to the end of the deck.
     ///
     /// # Errors
-    /// Parts, instances and assemblies that begin or end where they cannot, share a name, or that
-    /// there are not.
+    /// `Input` for parts, instances and assemblies that begin or end at a wrong place, share a
+    /// name, or are not defined.
     pub(super) fn read(source: &mut Source, first: Keyword) -> Result<Assembled> {
         let mut out = Assembled::default();
         let mut open = Vec::new();
@@ -140,7 +142,8 @@ impl Assembled {
         Ok(out)
     }
 
-    /// Takes a block where it belongs; `open` are the keywords whose end is still to come.
+    /// Assigns a block to the part or instance it belongs to; `open` holds the keywords whose end
+    /// is still to come.
     fn take(&mut self, source: &Source, open: &mut Vec<Keyword>, block: Block) -> Result<()> {
         let files = &source.files;
         let keyword = &block.keyword;
@@ -256,10 +259,11 @@ impl Assembled {
         parts.position(|part| part.name.to_uppercase() == name)
     }
 
-    /// The instances and how they are numbered, where numbers up to one were read before.
+    /// The instances and their numbering; `before` is the largest number read before the first
+    /// part.
     ///
     /// # Errors
-    /// Numbers with too many digits.
+    /// `Input` if numbers have too many digits to be offset.
     pub(super) fn instances(&self, source: &Source, before: Option<u64>) -> Result<Instances> {
         let of_parts = self.parts.iter().flat_map(|part| &part.blocks);
         let of_instances = self.instances.iter().flat_map(|of| &of.blocks);
@@ -271,7 +275,7 @@ impl Assembled {
         let all = of_parts.chain(of_instances).chain(outside);
         for block in all.filter(|block| block.is(&["NODE", "ELEMENT"])) {
             for &line in &block.lines {
-                // What is no number is told where it is read.
+                // A value that is not a number is reported when the line is read later.
                 let label = block.fields(source, line).label("the number");
                 largest = largest.max(label.unwrap_or(0));
             }
@@ -289,12 +293,12 @@ impl Assembled {
         })
     }
 
-    /// Keywords of parts, instances and assembly, which are understood.
+    /// Keywords of parts, instances and the assembly, all of which have been processed.
     pub(super) fn frame(&self) -> &[Keyword] {
         &self.frame
     }
 
-    /// Parts that no instance is made of.
+    /// Parts of which there is no instance.
     pub(super) fn unused_parts(&self) -> impl Iterator<Item = &Keyword> {
         let is_used = |index: usize| self.instances.iter().any(|of| of.part == index);
         let parts = self.parts.iter().enumerate();
@@ -303,7 +307,7 @@ impl Assembled {
             .map(|(_, part)| &part.keyword)
     }
 
-    /// Note about numbers, and its place.
+    /// A note about the numbering of instances, and the keyword to which it refers.
     pub(super) fn note(&self, instances: &Instances) -> Option<(&Keyword, String)> {
         let first = self.instances.first()?;
         let names = instances.names().iter().take(MOST_NAMED).enumerate();

@@ -1,4 +1,4 @@
-//! Which body each element belongs to: the connected parts of each section.
+//! Assignment of elements to bodies: the connected parts of each section.
 
 use super::Deck;
 use super::data::Target;
@@ -14,7 +14,7 @@ pub(crate) struct Bodies {
     pub(crate) names: Vec<String>,
     /// Body of each element.
     pub(crate) of_element: Vec<u32>,
-    /// Section of each body; none of a deck without sections.
+    /// Section of each body; `None` if the deck has no sections.
     pub(super) sections: Vec<Option<usize>>,
 }
 
@@ -22,10 +22,11 @@ pub(crate) struct Bodies {
 const NONE: u32 = u32::MAX;
 
 impl Deck {
-    /// The dimension and idealisation that all elements have.
+    /// The dimension and idealisation common to all elements.
     ///
     /// # Errors
-    /// No elements, or elements of several kinds, at the first other one.
+    /// `Input` if there are no elements, or at the first element whose kind differs from that of
+    /// the first one.
     pub(crate) fn space(&self) -> Result<Space> {
         let Some(first) = self.elements.types.first() else {
             return Err(self.error(self.end, "ELEMENT", "the deck has no elements"));
@@ -44,15 +45,15 @@ impl Deck {
         }
     }
 
-    /// The bodies, in the order of their first elements.
+    /// The bodies of the deck, in the order of their first elements.
     ///
     /// # Errors
-    /// An element in no section or in two.
+    /// `Input` if an element is in no section or in two.
     pub(crate) fn bodies(&self) -> Result<Bodies> {
         let section_of = self.section_of_elements()?;
         let part_of = self.parts(&section_of);
         let mut out = Bodies::default();
-        // By section and part: the number of the body.
+        // The number of the body, by section and part.
         let mut known: BTreeMap<(u32, u32), u32> = BTreeMap::new();
         let mut sections = Vec::new();
         for (&section, &part) in section_of.iter().zip(&part_of) {
@@ -71,7 +72,8 @@ impl Deck {
         Ok(out)
     }
 
-    /// The section of each element; where there are none, the number of the first set it is in.
+    /// The section of each element. In a deck without sections, the number of the first element set
+    /// that contains the element.
     fn section_of_elements(&self) -> Result<Vec<u32>> {
         let mut out = vec![NONE; self.n_elements()];
         if self.properties.sections.is_empty() {
@@ -109,10 +111,12 @@ impl Deck {
         }
     }
 
-    /// A number for each element that those of its section share to which it is connected by nodes.
+    /// A number for each element, shared by all elements of its section to which it is connected
+    /// through nodes.
     fn parts(&self, section_of: &[u32]) -> Vec<u32> {
         let mut classes = Classes::new(section_of.len());
-        // Of each node its first section, and an element of it; nodes of several sections are few.
+        // For each node its first section and an element of it; the few nodes in several sections
+        // are kept separately.
         let mut first = vec![(NONE, NONE); self.n_nodes()];
         let mut others: HashMap<(u32, u32), u32> = HashMap::new();
         for (element, &section) in section_of.iter().enumerate() {
@@ -135,13 +139,13 @@ impl Deck {
             .collect()
     }
 
-    /// Gives each body that is a whole instance of a part the instance's name.
+    /// Names each body that is a whole instance of a part after the instance.
     fn name_by_instances(&self, bodies: &mut Bodies) {
         let n = self.instances.names().len();
         if n == 0 {
             return;
         }
-        // Of each body the instance, of each instance how many bodies it has.
+        // For each body its instance, and for each instance its number of bodies.
         let mut of_body = vec![None; bodies.names.len()];
         for (element, &body) in bodies.of_element.iter().enumerate().rev() {
             of_body[body as usize] = self.instances.of(self.elements.labels[element]);
@@ -155,8 +159,9 @@ impl Deck {
         }
     }
 
-    /// Names of the bodies, of which `sections` are given: of the section's set where it is all of
-    /// it, else of a set that is the body, else with a number.
+    /// Names of the bodies, whose sections are given. A body is named after its section's set if it
+    /// is the whole set, otherwise after an element set that is exactly the body, otherwise with a
+    /// number appended.
     fn body_names(&self, sections: &[u32], of_element: &[u32]) -> Result<Vec<String>> {
         let of_section = |section: u32| match self.properties.sections.get(section as usize) {
             Some(section) => section.elements.as_str(),
@@ -185,7 +190,7 @@ impl Deck {
         Ok(sections.iter().enumerate().map(name).collect())
     }
 
-    /// Element sets that hold exactly the elements of a body.
+    /// Element sets that contain exactly the elements of one body, by body.
     fn sets_that_are_bodies(
         &self,
         n_bodies: usize,
@@ -215,7 +220,7 @@ impl Deck {
     }
 }
 
-/// Makes an error one of an effect that brinell does not have.
+/// Turns an error into one of an effect that brinell does not have.
 pub(super) fn unsupported(error: Error) -> Error {
     Error::new(crate::ErrorKind::Unsupported, error.message())
 }

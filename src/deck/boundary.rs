@@ -1,9 +1,9 @@
-//! Elements that a mesher writes to name boundaries: Gmsh writes the curves of a plane mesh as
-//! trusses (`T3D2`), the surfaces of a solid one as plane elements (`CPS3`), meshio as beams,
-//! shells and rigid facets (`B31H`, `S8R5`, `R3D3`). A set of them stands for the faces that they
-//! lie on.
+//! Elements that a mesh generator writes in order to name boundaries. Gmsh writes the curves of a
+//! plane mesh as trusses (`T3D2`) and the surfaces of a solid mesh as plane elements (`CPS3`);
+//! meshio writes beams, shells and rigid facets (`B31H`, `S8R5`, `R3D3`). A set of such elements
+//! stands for the faces on which they lie.
 //!
-//! They have no stiffness here. A deck that gives them a section is refused.
+//! Boundary elements have no stiffness here. A deck that gives them a section is refused.
 
 use super::Deck;
 use super::bodies::unsupported;
@@ -16,16 +16,17 @@ use crate::error::Result;
 use crate::space::Space;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// Lines and shells, and plane elements beside solids, by their numbers.
+/// Boundary elements by their numbers: lines and shells, and plane elements in a mesh with solids.
 #[derive(Debug, Clone, Default)]
 pub(super) struct BoundaryElements {
-    /// Nodes of each, as numbered in the deck.
+    /// Nodes of each boundary element, as numbered in the deck.
     nodes: BTreeMap<u64, Vec<u64>>,
-    /// Where each type is named first.
+    /// Place at which each type is named first.
     types: BTreeMap<String, Place>,
 }
 
-/// The number of nodes of a type of lines or shells, which have no stiffness without a section.
+/// The number of nodes of a type of lines or shells, which are boundary elements unless a section
+/// gives them stiffness.
 pub(super) fn nodes_of_boundary(name: &str) -> Option<usize> {
     match plain(name).trim_end_matches('H') {
         "T2D2" | "T3D2" | "B21" | "B23" | "B31" | "B33" => Some(2),
@@ -51,7 +52,7 @@ impl BoundaryElements {
         self.nodes.contains_key(&label)
     }
 
-    /// Whether one has a number that is named: from, to, by steps of.
+    /// Whether a boundary element has a number in the range `[first, last, step]`.
     pub(super) fn any_of(&self, [first, last, step]: [u64; 3]) -> bool {
         let mut between = self.nodes.range(first..=last);
         between.any(|(label, _)| (label - first).is_multiple_of(step))
@@ -59,7 +60,8 @@ impl BoundaryElements {
 }
 
 impl Deck {
-    /// Takes plane elements beside solids for what they lie on. Returns the first of each type.
+    /// Turns plane elements in a mesh with solids into boundary elements. Returns the first element
+    /// of each type.
     pub(super) fn take_faces_of_solids(&mut self) -> Vec<(String, Place)> {
         let elements = &self.elements;
         let is_face: Vec<bool> = (elements.types.iter())
@@ -78,7 +80,7 @@ impl Deck {
                 found.push((name, elements.places[element]));
             }
         }
-        // Elements of one keyword are all of one type.
+        // All elements of one keyword have the same type.
         let mut kept = vec![0; is_face.len() + 1];
         for element in 0..is_face.len() {
             kept[element + 1] = kept[element] + usize::from(!is_face[element]);
@@ -103,7 +105,7 @@ impl Deck {
         found
     }
 
-    /// The boundary elements of a set of elements.
+    /// The boundary elements in a set of elements.
     pub(super) fn boundary_of(&self, target: &Target) -> BTreeSet<u64> {
         let mut out = BTreeSet::new();
         if !self.boundary.nodes.is_empty() {
@@ -144,7 +146,7 @@ impl Deck {
         }
     }
 
-    /// The nodes of boundary elements.
+    /// The nodes of the given boundary elements.
     pub(super) fn nodes_of_boundary(&self, lines: &BTreeSet<u64>) -> Vec<u32> {
         let nodes = lines.iter().flat_map(|label| &self.boundary.nodes[label]);
         nodes
@@ -152,7 +154,7 @@ impl Deck {
             .collect()
     }
 
-    /// The faces of elements on which boundary elements lie.
+    /// The faces of elements on which the given boundary elements lie.
     pub(super) fn faces_of_boundary(&self, lines: &BTreeSet<u64>) -> Vec<Face> {
         if lines.is_empty() {
             return Vec::new();
@@ -182,10 +184,10 @@ impl Deck {
         faces
     }
 
-    /// Boundary elements that a section gives a stiffness.
+    /// Refuses boundary elements to which a section would give a stiffness.
     ///
     /// # Errors
-    /// At the section.
+    /// `Unsupported`, at the section.
     pub(super) fn refuse_boundary_section(&self, set: &Target, at: At) -> Result<()> {
         let Some(&line) = self.boundary_of(set).first() else {
             return Ok(());

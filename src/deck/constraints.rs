@@ -1,4 +1,4 @@
-//! Equations that hold a surface plane, and local axes.
+//! Equations that hold a surface plane, and local axes of nodes.
 
 use super::Deck;
 use super::data::{Equation, Transform};
@@ -9,21 +9,22 @@ use crate::error::Result;
 use crate::space::{Vector, along, cross, difference, direction, dot, length};
 use std::collections::BTreeMap;
 
-/// Nodes whose displacement along an axis is that of one of them.
+/// Nodes that share one displacement along an axis, that of the leader.
 #[derive(Debug, Clone)]
 pub(super) struct HeldPlane {
-    /// The node and axis that all follow.
+    /// The node and axis whose displacement all nodes follow.
     pub(super) leader: Key,
-    /// The leader among them.
+    /// The nodes that share the displacement, the leader included.
     pub(super) nodes: Vec<u32>,
     pub(super) place: Place,
 }
 
 impl Deck {
-    /// What equations hold plane, `u_i - u_leader = 0` along one axis, and the other equations.
+    /// Separates the equations that hold nodes plane, `u_i - u_leader = 0` along one axis, from all
+    /// other equations.
     ///
     /// # Errors
-    /// Names and numbers that there are not.
+    /// `Input` for names and numbers that are not defined.
     pub(super) fn held_planes(&self) -> Result<(Vec<HeldPlane>, Vec<&Equation>)> {
         let mut out: BTreeMap<Key, HeldPlane> = BTreeMap::new();
         let mut others = Vec::new();
@@ -47,7 +48,8 @@ impl Deck {
         Ok((planes, others))
     }
 
-    /// The node that is followed along an axis, and those that follow, if it is that simple.
+    /// The leading node with its axis, and the nodes that follow, if the equation has this simple
+    /// form.
     fn follows(&self, equation: &Equation) -> Result<Option<(Key, Vec<u32>)>> {
         let [(of, freedom, a), (to, other, b)] = &equation.terms[..] else {
             return Ok(None);
@@ -63,10 +65,10 @@ impl Deck {
         }
     }
 
-    /// Local axes of the nodes that have some.
+    /// Local axes of the nodes for which the deck defines some.
     ///
     /// # Errors
-    /// Points that give no axes, and names that there are not.
+    /// `Input` for points that define no axes, and for names that are not defined.
     pub(super) fn local_axes(&self) -> Result<BTreeMap<u32, [Vector; 3]>> {
         let mut out = BTreeMap::new();
         for transform in &self.properties.transforms {
@@ -86,8 +88,9 @@ impl Deck {
     }
 }
 
-/// The axes at a point: along the first vector, in the plane of both, and at right angles; or
-/// outward from the axis through both points, around it, and along it.
+/// The axes at a point. Cartesian: along the first vector, perpendicular to it in the plane of both
+/// vectors, and normal to this plane. Cylindrical: outward from the axis through both points,
+/// around it, and along it.
 fn axes_at(transform: &Transform, x: Vector) -> Option<[Vector; 3]> {
     let [a, b] = transform.points;
     let (first, third) = match transform.is_cylindrical {

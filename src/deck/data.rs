@@ -1,4 +1,4 @@
-//! What a deck says, keyword by keyword: names and numbers as they are written, each with its
+//! Contents of a deck, keyword by keyword: names and numbers as they are written, each with its
 //! place.
 
 use super::element_type::ElementType;
@@ -7,29 +7,30 @@ use super::source::{Files, Place};
 use crate::scene::{ResultItem, Totals};
 use std::collections::BTreeMap;
 
-/// Nodes, in the order of the deck.
+/// Nodes of a deck, in the order of the deck.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Nodes {
     pub(super) labels: Vec<u64>,
-    /// Three per node.
+    /// Coordinates, three per node.
     pub(super) coordinates: Vec<f64>,
     pub(super) places: Vec<Place>,
 }
 
-/// Elements, in the order of the deck.
+/// Elements of a deck, in the order of the deck.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Elements {
     pub(super) labels: Vec<u64>,
     pub(super) types: Vec<ElementType>,
-    /// Start of the nodes of each element, and the end of the last one's.
+    /// Index in `nodes` at which each element's nodes begin, followed by the end of the last
+    /// element's nodes.
     pub(super) offsets: Vec<usize>,
-    /// Numbers of the nodes of all elements, one after the other.
+    /// Numbers of the nodes of all elements, one element after the other.
     pub(super) nodes: Vec<u64>,
     pub(super) places: Vec<Place>,
 }
 
 impl Elements {
-    /// Keeps those that are wanted, by their place.
+    /// Keeps only the elements that are wanted, selected by index.
     pub(super) fn retain(&mut self, wanted: impl Fn(usize) -> bool) {
         let old = std::mem::take(self);
         self.offsets.push(0);
@@ -44,26 +45,26 @@ impl Elements {
     }
 }
 
-/// Something named, or one node or element by its number.
+/// A named set or surface, or a single node or element by its number.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Target {
     Label(u64),
     Set(String),
 }
 
-/// What is in a set.
+/// A member of a set of nodes or elements.
 #[derive(Debug, Clone)]
 pub(super) enum Member {
     Of(Target),
-    /// From, to, by steps of.
+    /// A range of numbers: first, last, and step.
     Range(u64, u64, u64),
-    /// Rows of the deck's nodes or elements, from one to before another.
+    /// A range of rows of the deck's nodes or elements: first row, and the row after the last.
     Rows(usize, usize),
     /// The nodes of an element set.
     NodesOf(String),
 }
 
-/// Names without regard to case, with what they name.
+/// Values by name, without regard to case.
 #[derive(Debug, Clone)]
 pub(super) struct Named<T>(BTreeMap<String, (String, T)>);
 
@@ -82,7 +83,7 @@ impl<T> Named<T> {
         self.0.get_mut(&name.to_uppercase()).map(|(_, value)| value)
     }
 
-    /// The entry of a name, made where there is none yet.
+    /// The value of a name, created if it does not exist.
     pub(super) fn entry(&mut self, name: &str) -> &mut T
     where
         T: Default,
@@ -91,24 +92,24 @@ impl<T> Named<T> {
         &mut self.0.entry(name.to_uppercase()).or_insert_with(new).1
     }
 
-    /// Shows all that is named.
+    /// Calls `show` with each value.
     pub(super) fn for_each(&mut self, show: impl FnMut(&mut T)) {
         self.0.values_mut().map(|(_, value)| value).for_each(show);
     }
 
-    /// The name as it was first written, and what it names.
+    /// All values, each with its name as it was first written.
     pub(super) fn iter(&self) -> impl Iterator<Item = (&str, &T)> {
         self.0.values().map(|(name, value)| (name.as_str(), value))
     }
 
-    /// How a name was first written.
+    /// The spelling in which a name was first written.
     pub(super) fn written(&self, name: &str) -> Option<&str> {
         self.0
             .get(&name.to_uppercase())
             .map(|(name, _)| name.as_str())
     }
 
-    /// All names in small letters, for messages.
+    /// All names in lower case, for messages.
     pub(super) fn names(&self) -> Vec<String> {
         self.0
             .values()
@@ -117,21 +118,21 @@ impl<T> Named<T> {
     }
 }
 
-/// Members of a set with their places.
+/// Members of a set, with their places.
 pub(super) type Members = Vec<(Member, Place)>;
 
-/// What a surface is made of.
+/// A part of a surface.
 #[derive(Debug, Clone)]
 pub(super) enum SurfacePart {
-    /// A face, by its number, of elements.
+    /// One face, by its number, of each of some elements.
     Face(Target, usize),
-    /// The faces of elements that belong to no other element.
+    /// The faces of some elements that belong to no other element.
     Free(Target),
-    /// The faces all of whose nodes are among some.
+    /// The faces all of whose nodes are among the given ones.
     OfNodes(Target),
 }
 
-/// Sets and surfaces.
+/// Sets and surfaces of a deck.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Sets {
     pub(super) nodes: Named<Members>,
@@ -139,7 +140,7 @@ pub(super) struct Sets {
     pub(super) surfaces: Named<Vec<(SurfacePart, Place)>>,
 }
 
-/// A material with its curves by temperature.
+/// A material, with its curves by temperature.
 #[derive(Debug, Clone, Default)]
 pub(super) struct MaterialData {
     pub(super) place: Place,
@@ -147,16 +148,16 @@ pub(super) struct MaterialData {
     pub(super) elastic: Vec<(f64, [f64; 2])>,
     /// Rows of plastic strain and yield stress by temperature, ascending.
     pub(super) plastic: Vec<(f64, Hardening)>,
-    /// Whether hardening moves the yield surface: linear.
+    /// Whether hardening is linear kinematic, that is moves the yield surface.
     pub(super) is_kinematic: bool,
     pub(super) density: Option<f64>,
     pub(super) expansion: Option<Expansion>,
 }
 
-/// Plastic strain and yield stress, by row.
+/// Rows of plastic strain and yield stress.
 pub(super) type Hardening = Vec<[f64; 2]>;
 
-/// What a set of elements is made of.
+/// The material and thickness of a set of elements.
 #[derive(Debug, Clone)]
 pub(super) struct Section {
     pub(super) elements: String,
@@ -166,15 +167,15 @@ pub(super) struct Section {
     pub(super) place: Place,
 }
 
-/// How surfaces press on each other.
+/// Law of the pressure between surfaces in contact.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Interaction {
     pub(super) place: Place,
-    /// Pressure over overlap, where contact is soft.
+    /// Pressure over overlap for soft contact; `None` for hard contact.
     pub(super) stiffness: Option<f64>,
 }
 
-/// Which nodes of a slave surface are moved onto the master surface.
+/// The nodes of a slave surface that are moved onto the master surface.
 #[derive(Debug, Clone)]
 pub(super) enum Adjust {
     /// Slave nodes within a distance of the master surface.
@@ -195,17 +196,17 @@ pub(super) struct ContactPair {
     pub(super) place: Place,
 }
 
-/// Two surfaces that stay together.
+/// Two surfaces that are tied together.
 #[derive(Debug, Clone)]
 pub(super) struct TiedPair {
     pub(super) slave: String,
     pub(super) master: String,
-    /// Largest distance of the surfaces.
+    /// Largest distance between the surfaces.
     pub(super) tolerance: Option<f64>,
     pub(super) place: Place,
 }
 
-/// The distance of two surfaces, whatever the nodes say.
+/// The distance of two surfaces, regardless of the positions of their nodes.
 #[derive(Debug, Clone)]
 pub(super) struct Clearance {
     pub(super) slave: String,
@@ -214,39 +215,39 @@ pub(super) struct Clearance {
     pub(super) place: Place,
 }
 
-/// A function of time, piecewise linear, flat outside.
+/// A function of time, piecewise linear, and constant outside its rows.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Amplitude {
-    /// Time and value.
+    /// Rows of time and value.
     pub(super) rows: Vec<[f64; 2]>,
-    /// Whether times count from the beginning of the first step, not of the step at hand.
+    /// Whether times are measured from the beginning of the first step instead of the current step.
     pub(super) is_total: bool,
 }
 
-/// `sum coefficient u = 0`.
+/// A linear equation `sum coefficient u = 0`.
 #[derive(Debug, Clone)]
 pub(super) struct Equation {
-    /// Nodes, degree of freedom from 1, coefficient.
+    /// Terms: nodes, degree of freedom counted from 1, and coefficient.
     pub(super) terms: Vec<(Target, usize, f64)>,
     pub(super) place: Place,
 }
 
-/// Nodes that move as a rigid body does: a displacement and a rotation.
+/// Nodes that move like a rigid body, by a displacement and a rotation.
 #[derive(Debug, Clone)]
 pub(super) struct Rigid {
     pub(super) nodes: RigidNodes,
-    /// The node whose displacement is the body's there, and whose degrees of freedom from 4 on are
-    /// its rotations.
+    /// The node whose displacement is the body's displacement at this point, and whose degrees of
+    /// freedom from 4 on are the body's rotations.
     pub(super) reference: Target,
-    /// The node whose displacement is the rotation.
+    /// The node whose displacement is the body's rotation.
     pub(super) rotation: Option<Target>,
-    /// Degrees of freedom that follow.
+    /// Axes along which the nodes follow the body.
     pub(super) follows: [bool; 3],
     pub(super) place: Place,
     pub(super) keyword: &'static str,
 }
 
-/// Which nodes belong to a rigid body.
+/// The nodes that belong to a rigid body.
 #[derive(Debug, Clone)]
 pub(super) enum RigidNodes {
     /// Nodes of a set of nodes.
@@ -257,17 +258,18 @@ pub(super) enum RigidNodes {
     Surface(String),
 }
 
-/// Local axes of the nodes of a set.
+/// Local axes for the nodes of a set.
 #[derive(Debug, Clone)]
 pub(super) struct Transform {
     pub(super) nodes: String,
-    /// About an axis through two points, instead of axes along two vectors.
+    /// Whether the axes are cylindrical about a line through two points, instead of along two
+    /// vectors.
     pub(super) is_cylindrical: bool,
     pub(super) points: [[f64; 3]; 2],
     pub(super) place: Place,
 }
 
-/// Materials, contact and constraints.
+/// Materials, sections, contact and constraints of a deck.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Properties {
     pub(super) materials: Named<MaterialData>,
@@ -281,16 +283,16 @@ pub(super) struct Properties {
     pub(super) rigid: Vec<Rigid>,
 }
 
-/// What a condition does.
+/// The kind of a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Degrees of freedom have a value.
+    /// A prescribed value of degrees of freedom.
     Boundary,
     /// A force on each node along a degree of freedom.
     Force,
     /// A pressure on a face of each element, or on a surface.
     Pressure,
-    /// The temperature of nodes.
+    /// A temperature of nodes.
     Temperature,
     /// A load on the volume of elements.
     Volume,
@@ -301,12 +303,13 @@ impl Kind {
     pub(super) const COUNT: usize = Kind::Volume as usize + 1;
 }
 
-/// What acts on the volume of elements.
+/// A load that acts on the volume of elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum VolumeLoad {
     /// An acceleration along a unit vector.
     Acceleration([f64; 3]),
-    /// A rotation, whose size is its speed squared, about an axis: a point and a unit vector.
+    /// A rotation about an axis, given by a point and a unit vector; its size is the square of the
+    /// angular speed.
     Rotation([[f64; 3]; 2]),
 }
 
@@ -315,12 +318,12 @@ pub(super) enum VolumeLoad {
 pub(super) struct Condition {
     pub(super) kind: Kind,
     pub(super) on: Target,
-    /// First and last degree of freedom from 1; the number of the face twice, 0 of a surface; the
-    /// index of a volume load twice.
+    /// First and last degree of freedom, counted from 1. For a pressure the number of the face
+    /// twice, or 0 for a surface; for a volume load its index twice.
     pub(super) range: [usize; 2],
     pub(super) value: f64,
     pub(super) amplitude: Option<String>,
-    /// Whether the value is the one that the step before ended with.
+    /// Whether the value is the one with which the step before ended.
     pub(super) is_fixed: bool,
     pub(super) place: Place,
 }
@@ -334,7 +337,7 @@ pub(super) struct ContactChange {
     pub(super) place: Place,
 }
 
-/// What results that are asked for belong to.
+/// The kind of entity to which requested results belong.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Group {
     Node,
@@ -343,37 +346,38 @@ pub(super) enum Group {
     Section,
 }
 
-/// Results that a step asks for.
+/// Results that a step requests.
 #[derive(Debug, Clone)]
 pub(super) struct OutputRequest {
     pub(super) group: Group,
-    /// Whether the request is for a table, not for the result file.
+    /// Whether the request is for a printed table and not for the result file.
     pub(super) is_print: bool,
     pub(super) items: Vec<ResultItem>,
-    /// The set of nodes or elements, of a section its surface; all where none is named.
+    /// The set of nodes or elements, or for a section its surface; all nodes or elements if `None`.
     pub(super) set: Option<String>,
-    /// Slave and master surface of a contact.
+    /// Slave and master surface, for results of a contact.
     pub(super) contact: Option<[String; 2]>,
     pub(super) totals: Totals,
-    /// Whether vectors are along x, y, z at nodes with axes of their own, too.
+    /// Whether vectors are given along x, y, z even at nodes with local axes.
     pub(super) is_global: bool,
     pub(super) place: Place,
 }
 
-/// When results are asked for, besides at the end of a step.
+/// The times at which results are requested, in addition to the end of a step.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Schedule {
-    /// Every so many increments.
+    /// At every n-th increment.
     Every(usize),
-    /// Results at the time points of this name.
+    /// At the time points of this name.
     At(String),
 }
 
-/// Times at which results are asked for, ascending.
+/// Times at which results are requested, ascending.
 #[derive(Debug, Clone, Default)]
 pub(super) struct TimePoints {
     pub(super) times: Vec<f64>,
-    /// Since the beginning of the first step, not of the step at hand.
+    /// Whether the times are measured from the beginning of the first step instead of the current
+    /// step.
     pub(super) is_total: bool,
 }
 
@@ -382,26 +386,27 @@ pub(super) struct TimePoints {
 pub(super) struct Step {
     pub(super) place: Place,
     pub(super) period: f64,
-    /// Increments that it is to take, where it says so.
+    /// Number of increments that the step would take, if it gives one.
     pub(super) increments: usize,
-    /// The time that all of them take but the last, where it is fixed.
+    /// Time of each increment except the last, if it is fixed.
     pub(super) fixed: Option<f64>,
     pub(super) conditions: Vec<Condition>,
     pub(super) contact_changes: Vec<ContactChange>,
     pub(super) outputs: Vec<OutputRequest>,
-    /// When they are asked for, where it says so.
+    /// Times at which the results are requested, if the step gives them.
     pub(super) schedule: Option<Schedule>,
-    /// Place where the step says that conditions replace those of the steps before, for each kind.
+    /// For each kind, the place at which the step declares that conditions replace those of earlier
+    /// steps.
     pub(super) renewed: [Option<Place>; Kind::COUNT],
 }
 
-/// Conditions and steps.
+/// Conditions and steps of a deck.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Program {
-    /// Conditions before the first step.
+    /// Conditions that are given before the first step.
     pub(super) initial: Vec<Condition>,
     pub(super) steps: Vec<Step>,
-    /// All that act on volumes.
+    /// All loads that act on volumes; conditions refer to them by index.
     pub(super) volume_loads: Vec<VolumeLoad>,
     pub(super) amplitudes: Named<Amplitude>,
     pub(super) time_points: Named<TimePoints>,
@@ -410,11 +415,11 @@ pub(super) struct Program {
 /// A remark on a line of the deck.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
-    /// `FILE, line N`.
+    /// Place of the line, `FILE, line N`.
     pub place: String,
-    /// The keyword, as it is written in manuals.
+    /// The keyword, as written in manuals.
     pub keyword: String,
-    /// Text of the note.
+    /// Text of the remark.
     pub text: String,
 }
 
@@ -424,21 +429,23 @@ impl std::fmt::Display for Note {
     }
 }
 
-/// What became of a deck.
+/// An account of how a deck was read: what was understood, interpreted differently, ignored and
+/// refused.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Account {
-    /// Keywords that were read: how often, and where first.
+    /// Keywords that were read: number of occurrences, and place of the first one.
     pub understood: BTreeMap<String, (usize, String)>,
-    /// What is taken otherwise than the deck means it.
+    /// Remarks on data that brinell interprets differently from the deck's meaning.
     pub taken: Vec<Note>,
-    /// What changes nothing here, and why.
+    /// Remarks on data that have no effect here, with the reason.
     pub ignored: Vec<Note>,
-    /// What brinell does not have.
+    /// Remarks on data that ask for effects that brinell does not have.
     pub refused: Vec<Note>,
 }
 
 impl Account {
-    /// Adds a remark to one of its lists, but no second one of the same keyword and text.
+    /// Adds a remark to one of the lists, unless the list has a remark with the same keyword and
+    /// text.
     pub(super) fn add(list: &mut Vec<Note>, files: &Files, place: Place, key: &str, text: &str) {
         let is_there = |note: &Note| note.keyword == key && note.text == text;
         if !list.iter().any(is_there) {

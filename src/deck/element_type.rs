@@ -4,18 +4,18 @@ use super::keyword::plain;
 use crate::shape::{Integration, Shape};
 use crate::space::Space;
 
-/// What an element type is to brinell.
+/// The element that brinell uses for an element type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct ElementType {
     pub(super) shape: Shape,
     pub(super) space: Space,
-    /// Reduced of shapes that have one rule.
+    /// Integration of the type; reduced for shapes that have only one rule.
     pub(super) integration: Integration,
-    /// Difference between its formulation and the one that it is computed with.
+    /// Difference between the type's formulation and the one with which it is computed.
     pub(super) note: Option<&'static str>,
 }
 
-/// Differences between formulations and the element that takes their place.
+/// Differences between the formulation of a type and of the element used for it.
 const REDUCED: &str =
     "one point with hourglass control there; here full integration with mean dilatation (B-bar)";
 const MODES: &str = "incompatible modes there; here mean dilatation (B-bar), without them";
@@ -23,7 +23,7 @@ const HYBRID: &str = "pressure unknowns there; here none: mean dilatation, or th
 const PORE: &str = "pore pressures there; here none";
 const MODIFIED: &str = "modified there; here the plain quadratic element";
 
-/// Families of the plane, by the beginning of their names.
+/// Families of plane elements, by the beginning of their names.
 const PLANE: [(&str, Space); 3] = [
     ("CPE", Space::PlaneStrain),
     ("CPS", Space::PlaneStress),
@@ -31,17 +31,17 @@ const PLANE: [(&str, Space); 3] = [
 ];
 
 impl ElementType {
-    /// The plain name of a plane type, or of the solids.
+    /// The plain name of a type, without letters for its formulation.
     pub(super) fn name(&self) -> String {
         let family = PLANE.iter().find(|(_, space)| *space == self.space);
         let start = family.map_or("C3D", |(start, _)| start);
         format!("{start}{}", self.shape.n_nodes())
     }
 
-    /// The type of a name; what is wrong with it otherwise.
+    /// The type of the given name, or the reason why it cannot be used.
     ///
     /// # Errors
-    /// The reason, with what can be taken.
+    /// The reason in words, with the types that can be used.
     pub(super) fn from_name(name: &str) -> Result<ElementType, String> {
         let name = plain(name);
         let plane = PLANE.iter().find_map(|(start, space)| {
@@ -76,7 +76,7 @@ impl ElementType {
     }
 }
 
-/// Whether full and reduced integration differ.
+/// Whether full and reduced integration differ for the shape.
 pub(super) fn has_two_rules(shape: Shape) -> bool {
     shape.n_points(Integration::Full) > shape.n_points(Integration::Reduced)
 }
@@ -124,7 +124,7 @@ fn in_space(rest: &str) -> TypeFound {
     })
 }
 
-/// Corners of the faces of each solid, by their number in the deck.
+/// Corners of the faces of each shape, in the order of face numbers in a deck.
 fn faces(shape: Shape) -> &'static [&'static [usize]] {
     match shape {
         Shape::Tet4 | Shape::Tet10 => &[&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[2, 3, 0]],
@@ -148,7 +148,7 @@ fn faces(shape: Shape) -> &'static [&'static [usize]] {
     }
 }
 
-/// The local facet of a face number of the deck, from 1; `None` where there is no such face.
+/// The local facet of a face number of the deck, counted from 1; `None` if there is no such face.
 pub(super) fn facet(shape: Shape, number: usize) -> Option<usize> {
     let corners = faces(shape).get(number.checked_sub(1)?)?;
     (0..shape.n_facets()).find(|&local| {
@@ -158,7 +158,7 @@ pub(super) fn facet(shape: Shape, number: usize) -> Option<usize> {
     })
 }
 
-/// The number that a deck has for a local facet, from 1.
+/// The number in a deck, counted from 1, of a local facet.
 pub(crate) fn face_number(shape: Shape, local: usize) -> Option<usize> {
     (1..=shape.n_facets()).find(|&number| facet(shape, number) == Some(local))
 }

@@ -1,14 +1,14 @@
-//! Expansion by temperature (`*EXPANSION`).
+//! Thermal expansion (`*EXPANSION`).
 //!
-//! The coefficient `a` is a secant from a reference temperature `T_z` (`ZERO`): from an initial
+//! The coefficient `a` is a secant from a reference temperature `T_z` (`ZERO`). From an initial
 //! temperature `T_0` to `T` a material strains by
 //!
 //! ```text
 //! eps = a(T) (T - T_z) - a(T_0) (T_0 - T_z)
 //! ```
 //!
-//! and by `a (T - T_0)` where `a` is the same at all temperatures. A scene has one coefficient; its
-//! changes of temperature are those that strain by the same with it.
+//! and by `a (T - T_0)` if `a` is the same at all temperatures. A scene has one coefficient. Its
+//! changes of temperature are chosen so that they give the same strain with this coefficient.
 //!
 //! # Source
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, `*EXPANSION`.
@@ -16,10 +16,10 @@
 use super::series::Series;
 use crate::interpolation::interpolate;
 
-/// Secant coefficients of expansion by temperature, constant beyond the first and last.
+/// Secant coefficients of expansion by temperature, constant beyond the first and the last row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Expansion {
-    /// Temperature, ascending, and coefficient; at least one row.
+    /// Rows of temperature, ascending, and coefficient; at least one.
     rows: Vec<[f64; 2]>,
     /// The reference temperature of the secants.
     zero: f64,
@@ -30,18 +30,18 @@ impl Expansion {
         Expansion { rows, zero }
     }
 
-    /// The one coefficient of a scene: that of the largest size.
+    /// The coefficient used in the scene: the one with the largest absolute value.
     pub(super) fn coefficient(&self) -> f64 {
         let all = self.rows.iter().map(|row| row[1]);
         all.fold(0.0, |most, a| if a.abs() > most.abs() { a } else { most })
     }
 
-    /// Whether the expansion is the same at all temperatures.
+    /// Whether the coefficient is the same at all temperatures.
     pub(super) fn is_constant(&self) -> bool {
         self.rows.iter().all(|row| row[1] == self.rows[0][1])
     }
 
-    /// The change of temperature that strains by as much with the one coefficient as going from an
+    /// The change of temperature that gives, with the scene's coefficient, the strain from the
     /// initial temperature to another.
     fn equivalent(&self, initial: f64, temperature: f64) -> f64 {
         let coefficient = self.coefficient();
@@ -52,8 +52,8 @@ impl Expansion {
         share(temperature) - share(initial)
     }
 
-    /// Equivalent changes for changes of temperature since an initial one, straight between these
-    /// and the given times.
+    /// Equivalent changes for changes of temperature since an initial one; linear between the times
+    /// of these changes and the given times.
     pub(super) fn equivalents(&self, initial: f64, change: &Series, times: &[f64]) -> Series {
         let mut all: Vec<f64> = change.times().chain(times.iter().copied()).collect();
         all.sort_by(f64::total_cmp);
@@ -70,7 +70,7 @@ impl Expansion {
 mod tests {
     use super::*;
 
-    /// By hand: 1.2e-5 at 20 to 1.4e-5 at 200, from 20 to 120 with secants from 20.
+    /// By hand: 1.2e-5 at 20 and 1.4e-5 at 200, for a change from 20 to 120 with secants from 20.
     #[test]
     fn strains_are_differences_of_secants() {
         let rows = vec![[20.0, 1.2e-5], [200.0, 1.4e-5]];

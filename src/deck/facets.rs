@@ -1,13 +1,13 @@
-//! Faces of elements that no other element has.
+//! Faces of elements that belong to a single element.
 
 use super::Deck;
 use crate::shape::Shape;
 use std::collections::HashMap;
 
-/// An element and its local facet.
+/// A face: an element and its local facet.
 pub(crate) type Face = (u32, u8);
 
-/// The corners of a face, ascending; filled up where it has fewer than four.
+/// The corners of a face in ascending order, padded to four.
 type FaceCorners = [u32; 4];
 
 fn corners(nodes: &[u32], shape: Shape, local: usize) -> FaceCorners {
@@ -21,7 +21,7 @@ fn corners(nodes: &[u32], shape: Shape, local: usize) -> FaceCorners {
 }
 
 impl Deck {
-    /// The faces of some elements that no other element of the deck has.
+    /// The faces of the given elements that belong to no other element of the deck.
     pub(super) fn free_faces_of(&self, elements: &[u32]) -> Vec<Face> {
         let nodes = elements
             .iter()
@@ -31,7 +31,8 @@ impl Deck {
         faces.into_iter().filter(is_of_these).collect()
     }
 
-    /// The faces all of whose corners are among some nodes and that one element alone has.
+    /// The faces all of whose corners are among the given nodes and that belong to a single
+    /// element.
     pub(super) fn free_faces_among(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
         let mut marked = vec![false; self.n_nodes()];
         nodes

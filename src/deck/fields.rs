@@ -1,18 +1,18 @@
-//! The values of a data line, separated by commas.
+//! The values of a data line, which are separated by commas.
 
 use crate::error::{Error, Result};
 
-/// Where a line stands, for messages.
+/// Place of a line, for messages.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Where<'t> {
     pub(super) file: &'t str,
     pub(super) line: u32,
-    /// Keyword as it is written, without the star.
+    /// Keyword as written in the deck, without the asterisk.
     pub(super) keyword: &'t str,
 }
 
 impl Where<'_> {
-    /// `FILE, line N: *KEYWORD: message`.
+    /// An error as `FILE, line N: *KEYWORD: message`.
     pub(super) fn error(&self, message: impl std::fmt::Display) -> Error {
         let Where {
             file,
@@ -27,7 +27,7 @@ impl Where<'_> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Fields<'t> {
     rest: &'t [u8],
-    /// Whether the last value was followed by a comma, or none was read yet.
+    /// Whether the last value was followed by a comma, or no value has been read yet.
     goes_on: bool,
     pub(super) place: Where<'t>,
 }
@@ -41,7 +41,7 @@ impl<'t> Fields<'t> {
         }
     }
 
-    /// Whether there are no more values. A comma at the end of a line is no value.
+    /// Whether there are no more values. A comma at the end of a line is not followed by a value.
     pub(super) fn is_at_end(&self) -> bool {
         !self.goes_on || self.rest.is_empty()
     }
@@ -51,7 +51,7 @@ impl<'t> Fields<'t> {
         self.goes_on && self.rest.is_empty()
     }
 
-    /// The next value as it is written, without blanks and quotes; empty where none is given.
+    /// Reads the next value as written, without blanks and quotes; empty if it is left out.
     pub(super) fn word(&mut self) -> &'t [u8] {
         match self.written() {
             [b'"', inner @ .., b'"'] => inner,
@@ -59,7 +59,7 @@ impl<'t> Fields<'t> {
         }
     }
 
-    /// As [`Fields::word`], with quotes.
+    /// Reads the next value as written, without blanks but with quotes.
     pub(super) fn written(&mut self) -> &'t [u8] {
         let length = comma(self.rest);
         let word = &self.rest[..length.unwrap_or(self.rest.len())];
@@ -68,12 +68,12 @@ impl<'t> Fields<'t> {
         word.trim_ascii()
     }
 
-    /// What was not read yet.
+    /// The part of the line that has not been read.
     pub(super) fn rest(&self) -> &'t [u8] {
         self.rest
     }
 
-    /// The next value as text.
+    /// Reads the next value as text.
     pub(super) fn text(&mut self, what: &str) -> Result<String> {
         let word = self.word();
         if word.is_empty() {
@@ -85,7 +85,7 @@ impl<'t> Fields<'t> {
         }
     }
 
-    /// The next value, which must be a number.
+    /// Reads the next value, which must be a number.
     #[inline]
     pub(super) fn number(&mut self, what: &str) -> Result<f64> {
         match self.number_or(what, f64::NAN)? {
@@ -94,7 +94,7 @@ impl<'t> Fields<'t> {
         }
     }
 
-    /// The next value, a number; `default` where none is given.
+    /// Reads the next value, a number; returns `default` if it is left out.
     #[inline]
     pub(super) fn number_or(&mut self, what: &str, default: f64) -> Result<f64> {
         if let Some((value, length)) = plain_number(self.rest)
@@ -119,11 +119,11 @@ impl<'t> Fields<'t> {
         })
     }
 
-    /// The next value, which must be a whole number.
+    /// Reads the next value, which must be a whole number.
     #[inline]
     pub(super) fn label(&mut self, what: &str) -> Result<u64> {
         let digits = self.rest.iter().take_while(|b| b.is_ascii_digit()).count();
-        // Eighteen digits fit.
+        // Up to eighteen digits fit into 64 bits.
         if (1..=18).contains(&digits) {
             let of_digit = |value, b: &u8| 10 * value + u64::from(b - b'0');
             let value = self.rest[..digits].iter().fold(0, of_digit);
@@ -143,7 +143,8 @@ impl<'t> Fields<'t> {
         })
     }
 
-    /// Whether a value of `length` bytes ends with a comma or the line; steps over it if so.
+    /// Whether a value of `length` bytes is followed by a comma or the end of the line; skips the
+    /// value if so.
     #[inline]
     fn ends_after(&mut self, length: usize) -> bool {
         let mut after = &self.rest[length..];
@@ -165,7 +166,7 @@ impl<'t> Fields<'t> {
         true
     }
 
-    /// Nothing may come after.
+    /// Requires that no value follows.
     pub(super) fn end(&mut self) -> Result<()> {
         while !self.is_at_end() {
             let word = self.word();
@@ -185,7 +186,7 @@ impl<'t> Fields<'t> {
     }
 }
 
-/// The first comma that stands in no name in quotes.
+/// Position of the first comma outside of quotes.
 pub(super) fn comma(bytes: &[u8]) -> Option<usize> {
     let first = bytes.iter().position(|&b| b == b',')?;
     if !bytes[..first].contains(&b'"') {
@@ -196,7 +197,7 @@ pub(super) fn comma(bytes: &[u8]) -> Option<usize> {
         is_quoted ^= b == b'"';
         b == b',' && !is_quoted
     });
-    // Behind a quote that nothing closes all commas count.
+    // After a quote that is never closed, all commas count.
     if is_quoted { Some(first) } else { found }
 }
 
@@ -206,15 +207,16 @@ pub(super) fn shown(word: &[u8]) -> String {
     String::from_utf8_lossy(&word[..word.len().min(LONGEST)]).into_owned()
 }
 
-/// Powers of ten that a double holds exactly.
+/// Powers of ten that a double represents exactly.
 const EXACT_POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// A number at the front of some bytes and its length, where digits and power of ten are exact
-/// doubles: then one operation rounds once, and the value is the one the standard library gives
-/// (W. D. Clinger, *How to read floating point numbers accurately*, 1990). `None` for all others.
+/// Reads a number at the front of some bytes, with its length, provided that its digits and its
+/// power of ten are exact doubles. A single operation then rounds once, and the value is the one
+/// that the standard library gives (W. D. Clinger, *How to read floating point numbers accurately*,
+/// 1990). `None` for all other numbers.
 #[inline]
 fn plain_number(bytes: &[u8]) -> Option<(f64, usize)> {
     let is_negative = bytes.first() == Some(&b'-');
@@ -224,7 +226,7 @@ fn plain_number(bytes: &[u8]) -> Option<(f64, usize)> {
     loop {
         match bytes.get(at) {
             Some(&b) if b.is_ascii_digit() => {
-                // Wraps beyond 19 digits, which are not taken below.
+                // Wraps beyond 19 digits; such numbers are rejected below.
                 digits = digits.wrapping_mul(10).wrapping_add(u64::from(b - b'0'));
                 n_digits += 1;
                 exponent -= i32::from(has_point);
@@ -289,7 +291,7 @@ mod tests {
         keyword: "NODE",
     };
 
-    /// The fast way and the standard library agree to the last bit.
+    /// The fast method and the standard library agree to the last bit.
     #[test]
     fn numbers_are_those_of_the_standard_library() {
         let mut state = 1u64;

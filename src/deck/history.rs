@@ -1,8 +1,9 @@
-//! What each degree of freedom, node and face goes through over all steps.
+//! Histories of the values of degrees of freedom, nodes and faces over all steps.
 //!
-//! A value that a step gives is reached linearly from the one before over the time of the step, or
-//! follows an amplitude; one that it does not give stays, or with `OP=NEW` goes back to zero.
-//! Values for the same node or face in one step add up, those of supports replace one another.
+//! A value given in a step is reached linearly from the one before over the time of the step, or
+//! follows an amplitude. A value not given in a step stays, or goes back to zero with `OP=NEW`.
+//! Several values for the same node or face in one step are added, but values of supports replace
+//! each other.
 
 use super::Deck;
 use super::bodies::unsupported;
@@ -16,24 +17,25 @@ use crate::interpolation::interpolate;
 use crate::number::exact;
 use std::collections::BTreeMap;
 
-/// A value that begins farther from where the last step ended, as a share of the two, jumps.
+/// Relative difference, between the end of a step and the beginning of the next, above which a
+/// value counts as jumping.
 const JUMP: f64 = 1e-9;
 
-/// A node and its degree of freedom from 0, or an element and its local facet.
+/// A node and its degree of freedom counted from 0, or an element and its local facet.
 pub(super) type Key = Face;
 
-/// Values of one key.
+/// The history of one key.
 #[derive(Debug, Clone)]
 pub(super) struct Entry {
     pub(super) series: Series,
-    /// The line that gave it last.
+    /// The line that gave the value last.
     pub(super) place: Place,
-    /// Values with amplitudes over the whole time, which run on.
+    /// Values with amplitudes over total time, which continue in later steps.
     runs_on: Vec<(f64, String)>,
 }
 
 impl Entry {
-    /// Values that a line makes follow from others.
+    /// A history that follows from other values because of a line of the deck.
     pub(super) fn new(series: Series, place: Place) -> Self {
         Entry {
             series,
@@ -43,19 +45,19 @@ impl Entry {
     }
 }
 
-/// Values of a step, by their key.
+/// Histories by key.
 pub(super) type Map = BTreeMap<Key, Entry>;
 
-/// A step in time.
+/// The time interval of a step.
 struct Interval {
     start: f64,
     end: f64,
 }
 
-/// What a step gives for a key: values with their amplitudes.
+/// The values that a step gives for a key, with their amplitudes.
 struct StepGiven<'d> {
     values: Vec<(f64, Option<&'d str>)>,
-    /// Whether the last value stays.
+    /// Whether the value with which the step before ended stays.
     is_fixed: bool,
     place: Place,
 }
@@ -72,7 +74,7 @@ impl Kind {
 }
 
 impl Deck {
-    /// Times at which steps end.
+    /// Times at which the steps end.
     pub(super) fn step_ends(&self) -> Vec<f64> {
         let mut time = 0.0;
         let steps = self.program.steps.iter();
@@ -84,11 +86,11 @@ impl Deck {
             .collect()
     }
 
-    /// The values of all keys of a kind.
+    /// The histories of all keys of one kind.
     ///
     /// # Errors
-    /// Names and numbers that there are not; supports that come or go between steps, values that
-    /// jump.
+    /// `Input` for undefined names and numbers; `Unsupported` for supports that appear or disappear
+    /// between steps and for values that jump.
     pub(super) fn histories(&self, kind: Kind) -> Result<Map> {
         let mut map = Map::new();
         let initial = self.program.initial.iter();
@@ -183,7 +185,7 @@ impl Deck {
         unsupported(self.error(place, "BOUNDARY", message))
     }
 
-    /// What a step gives, key by key.
+    /// The values that a step gives, key by key.
     fn given<'d>(&self, kind: Kind, step: &'d Step) -> Result<BTreeMap<Key, StepGiven<'d>>> {
         let mut out: BTreeMap<Key, StepGiven> = BTreeMap::new();
         for condition in step.conditions.iter().filter(|c| c.kind == kind) {
@@ -205,10 +207,10 @@ impl Deck {
         Ok(out)
     }
 
-    /// The keys that a condition is for. Rotations and the direction out of a plane are none.
+    /// The keys to which a condition applies. The direction out of a plane model is not among them.
     ///
     /// # Errors
-    /// Names and numbers that there are not.
+    /// `Input` for undefined names and numbers.
     pub(super) fn keys(&self, condition: &Condition) -> Result<Vec<Key>> {
         let at = (condition.place, condition.kind.keyword());
         let [first, last] = condition.range;
@@ -242,10 +244,10 @@ impl Deck {
         }
     }
 
-    /// The bodies that a set of elements is made of.
+    /// The bodies of which a set of elements consists.
     ///
     /// # Errors
-    /// A body of which only a part is in the set.
+    /// `Unsupported` if the set contains only a part of a body.
     fn whole_bodies(&self, on: &Target, at: (Place, &str)) -> Result<Vec<u32>> {
         let bodies = self.bodies()?;
         let mut counts = vec![[0usize; 2]; bodies.names.len()];
@@ -271,13 +273,13 @@ impl Deck {
         Ok(whole)
     }
 
-    /// Dimension of the first element, and so of all.
+    /// Dimension of the first element, and hence of the model.
     pub(super) fn dimension(&self) -> usize {
         let first = self.elements.types.first();
         first.map_or(3, |first| first.space.dimension())
     }
 
-    /// Takes a key to the end of a step that gives values for it.
+    /// Continues a history to the end of a step that gives values for its key.
     fn apply(
         &self,
         kind: Kind,
@@ -335,7 +337,7 @@ impl Deck {
         Ok(())
     }
 
-    /// Takes a key through a step that says nothing of it.
+    /// Continues a history through a step that does not give values for its key.
     fn run_on(&self, entry: &mut Entry, time: &Interval) -> Result<()> {
         let amplitude = |name: &str| self.program.amplitudes.get(name);
         let laws = entry.runs_on.iter();
@@ -350,7 +352,7 @@ impl Deck {
     }
 }
 
-/// The sum of some values times their amplitudes.
+/// The sum of the given values times their amplitudes at a time.
 fn value_at(laws: &[(f64, &Amplitude)], at: f64, time: &Interval) -> f64 {
     let of_law = |(value, amplitude): &(f64, &Amplitude)| {
         let own = match amplitude.is_total {
@@ -362,7 +364,7 @@ fn value_at(laws: &[(f64, &Amplitude)], at: f64, time: &Interval) -> f64 {
     laws.iter().map(of_law).sum()
 }
 
-/// Follows amplitudes to the end of a step.
+/// Continues a history along amplitudes to the end of a step.
 fn follow(laws: &[(f64, &Amplitude)], time: &Interval, series: &mut Series) {
     let mut times = vec![time.end];
     for (_, amplitude) in laws {

@@ -1,18 +1,18 @@
-//! Instances of parts: their names, and how their nodes and elements are numbered.
+//! Instances of parts: their names, and the numbering of their nodes and elements.
 //!
-//! Numbers repeat between instances. In the deck as a whole that of an instance stands in front of
-//! that in its part: node 16 of the second instance is 216.
+//! Numbers are repeated between instances. In the whole deck, the number of the instance is put in
+//! front of the number within the part: node 16 of the second instance is 216.
 
-/// The instances of a deck, in its order; none where it has no parts.
+/// The instances of a deck, in the deck's order; empty for a deck without parts.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Instances {
     names: Vec<String>,
-    /// A power of ten that is greater than all numbers that the deck gives.
+    /// A power of ten that is greater than all numbers in the deck.
     unit: u64,
 }
 
 impl Instances {
-    /// Instances under their names, whose nodes and elements have numbers up to one; `None` where
+    /// Instances with the given names and with numbers up to `largest`; `None` if the resulting
     /// numbers would have too many digits.
     pub(super) fn new(names: Vec<String>, largest: u64) -> Option<Instances> {
         const MOST: u64 = 10u64.pow(18);
@@ -24,7 +24,7 @@ impl Instances {
         (end <= MOST).then_some(Instances { names, unit })
     }
 
-    /// The instance of a name, which has no case.
+    /// The instance of the given name, without regard to case.
     pub(super) fn find(&self, name: &str) -> Option<usize> {
         let name = name.to_uppercase();
         self.names.iter().position(|of| of.to_uppercase() == name)
@@ -35,17 +35,17 @@ impl Instances {
         &self.names
     }
 
-    /// What is added to numbers of an instance.
+    /// The number that is added to all numbers of an instance.
     pub(super) fn offset(&self, instance: usize) -> u64 {
         (instance as u64 + 1) * self.unit
     }
 
-    /// The largest number that a node or element can have in its part.
+    /// The largest number that a node or element can have within its part.
     pub(super) fn most(&self) -> u64 {
         self.unit.saturating_sub(1)
     }
 
-    /// The instance that a number of the whole deck belongs to.
+    /// The instance to which a number of the whole deck belongs.
     pub(super) fn of(&self, label: u64) -> Option<usize> {
         let number = label.checked_div(self.unit)?.checked_sub(1)?;
         usize::try_from(number)
@@ -53,7 +53,7 @@ impl Instances {
             .filter(|number| *number < self.names.len())
     }
 
-    /// A number of the whole deck as its part has it, with the instance.
+    /// Shows a number of the whole deck as the number within its part, with the instance.
     pub(super) fn shown(&self, label: u64) -> String {
         match self.of(label) {
             Some(instance) => {
@@ -64,7 +64,7 @@ impl Instances {
         }
     }
 
-    /// Advice about a number that there is not.
+    /// Advice for a number that is not defined.
     pub(super) fn hint(&self, label: u64) -> &'static str {
         match self.names.is_empty() || self.of(label).is_some() {
             true => "",

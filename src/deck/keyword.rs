@@ -1,21 +1,21 @@
-//! A keyword with its parameters, and what brinell does with each keyword that there is.
+//! A keyword with its parameters, and the treatment of every known keyword.
 
 use super::fields::{Where, comma};
 use super::source::{Files, Line, Place, Source};
 use crate::error::{Error, Result};
 use crate::scene::closest;
 
-/// Most bytes of a line that is read as a keyword.
+/// Largest number of bytes of a line that is read as a keyword.
 const LONGEST: usize = 1 << 16;
 
-/// What is done with a keyword.
+/// The treatment of a keyword.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Use {
     /// The keyword is read.
     Read,
-    /// The keyword is skipped: it changes nothing here, and why.
+    /// The keyword is skipped because it has no effect here, for the given reason.
     Ignored(&'static str),
-    /// The keyword asks for something that brinell does not have, and what.
+    /// The keyword asks for an effect that brinell does not have, as the text says.
     Refused(&'static str),
 }
 
@@ -35,7 +35,7 @@ const LAWS: Use = Use::Refused(
     "materials are isotropic and linear elastic, with von Mises plasticity and isotropic hardening",
 );
 
-/// All keywords that are known, as they are written.
+/// All known keywords, as written in manuals.
 const KEYWORDS: &[(&str, Use)] = &[
     ("AMPLITUDE", Use::Read),
     ("ASSEMBLY", Use::Read),
@@ -224,18 +224,17 @@ const KEYWORDS: &[(&str, Use)] = &[
     ),
 ];
 
-/// A keyword line.
+/// A keyword line of a deck.
 #[derive(Debug, Clone)]
 pub(super) struct Keyword {
-    /// Name as it is written in the table above, or in the deck where it is in none.
+    /// Name as written in [`KEYWORDS`], or in the deck if it is not a known keyword.
     pub(super) name: String,
-    /// Names in capitals, without blanks; values as they are written.
+    /// Names in capitals without blanks, and values as written.
     parameters: Vec<(String, Option<String>)>,
     pub(super) place: Place,
 }
 
-/// Capitals without blanks: neither case nor blanks mean anything.
-/// That there is no such name, with the one that may be meant, or else what to do.
+/// A message that a name does not exist, with the name that may be meant, or else with advice.
 pub(super) fn no_such<'n>(
     what: &str,
     name: &str,
@@ -253,16 +252,18 @@ pub(super) fn no_such<'n>(
     }
 }
 
+/// A word in capitals without blanks, because neither case nor blanks are significant.
 pub(super) fn plain(word: &str) -> String {
     let letters = word.chars().filter(|c| !c.is_whitespace());
     letters.map(|c| c.to_ascii_uppercase()).collect()
 }
 
 impl Keyword {
-    /// Reads a keyword line with its continuations: it goes on where it ends with a comma.
+    /// Reads a keyword line with its continuations: a line that ends with a comma continues in the
+    /// next.
     ///
     /// # Errors
-    /// Errors of [`Source::next`].
+    /// The errors of [`Source::next`].
     pub(super) fn read(source: &mut Source, line: Line) -> Result<Keyword> {
         let mut text = String::from_utf8_lossy(source.bytes(line)).into_owned();
         while text.ends_with(',') && text.len() < LONGEST {
@@ -274,7 +275,7 @@ impl Keyword {
         Ok(Keyword::parse(&text, line.place))
     }
 
-    /// Reads a keyword line, its continuations joined, which begins with a star.
+    /// Parses a keyword line that begins with an asterisk, with its continuations joined.
     fn parse(text: &str, place: Place) -> Keyword {
         let mut rest = Some(text.trim_start_matches('*'));
         let mut parts = std::iter::from_fn(|| {
@@ -297,10 +298,10 @@ impl Keyword {
         }
     }
 
-    /// Use of the keyword.
+    /// The treatment of the keyword.
     ///
     /// # Errors
-    /// The one that may be meant, where it is not known.
+    /// A message for an unknown keyword, with the keyword that may be meant.
     pub(super) fn what_for(&self) -> std::result::Result<Use, String> {
         if let Some((_, what)) = find(&plain(&self.name)) {
             return Ok(what);
@@ -316,19 +317,19 @@ impl Keyword {
         })
     }
 
-    /// Names of its parameters in capitals, without blanks, and their values.
+    /// Names of the parameters in capitals without blanks, and their values.
     pub(super) fn parameters(&self) -> impl Iterator<Item = (&str, Option<&str>)> {
         let all = self.parameters.iter();
         all.map(|(name, value)| (name.as_str(), value.as_deref()))
     }
 
-    /// An error at its line.
+    /// An error at the keyword's line.
     pub(super) fn error(&self, files: &Files, message: impl std::fmt::Display) -> Error {
         let (place, name) = (files.show(self.place), &self.name);
         Error::input(format!("{place}: *{name}: {message}"))
     }
 
-    /// A place for messages about one of its data lines.
+    /// The place of one of the keyword's data lines, for messages.
     pub(super) fn at<'t>(&'t self, file: &'t str, place: Place) -> Where<'t> {
         Where {
             file,
@@ -337,21 +338,21 @@ impl Keyword {
         }
     }
 
-    /// Whether a parameter is given, with a value or without.
+    /// Whether a parameter is given, with or without a value.
     pub(super) fn has(&self, key: &str) -> bool {
         self.parameters.iter().any(|(name, _)| name == key)
     }
 
-    /// The value of a parameter; `None` where it is not given or has none.
+    /// The value of a parameter; `None` if it is not given or has no value.
     pub(super) fn get(&self, key: &str) -> Option<&str> {
         let mut found = self.parameters.iter().filter(|(name, _)| name == key);
         found.next().and_then(|(_, value)| value.as_deref())
     }
 
-    /// The value of a parameter that must be there.
+    /// The value of a required parameter.
     ///
     /// # Errors
-    /// That it is not.
+    /// `Input` if the parameter or its value is missing.
     pub(super) fn require(&self, files: &Files, key: &str) -> Result<&str> {
         self.get(key)
             .filter(|value| !value.is_empty())
@@ -361,10 +362,10 @@ impl Keyword {
             })
     }
 
-    /// The value of a parameter that is a number, if it is given.
+    /// The value of an optional parameter that must be a number.
     ///
     /// # Errors
-    /// That it is none.
+    /// `Input` if the value is not a number.
     pub(super) fn number(&self, files: &Files, key: &str) -> Result<Option<f64>> {
         let Some(value) = self.get(key) else {
             return Ok(None);
@@ -374,11 +375,11 @@ impl Keyword {
         number.ok_or_else(wrong).map(Some)
     }
 
-    /// The value of a parameter in capitals, which must be one of some words; the first of them
-    /// where it is not given.
+    /// The value of a parameter, which must be one of the given words; the first word if the
+    /// parameter is not given.
     ///
     /// # Errors
-    /// The value and what it can be.
+    /// `Input` with the value and the possible words.
     pub(super) fn choice(
         &self,
         files: &Files,
@@ -399,10 +400,10 @@ impl Keyword {
         })
     }
 
-    /// Checks that it has no parameters but these.
+    /// Checks that the keyword has no parameters other than the given ones.
     ///
     /// # Errors
-    /// The first other one.
+    /// `Input`, naming the first other parameter.
     pub(super) fn allow(&self, files: &Files, known: &[&str]) -> Result<()> {
         let other = self
             .parameters

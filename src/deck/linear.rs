@@ -1,64 +1,65 @@
-//! Linear equations between displacements: which follow which.
+//! Reduction of linear equations between displacements: which displacements follow which.
 //!
-//! Of `sum_k c_k u_k = 0`, row by row, displacements of nodes without elements are taken out first:
-//! a row says what each of them is. What is left is brought to the form `u_i = sum_k a_k u_k`, in
-//! which no `u_i` is among the others of any row (Gauss and Jordan, with the largest coefficient
-//! of a column or row as pivot).
+//! In the rows `sum_k c_k u_k = 0`, displacements of nodes without elements are eliminated first:
+//! each is expressed by one row. The remaining rows are brought into the form
+//! `u_i = sum_k a_k u_k`, in which no `u_i` occurs on the right of any row (Gauss-Jordan
+//! elimination, with the largest coefficient of a column or row as the pivot).
 
 use super::history::Key;
 use super::source::Place;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Share of the largest coefficient of a column below which one is round-off.
+/// Share of the largest coefficient of a column below which a coefficient counts as round-off.
 const ROUND_OFF: f64 = 1e-11;
-/// Share of the largest coefficient of a row from which its first term follows the others, as it is
-/// written.
+/// Share of the largest coefficient of a row from which on the row's first term is chosen to follow
+/// the others, as the deck writes it.
 const LARGE_ENOUGH: f64 = 0.1;
 
-/// Coefficients by node and axis.
+/// Coefficients of displacements, by node and axis.
 pub(super) type Terms = BTreeMap<Key, f64>;
 
-/// An equation of a line.
+/// An equation from a line of the deck.
 #[derive(Debug, Clone)]
 pub(super) struct LinearRow {
     pub(super) terms: Terms,
-    /// The term that follows the others where it can.
+    /// The term that follows the others if its coefficient is large enough.
     pub(super) first: Option<Key>,
     pub(super) place: Place,
     pub(super) keyword: &'static str,
 }
 
-/// A displacement that follows from others.
+/// A displacement that is expressed by others.
 #[derive(Debug, Clone)]
 pub(super) struct Follows {
     pub(super) key: Key,
-    /// `u_key = sum_k a_k u_k`.
+    /// Coefficients `a_k` of `u_key = sum_k a_k u_k`.
     pub(super) of: Terms,
     pub(super) place: Place,
     pub(super) keyword: &'static str,
 }
 
-/// What comes of all equations.
+/// The result of the reduction of all equations.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Reduced {
-    /// Displacements of nodes without elements.
+    /// Displacements of nodes without elements, expressed by others.
     pub(super) loose: Vec<Follows>,
-    /// Displacements of other nodes.
+    /// Displacements of other nodes, expressed by others.
     pub(super) others: Vec<Follows>,
-    /// Equations between known displacements alone.
+    /// Equations in which all displacements are known.
     pub(super) known: Vec<LinearRow>,
 }
 
-/// Equations with the rows that each key is in.
+/// Equations, with an index of the rows in which each key occurs.
 struct Matrix {
     rows: Vec<LinearRow>,
     of_key: BTreeMap<Key, BTreeSet<usize>>,
-    /// The largest coefficient of each key.
+    /// The largest absolute coefficient of each key.
     scale: BTreeMap<Key, f64>,
 }
 
-/// Reduces equations. `is_loose` says whether a displacement is one of a node without elements,
-/// `is_known` whether it is given: that of a known one is a number and follows nothing.
+/// Reduces the equations. `is_loose` tells whether a displacement belongs to a node without
+/// elements, `is_known` whether it is prescribed. A prescribed displacement is a number and never
+/// follows others.
 pub(super) fn reduce(
     rows: Vec<LinearRow>,
     is_loose: impl Fn(&Key) -> bool,
@@ -78,7 +79,8 @@ pub(super) fn reduce(
     }
     let follows = loose.into_iter().map(|(row, key)| matrix.follows(row, key));
     out.loose.extend(follows);
-    // What is loose and free in a row that is left would have been taken out.
+    // A loose displacement that is not known no longer occurs in a remaining row, because it would
+    // have been eliminated.
     let rows: Vec<usize> = (0..matrix.rows.len())
         .filter(|r| !done.contains(r))
         .collect();
@@ -118,7 +120,7 @@ impl Matrix {
         out
     }
 
-    /// The row in which a key has its largest coefficient, but for some.
+    /// The row in which a key has its largest coefficient, apart from the rows in `but`.
     fn largest_of(&self, key: &Key, but: &BTreeSet<usize>) -> Option<usize> {
         let rows = self
             .of_key
@@ -130,7 +132,8 @@ impl Matrix {
             .copied()
     }
 
-    /// The displacement that is to follow the others of a row: its first term, or the largest.
+    /// The displacement that is to follow the others of a row: the row's first term, or the one
+    /// with the largest coefficient.
     fn follower(&self, row: usize, is_known: impl Fn(&Key) -> bool) -> Option<Key> {
         let row = &self.rows[row];
         let free = || row.terms.iter().filter(|(key, _)| !is_known(key));
@@ -146,7 +149,7 @@ impl Matrix {
         Some(first.unwrap_or(*key))
     }
 
-    /// Takes a key out of all rows but its own.
+    /// Eliminates a key from all rows except its own.
     fn eliminate(&mut self, own: usize, key: &Key) {
         let terms = self.rows[own].terms.clone();
         let Some(pivot) = terms.get(key) else { return };
@@ -212,7 +215,7 @@ mod tests {
 
     #[test]
     fn what_is_loose_is_taken_out_and_what_is_known_follows_nothing() {
-        // Two nodes follow a loose one, a third is known and follows it too.
+        // Two nodes follow a loose node, which a third, known node follows too.
         let rows = vec![
             row(&[(1, 1.0), (100, -1.0)]),
             row(&[(2, 1.0), (100, -2.0)]),

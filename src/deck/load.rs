@@ -1,11 +1,11 @@
-//! A scene from a file that may be a scene or a deck.
+//! Reading of a scene from a file that may be a scene or a deck.
 
 use super::{Deck, Options, words};
 use crate::error::Result;
 use crate::scene::Scene;
 use std::path::Path;
 
-/// Whether a file is a deck, by the ending of its name: `.inp`.
+/// Whether a file is a deck, judged by the extension `.inp`.
 pub fn is_deck(path: &Path) -> bool {
     path.extension()
         .is_some_and(|ending| ending.eq_ignore_ascii_case("inp"))
@@ -14,16 +14,16 @@ pub fn is_deck(path: &Path) -> bool {
 /// Reads and validates a scene file, or the scene that a deck describes.
 ///
 /// # Errors
-/// As [`load_with`].
+/// As for [`load_with`].
 pub fn load(path: impl AsRef<Path>) -> Result<Scene> {
     load_with(path, &[], Options::default())
 }
 
-/// As [`load()`], with `overrides` put over the scene, each `key.path=value`
-/// ([`Scene::load_with`]). How a deck was taken is in the scene's warnings.
+/// Reads a scene like [`load()`], with `overrides` applied to it, each `key.path=value`
+/// ([`Scene::load_with`]). Remarks on how a deck was interpreted are among the scene's warnings.
 ///
 /// # Errors
-/// Errors of [`Scene::load_with`], [`Deck::read`] and [`Deck::convert`].
+/// The errors of [`Scene::load_with`], [`Deck::read`] and [`Deck::convert`].
 pub fn load_with(path: impl AsRef<Path>, overrides: &[String], options: Options) -> Result<Scene> {
     let path = path.as_ref();
     if !is_deck(path) {
@@ -36,11 +36,11 @@ pub fn load_with(path: impl AsRef<Path>, overrides: &[String], options: Options)
 }
 
 impl super::Conversion {
-    /// The scene as it would be read from a file: validated, with overrides put over it, and with
-    /// the places of the deck.
+    /// The scene in the form in which it would be read from a file: validated, with overrides
+    /// applied, and with places in the deck.
     ///
     /// # Errors
-    /// Errors of [`Scene::parse_with`], at the lines of the deck.
+    /// The errors of [`Scene::parse_with`], at the lines of the deck.
     pub fn finish(&self, name: &str, overrides: &[String]) -> Result<Scene> {
         let text = self.scene.to_toml()?;
         let parsed = Scene::parse_placed(&text, name, overrides, &self.places);

@@ -1,4 +1,5 @@
-//! Decks of Abaqus and CalculiX (`.inp`): a model with its steps, as a scene and a mesh.
+//! Decks of Abaqus and CalculiX (`.inp`): a model with its steps, converted into a scene and a
+//! mesh.
 //!
 //! ```text
 //!  text ─▶ source ─▶ reader ─▶ Deck ─▶ resolve ─▶ history ─▶ conversion ─▶ Scene
@@ -7,14 +8,15 @@
 //!           INCLUDE)   keyword)             faces)     in time)   are on)          ─▶ mesh::inp
 //! ```
 //!
-//! Decks of parts and an assembly are made flat before they are read (`assembly`).
+//! Decks with parts and an assembly are flattened before they are read (`assembly`).
 //!
-//! Everything that is read has a place, and errors name it: file, line, keyword, value, what to do.
-//! Keywords that brinell has no effect for are either ignored, where they change nothing here, or
-//! refused; [`Deck::account`] lists both, with the reason. Names have no case.
+//! All data that are read have a place, and errors name it: file, line, keyword, value, what to do.
+//! Keywords for effects that brinell does not have are either ignored, if they change nothing here,
+//! or refused; [`Deck::account`] lists both, with the reason. Names are not case-sensitive.
 //!
-//! Each step becomes a target (`step-1`, ...). Load factors are multiples of the loads where all
-//! that changes changes in proportion, step by step; otherwise they are the time.
+//! Each step becomes a target (`step-1`, ...). Load factors are multiples of the loads if
+//! everything that changes does so in proportion, step by step; otherwise load factors are the
+//! time.
 //!
 //! # Source
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, chapters 6 (elements, loads) and 7
@@ -64,7 +66,7 @@ use source::{Files, Place, Source};
 use std::borrow::Cow;
 use std::path::Path;
 
-/// A deck that was read.
+/// A deck that has been read.
 #[derive(Default)]
 pub struct Deck {
     /// Lines of the heading.
@@ -72,39 +74,39 @@ pub struct Deck {
     files: Files,
     nodes: Nodes,
     elements: Elements,
-    /// Line elements, whose sets are those of faces.
+    /// Boundary elements, which have no stiffness: sets of them stand for faces.
     boundary: BoundaryElements,
     sets: Sets,
     properties: Properties,
     program: Program,
     account: Account,
-    /// Instances of parts, by which nodes and elements are numbered.
+    /// Instances of parts, which determine the numbering of nodes and elements.
     instances: Instances,
-    /// Where large deformation is asked for first.
+    /// First place at which large deformation is requested.
     nlgeom: Option<Place>,
-    /// The end of the deck.
+    /// Place of the end of the deck.
     end: Place,
     node_index: LabelIndex,
     element_index: LabelIndex,
-    /// Indices of the nodes of all elements, one after the other.
+    /// Indices of the nodes of all elements, one element after the other.
     connectivity: Vec<u32>,
 }
 
 impl Deck {
-    /// Reads a deck, and the files that it includes, which are relative to its folder.
+    /// Reads a deck and the files that it includes, whose paths are relative to the deck's
+    /// directory.
     ///
     /// # Errors
-    /// `Io` where a file cannot be read; `Input` by file, line and keyword where the deck is
-    /// damaged or has a keyword that is not known; `Unsupported` for elements that brinell does not
-    /// have.
+    /// `Io` if a file cannot be read; `Input` with file, line and keyword if the deck is damaged or
+    /// has an unknown keyword; `Unsupported` for elements that brinell does not have.
     pub fn read(path: &Path) -> Result<Deck> {
         let text = files::read("read the deck", path, None)?;
         let name = path.display().to_string();
         Reader::new(Source::new(Cow::Owned(text), &name, path.parent())).read()
     }
 
-    /// Reads a deck from the bytes of a file; `name` stands for the file in messages. Files that it
-    /// includes are relative to the working directory.
+    /// Reads a deck from the bytes of a file; `name` stands for the file in messages. Paths of
+    /// included files are relative to the working directory.
     ///
     /// ```
     /// use brinell::deck::Deck;
@@ -115,17 +117,17 @@ impl Deck {
     /// ```
     ///
     /// # Errors
-    /// As [`Deck::read`].
+    /// As for [`Deck::read`].
     pub fn parse(text: &[u8], name: &str) -> Result<Deck> {
         Reader::new(Source::new(Cow::Borrowed(text), name, None)).read()
     }
 
-    /// What was understood, taken otherwise than it is meant, ignored, and refused.
+    /// The account of what was understood, interpreted differently, ignored, and refused.
     pub fn account(&self) -> &Account {
         &self.account
     }
 
-    /// Numbers of nodes and elements are looked up from now on.
+    /// Builds the indices of nodes and elements by number, and the connectivity.
     fn index(&mut self) -> Result<()> {
         if self.nodes.labels.len().max(self.elements.labels.len()) >= u32::MAX as usize {
             return Err(Error::input("more nodes or elements than can be numbered"));
@@ -150,7 +152,7 @@ impl Deck {
         Ok(())
     }
 
-    /// The first element that refers to a node that there is not.
+    /// An error for the first element that refers to an undefined node.
     fn missing_node(&self) -> Error {
         let elements = &self.elements;
         let is_missing = |label: &&u64| self.node_index.get(**label).is_none();
@@ -164,23 +166,23 @@ impl Deck {
         self.error(elements.places[element], "ELEMENT", message)
     }
 
-    /// An error at a line, of a keyword.
+    /// An error at a line, for a keyword.
     fn error(&self, place: Place, keyword: &str, message: impl std::fmt::Display) -> Error {
         let place = self.files.show(place);
         Error::input(format!("{place}: *{keyword}: {message}"))
     }
 
-    /// The number of a node.
+    /// The number of a node in the deck.
     pub(crate) fn node_label(&self, node: usize) -> u64 {
         self.nodes.labels[node]
     }
 
-    /// The number of an element.
+    /// The number of an element in the deck.
     pub(crate) fn element_label(&self, element: usize) -> u64 {
         self.elements.labels[element]
     }
 
-    /// The number of a node for messages: in an instance, that of its part.
+    /// The number of a node for messages; in an instance the number within the part.
     fn node_name(&self, node: usize) -> String {
         match self.nodes.labels.get(node) {
             Some(label) => self.instances.shown(*label),
@@ -188,7 +190,7 @@ impl Deck {
         }
     }
 
-    /// The number of an element for messages: in an instance, that of its part.
+    /// The number of an element for messages; in an instance the number within the part.
     fn element_name(&self, element: usize) -> String {
         self.instances.shown(self.elements.labels[element])
     }
@@ -209,19 +211,20 @@ impl Deck {
         self.error(self.nodes.places[node], "NODE", message)
     }
 
-    /// Whether no element is of a kind that CalculiX integrates otherwise than fully or, with
-    /// quadratic functions, reduced: one point with hourglass control, incompatible modes.
+    /// Whether no element has a type that CalculiX integrates in another way than fully, or for
+    /// quadratic elements reduced. Other ways are one point with hourglass control and incompatible
+    /// modes.
     pub fn is_fully_integrated(&self) -> bool {
         let mut types = self.elements.types.iter();
         types.all(|of| of.shape.is_quadratic() || of.note.is_none())
     }
 
-    /// Number of nodes.
+    /// Number of nodes of the deck.
     pub fn n_nodes(&self) -> usize {
         self.nodes.labels.len()
     }
 
-    /// Number of elements.
+    /// Number of elements of the deck.
     pub fn n_elements(&self) -> usize {
         self.elements.labels.len()
     }

@@ -1,4 +1,4 @@
-//! Reading a deck, keyword by keyword.
+//! Reads a deck, keyword by keyword.
 
 mod history;
 mod mesh;
@@ -15,20 +15,20 @@ use super::source::{Line, Source};
 use super::{Deck, Place};
 use crate::error::Result;
 
-/// A deck being read.
+/// A deck that is being read.
 pub(super) struct Reader<'t> {
     source: Source<'t>,
     deck: Deck,
-    /// The material that what is read belongs to.
+    /// The material to which the next keywords belong.
     material: Option<String>,
-    /// The surface interaction that what is read belongs to.
+    /// The surface interaction to which the next keywords belong.
     interaction: Option<String>,
     /// A coupling whose axes have not been read yet.
     coupling: Option<Rigid>,
     is_in_step: bool,
-    /// Whether results that are asked for are those of histories.
+    /// Whether output requests are for histories (`*OUTPUT, HISTORY`).
     is_history: bool,
-    /// Displacements that stand before the first step, and are reached over it.
+    /// Displacements that are given before the first step, and are reached over the first step.
     of_first_step: Vec<Condition>,
 }
 
@@ -46,11 +46,11 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Reads to the end.
+    /// Reads the deck to its end.
     ///
     /// # Errors
-    /// `Input` by file, line and keyword where the deck is damaged, `Unsupported` for elements that
-    /// brinell does not have. What else it does not have is in the account.
+    /// `Input` with file, line and keyword if the deck is damaged; `Unsupported` for elements that
+    /// brinell does not have. Other effects that it does not have are listed in the account.
     pub(super) fn read(mut self) -> Result<Deck> {
         if let Some(line) = self.source.next_data()? {
             let place = self.source.files.show(line.place);
@@ -81,7 +81,7 @@ impl<'t> Reader<'t> {
         Ok(self.deck)
     }
 
-    /// Goes on with the deck as it is without parts: each instance as nodes, elements, sets and
+    /// Continues with the deck flattened: each instance of a part has nodes, elements, sets and
     /// surfaces of its own.
     fn flatten(&mut self, first: Keyword) -> Result<()> {
         let model = Assembled::read(&mut self.source, first)?;
@@ -205,7 +205,7 @@ impl<'t> Reader<'t> {
         Account::add(list, &self.source.files, place, &keyword.name, how);
     }
 
-    /// The next data line, which must be there.
+    /// Reads the next data line, which is required.
     fn one_line(&mut self, keyword: &Keyword, what: &str) -> Result<Line> {
         self.source.next_data()?.ok_or_else(|| {
             let message = format!("a line with {what} should follow; give it");
@@ -213,7 +213,7 @@ impl<'t> Reader<'t> {
         })
     }
 
-    /// The first line is the title.
+    /// Reads the heading, whose first line is the title.
     fn heading(&mut self, keyword: &Keyword) -> Result<()> {
         keyword.allow(&self.source.files, &[])?;
         while let Some(line) = self.source.next_data()? {
@@ -224,7 +224,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// The values of a line.
+/// The values of a data line.
 fn fields<'a>(source: &'a Source, keyword: &'a Keyword, line: Line) -> Fields<'a> {
     Fields::new(
         source.bytes(line),

@@ -1,13 +1,14 @@
-//! Nodes that move as a rigid body does (`*RIGID BODY`, `*COUPLING` with `*KINEMATIC`).
+//! Nodes that move like a rigid body (`*RIGID BODY`, `*COUPLING` with `*KINEMATIC`).
 //!
-//! With the displacement `u_r` of the reference node, the rotation `w` and the place `x` of a node
+//! With the displacement `u_r` of the reference node, the rotation `w` and the position `x` of a
+//! node,
 //!
 //! ```text
 //! u = u_r + w x (x - x_r)
 //! ```
 //!
-//! along the axes that follow. The rotation is the displacement of a node (`ROT NODE`), or the
-//! degrees of freedom 4 to 6 of the reference node.
+//! along the axes that follow. The rotation is either the displacement of a rotation node
+//! (`ROT NODE`), or given by the degrees of freedom 4 to 6 of the reference node.
 //!
 //! # Source
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, `*RIGID BODY`, `*KINEMATIC`.
@@ -21,12 +22,13 @@ use super::source::Place;
 use crate::error::Result;
 use crate::space::difference;
 
-/// A rigid body with indices of nodes.
+/// A rigid body, with nodes given by their indices.
 pub(super) struct RigidBody {
-    /// Ascending, without the reference and the rotation.
+    /// Nodes of the body in ascending order, without the reference node and the rotation node.
     nodes: Vec<u32>,
     reference: u32,
-    /// The node whose displacement is the rotation: one beyond all nodes where the deck has none.
+    /// The node whose displacement is the rotation; an index beyond all nodes if the deck has no
+    /// such node.
     rotation: u32,
     follows: [bool; 3],
     place: Place,
@@ -34,10 +36,10 @@ pub(super) struct RigidBody {
 }
 
 impl Deck {
-    /// All rigid bodies.
+    /// All rigid bodies of the deck.
     ///
     /// # Errors
-    /// Names and numbers that there are not; a reference that is not one node.
+    /// `Input` for undefined names and numbers, and for a reference that is not a single node.
     pub(super) fn rigid_bodies(&self) -> Result<Vec<RigidBody>> {
         let all = self.properties.rigid.iter().enumerate();
         all.map(|(number, rigid)| {
@@ -86,8 +88,8 @@ impl Deck {
         }
     }
 
-    /// Rotations among the degrees of freedom from a first to a last of some nodes: 4 to 6 of a
-    /// reference node, those of a rotation in the plane out of it.
+    /// The rotations among a range of degrees of freedom of some nodes: 4 to 6 of a reference node,
+    /// or 3 of a rotation node in the plane.
     pub(super) fn rotations_among(
         &self,
         nodes: &[u32],
@@ -113,7 +115,7 @@ impl Deck {
 }
 
 impl RigidBody {
-    /// The equations of its nodes along the axes of the model.
+    /// The equations of the body's nodes along the axes of the model.
     pub(super) fn rows(&self, deck: &Deck) -> impl Iterator<Item = (u32, usize, LinearRow)> {
         let dimension = deck.dimension();
         let origin = deck.point(self.reference as usize);
@@ -125,7 +127,7 @@ impl RigidBody {
                 // The component of the cross product: w_next r_last - w_last r_next.
                 let mut terms = Terms::from([((self.reference, axis as u8), -1.0)]);
                 for (of, c) in [(next, -r[last]), (last, r[next])] {
-                    // In the plane there is the rotation out of it alone.
+                    // In the plane only the rotation about the normal exists.
                     if dimension == 3 || of == 2 {
                         terms.insert((self.rotation, of as u8), c);
                     }

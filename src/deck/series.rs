@@ -1,33 +1,33 @@
-//! Values over time, piecewise linear.
+//! Values over time that are piecewise linear.
 
 use crate::interpolation::interpolate;
 
-/// Values closer than this share of the largest are the same: they come from sums and products.
+/// Relative difference, from sums and products, below which two values count as equal.
 const SAME: f64 = 1e-12;
 
-/// Time and value, from time 0 on; flat after the last row.
+/// Rows of time and value, from time 0 on; constant after the last row.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Series(Vec<[f64; 2]>);
 
 impl Series {
-    /// A value at time 0.
+    /// A series that begins with a value at time 0.
     pub(super) fn starting(value: f64) -> Series {
         Series(vec![[0.0, value]])
     }
 
-    /// The last value; 0 before there is any.
+    /// The last value; 0 if there is none yet.
     pub(super) fn last(&self) -> f64 {
         self.0.last().map_or(0.0, |row| row[1])
     }
 
-    /// Stays what it is up to a time.
+    /// Keeps the last value up to a time.
     pub(super) fn stay(&mut self, time: f64) {
         if self.0.last().is_none_or(|row| row[0] < time) {
             self.push(time, self.last());
         }
     }
 
-    /// Goes on linearly to a value at a later time.
+    /// Continues linearly to a value at a later time.
     pub(super) fn push(&mut self, time: f64, value: f64) {
         if let [.., [t0, v0], [t1, v1]] = self.0[..] {
             let on_line = v0 + (value - v0) * (t1 - t0) / (time - t0);
@@ -39,7 +39,7 @@ impl Series {
         self.0.push([time, value]);
     }
 
-    /// The value of the largest size, with its sign.
+    /// The value with the largest absolute value, with its sign.
     pub(super) fn largest(&self) -> f64 {
         let values = self.0.iter().map(|row| row[1]);
         values.fold(0.0, |m: f64, v| if v.abs() > m.abs() { v } else { m })
@@ -53,24 +53,24 @@ impl Series {
         self.largest() == 0.0
     }
 
-    /// The times of its rows.
+    /// The times of the rows.
     pub(super) fn times(&self) -> impl Iterator<Item = f64> {
         self.0.iter().map(|row| row[0])
     }
 
-    /// Value at a time.
+    /// The value at a time.
     pub(super) fn at(&self, time: f64) -> f64 {
         interpolate(&self.0, time)
     }
 
-    /// Rows over the largest value.
+    /// The rows divided by the largest value.
     pub(super) fn shape(&self) -> Vec<[f64; 2]> {
         let largest = self.largest();
         let rows = self.0.iter();
         rows.map(|&[time, value]| [time, value / largest]).collect()
     }
 
-    /// Adds another one, times a factor.
+    /// Adds another series, multiplied by a factor.
     pub(super) fn add(&mut self, other: &Series, factor: f64) {
         let mut times: Vec<f64> = self.0.iter().chain(&other.0).map(|row| row[0]).collect();
         times.sort_by(f64::total_cmp);
@@ -82,15 +82,15 @@ impl Series {
         *self = sum;
     }
 
-    /// The numbers it is made of, to find equal ones by.
+    /// The bits of all numbers in the series, as a key for equal series.
     pub(super) fn bits(&self) -> Vec<u64> {
         let numbers = self.0.as_flattened().iter();
-        // Zeros of either sign are alike.
+        // Adding zero makes zeros of either sign equal.
         numbers.map(|x| (x + 0.0).to_bits()).collect()
     }
 }
 
-/// Whether two shapes are the same but for round-off.
+/// Whether two shapes are equal except for round-off.
 pub(super) fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     let close = |x: f64, y: f64| (x - y).abs() <= SAME * x.abs().max(y.abs()).max(1.0);
     let numbers = a.as_flattened().iter().zip(b.as_flattened());

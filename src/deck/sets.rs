@@ -1,4 +1,4 @@
-//! From names and numbers to indices of nodes, elements and faces.
+//! Resolution of names and numbers into indices of nodes, elements and faces.
 
 use super::data::{Account, Member, Members, Named, SurfacePart, Target};
 use super::facets::Face;
@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::labels::LabelIndex;
 use std::collections::BTreeSet;
 
-/// Nodes or elements.
+/// Selects between nodes and elements.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum What {
     Nodes,
@@ -17,7 +17,7 @@ pub(super) enum What {
 }
 
 impl What {
-    /// Name of a node or element, and the keyword that makes sets of such.
+    /// The words for a node or element, and the keyword that defines sets of them.
     fn words(self) -> [&'static str; 2] {
         match self {
             What::Nodes => ["node", "NSET"],
@@ -26,7 +26,7 @@ impl What {
     }
 }
 
-/// Place at which something is named: its line and keyword.
+/// The place at which a name or number is used: line and keyword.
 pub(super) type At<'k> = (Place, &'k str);
 
 impl Deck {
@@ -41,10 +41,10 @@ impl Deck {
         }
     }
 
-    /// The indices of one node or element, or of a set: ascending, each once.
+    /// The indices of one node or element, or of a set, in ascending order without duplicates.
     ///
     /// # Errors
-    /// A number or name that there is not, at the line that names it.
+    /// `Input` for an undefined number or name, at the line that uses it.
     pub(super) fn indices(&self, what: What, target: &Target, at: At) -> Result<Vec<u32>> {
         let mut out = Vec::new();
         self.collect(what, target, at, &mut BTreeSet::new(), &mut out)?;
@@ -67,7 +67,7 @@ impl Deck {
             Target::Label(label) if what == What::Elements && self.boundary.has(*label) => {
                 return Ok(());
             }
-            // What a set names and there is not was said before.
+            // An undefined number within a set has been reported before.
             Target::Label(label) if !seen.is_empty() && index.get(*label).is_none() => {
                 return Ok(());
             }
@@ -84,7 +84,7 @@ impl Deck {
         let members = sets
             .get(name)
             .ok_or_else(|| self.unknown(&format!("{thing} set"), name, sets.names(), at))?;
-        // A set adds nothing the second time, not even one that holds itself.
+        // A set contributes only once, even if it contains itself.
         if !seen.insert(name.to_uppercase()) {
             return Ok(());
         }
@@ -108,8 +108,8 @@ impl Deck {
         Ok(())
     }
 
-    /// Numbers of `GENERATE`: those between its ends that there are, as CalculiX takes them.
-    /// Looked up one by one where they are few, else found among all.
+    /// Collects the numbers of `GENERATE`: those between its ends that are defined, as in CalculiX.
+    /// They are looked up one by one if they are few, otherwise searched among all numbers.
     fn range(
         &self,
         what: What,
@@ -142,10 +142,10 @@ impl Deck {
         Ok(())
     }
 
-    /// Remarks on numbers in sets that there are not, as CalculiX makes them.
+    /// Adds remarks on undefined numbers in sets, as CalculiX does.
     ///
     /// # Errors
-    /// A set of nothing else.
+    /// `Input` if all members of a set are undefined.
     pub(super) fn leave_out_absent(&mut self) -> Result<()> {
         let mut notes = Vec::new();
         for what in [What::Nodes, What::Elements] {
@@ -195,7 +195,7 @@ impl Deck {
         &self.connectivity[offsets[element]..offsets[element + 1]]
     }
 
-    /// The nodes of faces: ascending, each once.
+    /// The nodes of the given faces, in ascending order without duplicates.
     pub(super) fn nodes_of(&self, faces: &[Face]) -> Vec<u32> {
         let of_face = |&(element, local): &Face| {
             let nodes = self.element_nodes(element as usize);
@@ -208,7 +208,7 @@ impl Deck {
         nodes
     }
 
-    /// The local facet of a face number of an element.
+    /// The local facet of an element's face number.
     pub(super) fn facet(&self, element: u32, number: usize, at: At) -> Result<Face> {
         let shape = self.elements.types[element as usize].shape;
         let local = element_type::facet(shape, number).ok_or_else(|| {
@@ -223,10 +223,10 @@ impl Deck {
         Ok((element, local as u8))
     }
 
-    /// The faces of a surface: ascending, each once.
+    /// The faces of a surface, in ascending order without duplicates.
     ///
     /// # Errors
-    /// A name, number or face that there is not; a surface without faces.
+    /// `Input` for an undefined name, number or face, or for a surface without faces.
     pub(super) fn surface(&self, name: &str, at: At) -> Result<Vec<Face>> {
         let surfaces = &self.sets.surfaces;
         let parts = surfaces

@@ -1,14 +1,14 @@
-//! The lines of a deck and of the files that it includes, one after the other, each with its place.
+//! The lines of a deck and of the files that it includes, in reading order, each with its place.
 
 use crate::error::{Error, Result};
 use crate::files;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-/// Files that one deck may include: more are a mistake, or an attack.
+/// Largest number of files that one deck may include: more must be a mistake, or an attack.
 const MOST_FILES: usize = 1000;
 
-/// A line of a file of the deck.
+/// The place of a line in one of the deck's files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(super) struct Place {
     file: u32,
@@ -20,12 +20,12 @@ pub(super) struct Place {
 pub(super) struct Files(Vec<String>);
 
 impl Files {
-    /// `FILE, line N`.
+    /// The place in words: `FILE, line N`.
     pub(super) fn show(&self, place: Place) -> String {
         format!("{}, line {}", self.name(place), place.line)
     }
 
-    /// The name of the deck itself.
+    /// The name of the deck's own file.
     pub(super) fn first(&self) -> &str {
         self.0.first().map_or("", String::as_str)
     }
@@ -36,7 +36,7 @@ impl Files {
 }
 
 impl Place {
-    /// The line's number alone, for lists that concern one file.
+    /// The number of the line, for lists that concern one file.
     pub(super) fn line(self) -> u32 {
         self.line
     }
@@ -46,27 +46,27 @@ impl Place {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
     pub(super) place: Place,
-    /// The text that its bytes are in.
+    /// Index of the text that holds the bytes of the line.
     text: u32,
     start: usize,
     end: usize,
 }
 
-/// Lines that are written anew from those of a deck, one after the other.
+/// Lines that are written anew from the lines of a deck.
 #[derive(Debug, Default)]
 pub(super) struct Anew {
     text: Vec<u8>,
-    /// The place of each line in the deck, and where it ends in the text.
+    /// The place in the deck of each line, and the end of the line in `text`.
     ends: Vec<(Place, usize)>,
 }
 
 impl Anew {
-    /// What the line at hand is written to.
+    /// The text to which the current line is written.
     pub(super) fn text(&mut self) -> &mut Vec<u8> {
         &mut self.text
     }
 
-    /// Ends the line at hand, which stands for one of the deck.
+    /// Ends the current line, which corresponds to the given place in the deck.
     pub(super) fn end_line(&mut self, place: Place) {
         self.ends.push((place, self.text.len()));
     }
@@ -80,7 +80,7 @@ struct Open {
 }
 
 impl Open {
-    /// The beginning of a file, behind the mark that Windows puts before UTF-8.
+    /// The beginning of a file, after the byte order mark that Windows puts before UTF-8.
     fn new(file: u32, text: &[u8]) -> Self {
         const MARK: &[u8] = b"\xef\xbb\xbf";
         let at = if text.starts_with(MARK) {
@@ -92,15 +92,15 @@ impl Open {
     }
 }
 
-/// The lines of a deck. `*INCLUDE` is followed here: what comes after it does not see it.
+/// The lines of a deck. `*INCLUDE` is resolved here, so that readers never see it.
 pub(super) struct Source<'t> {
     texts: Vec<Cow<'t, [u8]>>,
     pub(super) files: Files,
-    /// What relative paths are relative to.
+    /// The directory to which relative paths refer.
     folder: Option<PathBuf>,
     open: Vec<Open>,
     ahead: Option<Line>,
-    /// Lines that were written anew, which are all that are left.
+    /// Lines that were written anew; if present, they are all that remains to be read.
     anew: Option<std::vec::IntoIter<Line>>,
 }
 
@@ -116,17 +116,17 @@ impl<'t> Source<'t> {
         }
     }
 
-    /// The bytes of a line, without blanks at its ends.
+    /// The bytes of a line, without leading and trailing blanks.
     pub(super) fn bytes(&self, line: Line) -> &[u8] {
         &self.texts[line.text as usize][line.start..line.end]
     }
 
-    /// The name of a line's file.
+    /// The name of the file that contains a line.
     pub(super) fn file(&self, line: Line) -> &str {
         self.files.name(line.place)
     }
 
-    /// The place of the end of what was read.
+    /// The place up to which the deck has been read.
     pub(super) fn here(&self) -> Place {
         self.open.last().map_or(Place::default(), |open| Place {
             file: open.file,
@@ -134,10 +134,10 @@ impl<'t> Source<'t> {
         })
     }
 
-    /// The next line; `None` at the end of the deck.
+    /// Reads the next line; `None` at the end of the deck.
     ///
     /// # Errors
-    /// Errors of [`Source::include`].
+    /// The errors of [`Source::include`].
     pub(super) fn next(&mut self) -> Result<Option<Line>> {
         if let Some(line) = self.ahead.take() {
             return Ok(Some(line));
@@ -154,7 +154,8 @@ impl<'t> Source<'t> {
         Ok(None)
     }
 
-    /// The next line as it is written, neither blank nor a comment; `None` at the end of the deck.
+    /// Reads the next line of the files that is neither blank nor a comment; `None` at the end of
+    /// the deck.
     fn written(&mut self) -> Option<Line> {
         while let Some(open) = self.open.last_mut() {
             let text = &self.texts[open.file as usize];
@@ -188,10 +189,10 @@ impl<'t> Source<'t> {
         None
     }
 
-    /// The next data line; `None` where a keyword comes next, or the end.
+    /// Reads the next data line; `None` if a keyword or the end of the deck comes next.
     ///
     /// # Errors
-    /// Errors of [`Source::next`].
+    /// The errors of [`Source::next`].
     pub(super) fn next_data(&mut self) -> Result<Option<Line>> {
         match self.next()? {
             Some(line) if self.bytes(line).first() == Some(&b'*') => {
@@ -202,8 +203,8 @@ impl<'t> Source<'t> {
         }
     }
 
-    /// Goes on with lines that were written anew, each with its place, when all are read: the
-    /// files' own texts are dropped.
+    /// Continues with lines that were written anew, once all lines of the files have been read. The
+    /// texts of the files are dropped.
     pub(super) fn go_on_with(&mut self, anew: Anew) {
         let text = self.texts.len() as u32;
         self.texts
@@ -224,11 +225,11 @@ impl<'t> Source<'t> {
         self.anew = Some(lines.collect::<Vec<_>>().into_iter());
     }
 
-    /// Goes on in the file that an `*INCLUDE` names.
+    /// Continues with the file that an `*INCLUDE` names.
     ///
     /// # Errors
-    /// `Input` where it names none, one that is being read, or too many are named; those of reading
-    /// it.
+    /// `Input` if no file is named, if the file is already being read, or if too many files are
+    /// included; also the errors of reading the file.
     fn include(&mut self, line: Line) -> Result<()> {
         let place = self.files.show(line.place);
         let refused = |why: String| Err(Error::input(format!("{place}: *INCLUDE: {why}")));
@@ -246,7 +247,7 @@ impl<'t> Source<'t> {
             Some(folder) => folder.join(given),
             None => PathBuf::from(given),
         };
-        // Folders as Windows writes them, too.
+        // Paths may use the separator of Windows.
         let mut paths = names.iter().flat_map(|name| {
             let slashes = name.contains('\\').then(|| name.replace('\\', "/"));
             [Some(beside(name)), slashes.map(|name| beside(&name))]
@@ -270,8 +271,8 @@ impl<'t> Source<'t> {
     }
 }
 
-/// Names that an `*INCLUDE` may mean, the likeliest first: what is in quotes behind `INPUT=`, or
-/// all up to a comma, or all there is. No other parameter follows it.
+/// Names that an `*INCLUDE` may mean, the most likely first: the text in quotes after `INPUT=`; or
+/// the text up to a comma, then all of the rest. No other parameter follows the name.
 fn names_of_included(line: &str) -> Vec<&str> {
     let behind = |(at, _): (usize, char)| {
         let (key, value) = line[at + 1..].split_once('=')?;
@@ -294,7 +295,7 @@ fn names_of_included(line: &str) -> Vec<&str> {
     names
 }
 
-/// Whether a line that begins with a star is an `*INCLUDE`.
+/// Whether a line that begins with an asterisk is an `*INCLUDE`.
 fn is_include(line: &[u8]) -> bool {
     let word = line.split(|&b| b == b',').next().unwrap_or_default();
     word[1..].trim_ascii().eq_ignore_ascii_case(b"include")

@@ -1,4 +1,5 @@
-//! Temperatures of a deck: what bodies begin with, go through, and what materials are at it.
+//! Temperatures of a deck: initial temperatures and their changes, and the material properties at
+//! these temperatures.
 
 use super::Deck;
 use super::bodies::{Bodies, unsupported};
@@ -11,18 +12,18 @@ use crate::scene::{Material, MaterialRow};
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Increments of a step at most at whose ends strains by temperature are exact.
+/// Largest number of increments of a step at whose ends thermal strains are exact.
 const MOST_INCREMENTS: usize = 100;
 
-/// What a body begins with and how that changes.
+/// The initial temperature of a body and its change over time.
 pub(super) struct OfBody {
-    /// Initial temperature of the body's first node, and whether all nodes have it.
+    /// Initial temperature of the body's first node, and whether all nodes share it.
     pub(super) initial: (f64, bool),
-    /// Temperature of the node at which it changes most.
+    /// Change of temperature of the node at which the change is largest.
     pub(super) change: Series,
-    /// Whether all nodes have that change; if not, theirs are in proportion to it.
+    /// Whether all nodes have the same change; otherwise their changes are in proportion to it.
     pub(super) is_uniform: bool,
-    /// The line that gave it last; none of a body without temperatures.
+    /// The line that gave the temperature last; `None` for a body without temperatures.
     pub(super) place: Option<Place>,
 }
 
@@ -37,7 +38,7 @@ impl OfBody {
     }
 }
 
-/// What a node begins with and goes through.
+/// The initial temperature of a node and its change over time.
 #[derive(Clone)]
 struct OfNode {
     initial: f64,
@@ -46,17 +47,18 @@ struct OfNode {
 }
 
 impl OfNode {
-    /// The changes of temperature that strain as an expansion by temperature does.
+    /// The changes of temperature that give, with the scene's coefficient, the strains of an
+    /// expansion that depends on temperature.
     fn expanded(&self, expansion: &Expansion, times: &[f64]) -> Series {
         expansion.equivalents(self.initial, &self.change, times)
     }
 }
 
 impl Deck {
-    /// The largest change of the temperature of each node of an element, with the node's number.
+    /// The largest change of temperature at each node of an element, with the node's number.
     ///
     /// # Errors
-    /// Sets and nodes that there are not.
+    /// `Input` for undefined sets and nodes.
     pub(crate) fn node_temperatures(&self) -> Result<Vec<(u64, f64)>> {
         let nodes = self.temperatures_of_nodes()?;
         let bodies = self.bodies()?;
@@ -85,7 +87,7 @@ impl Deck {
         Ok(out.into_iter().map(value).collect())
     }
 
-    /// The expansion of a body's material, where it differs by temperature.
+    /// The expansion of a body's material, if it depends on temperature.
     fn varying_expansion(&self, bodies: &Bodies, body: usize) -> Option<&Expansion> {
         let section = bodies.sections.get(body).copied().flatten()?;
         let material = &self.properties.sections.get(section)?.material;
@@ -98,7 +100,7 @@ impl Deck {
         (!expansion.is_constant()).then_some(expansion)
     }
 
-    /// The ends of steps and of their increments.
+    /// The ends of all steps and of their increments.
     fn increment_ends(&self) -> Vec<f64> {
         let mut out = Vec::new();
         let mut begin = 0.0;
@@ -141,7 +143,7 @@ impl Deck {
     /// The temperatures of each body.
     ///
     /// # Errors
-    /// Nodes of a body whose temperatures do not change in proportion to one another.
+    /// `Unsupported` if temperatures within a body do not change in proportion to each other.
     pub(super) fn temperatures_of_bodies(&self, bodies: &Bodies) -> Result<Vec<OfBody>> {
         let conditions = self.program.initial.iter();
         let mut conditions =
@@ -165,7 +167,8 @@ impl Deck {
             .collect()
     }
 
-    /// The nodes of a body, with changes of temperature that are those of its expansion.
+    /// The nodes of a body, with equivalent changes of temperature if the expansion depends on
+    /// temperature.
     fn expanded<'a>(
         &self,
         of_body: &BTreeSet<u32>,
@@ -177,7 +180,8 @@ impl Deck {
             let as_they_are = |(node, of_node)| (node, Cow::Borrowed(of_node));
             return members().map(as_they_are).collect();
         };
-        // Several temperatures stay in proportion at most where nothing is put between.
+        // Several different temperatures can stay in proportion only if no intermediate times are
+        // added.
         let mut all = members().map(|(_, of_node)| (of_node.initial, of_node.change.bits()));
         let first = all.next();
         let times = match all.all(|other| Some(&other) == first.as_ref()) {
@@ -231,8 +235,8 @@ impl Deck {
 }
 
 impl MaterialData {
-    /// As a material of a scene, with rows over temperature where its tables have several; none
-    /// without an elastic law.
+    /// The material of a scene, with rows over temperature if the deck's tables have several
+    /// temperatures; `None` without an elastic law.
     pub(super) fn material(&self) -> Option<Material> {
         let (_, [youngs_modulus, poissons_ratio]) = *self.elastic.first()?;
         let of_elastic = several(&self.elastic).iter().map(|(t, _)| *t);
@@ -265,7 +269,8 @@ impl MaterialData {
         })
     }
 
-    /// The plastic part of the law that a table is, in the form that all tables of it have.
+    /// The plastic law given by one table, in the form that is common to all tables of the
+    /// material.
     fn hardening(&self, rows: &[[f64; 2]]) -> Material {
         let harden = self.plastic.iter().any(|(_, rows)| rows.len() > 1);
         let (curved, moves) = (harden && !self.is_kinematic, harden && self.is_kinematic);
@@ -278,18 +283,18 @@ impl MaterialData {
     }
 }
 
-/// The tables of a law that depends on temperature; none of one that does not.
+/// The tables of a law that depends on temperature; empty if it does not.
 fn several<T>(tables: &[T]) -> &[T] {
     if tables.len() > 1 { tables } else { &[] }
 }
 
-/// The table of a temperature.
+/// The table for a temperature.
 fn at<T>(tables: &[(f64, T)], temperature: f64) -> Option<&T> {
     let found = tables.iter().find(|(t, _)| *t == temperature);
     found.map(|(_, table)| table)
 }
 
-/// The slope of hardening from the first row to the last, 0 of a single one.
+/// The slope of hardening between the first and the last row; 0 for a single row.
 fn slope(rows: &[[f64; 2]]) -> f64 {
     match (rows.first(), rows.last()) {
         (Some([from, low]), Some([to, high])) if to > from => (high - low) / (to - from),

@@ -22,7 +22,7 @@ fn directions(scene: &Scene, on: &str) -> Vec<Direction> {
     of.next().map_or(Vec::new(), |support| support.fix.clone())
 }
 
-/// A square of one element that stands on its lower side, and what a deck goes on with.
+/// A square of one element that rests on its lower side, followed by the given lines of a deck.
 fn square(rest: &str) -> Scene {
     let square = "\
 *NODE
@@ -50,7 +50,7 @@ fn a_deck_begins_with_a_keyword() {
         let error = Deck::parse(text.as_bytes(), "a.inp").err().unwrap();
         assert!(error.message().starts_with("a.inp, line 1: "), "{error}");
     }
-    // Nothing at all is read, but is no model.
+    // A deck without data can be read, but is not a model.
     let deck = Deck::parse(b"** a comment\n\n", "a.inp").unwrap();
     assert!(deck.convert(Options::default()).is_err());
 }
@@ -60,7 +60,8 @@ fn every_keyword_becomes_what_it_means() {
     let deck = read("tests/fuzz/seeds/every_keyword.inp");
     let conversion = small_strain(&deck);
     let scene = conversion.finish("every.inp", &[]).unwrap();
-    // One section of two bodies that share no node: sets that are the bodies give the names.
+    // One section has two bodies that share no node: sets that are exactly the bodies give the
+    // names.
     assert_eq!(scene.bodies.keys().collect::<Vec<_>>(), ["HIGH", "LOW"]);
     let steel = &scene.materials["STEEL"];
     assert_eq!(steel.first_yield_stress(), Some(300.0));
@@ -68,14 +69,15 @@ fn every_keyword_becomes_what_it_means() {
         steel.hardening_table,
         Some(vec![[0.0, 300.0], [0.1, 400.0]])
     );
-    // The axes of the transform are the global ones.
+    // The axes of the transform coincide with the global ones.
     let turned = scene
         .support
         .iter()
         .filter(|support| support.direction.is_some());
     assert_eq!(turned.count(), 2);
     assert_eq!(directions(&scene, "boundary-line-60"), [Direction::X]);
-    // The force on the leader of a plane, over the thickness; the pressure that goes again.
+    // The force on the leader of a plane, divided by the thickness; the pressure that is removed
+    // again.
     let plane = &scene.load[0];
     assert_eq!(plane.plane_force.unwrap().total, -2.5);
     assert_eq!(
@@ -99,7 +101,7 @@ fn every_keyword_becomes_what_it_means() {
         targets,
         [(Some("step-1"), Some(1.0)), (Some("step-2"), Some(2.0))]
     );
-    // Places are those of the deck.
+    // Places in the scene refer to the deck.
     assert!(
         scene
             .places
@@ -137,7 +139,7 @@ fn loads_that_change_alike_give_load_factors() {
             .iter()
             .all(|load| load.history == History::Proportional)
     );
-    // The two nodes are one set, and its force that of both.
+    // The two nodes form one set, whose force is the sum of both.
     assert_eq!(scene.load.len(), 2);
     assert_eq!(scene.load[0].force.unwrap().vector(), [0.0, 20.0, 0.0]);
     let factors: Vec<_> = scene
@@ -149,7 +151,7 @@ fn loads_that_change_alike_give_load_factors() {
     assert_eq!(factors, [Some(1.0), Some(0.5)]);
 }
 
-/// An amplitude over step time begins anew in each step that names it, one over total time goes on.
+/// An amplitude over step time restarts in each step that names it; one over total time continues.
 #[test]
 fn amplitudes_over_step_time_begin_anew_in_each_step() {
     let steps = |second: &str| {
@@ -198,7 +200,7 @@ fn amplitudes_over_step_time_begin_anew_in_each_step() {
     assert_eq!(ends(&forces("WHOLE")), [40.0, 80.0]);
 }
 
-/// Sets that hold themselves or each other end.
+/// Sets that contain themselves or each other do not cause endless recursion.
 #[test]
 fn sets_in_a_circle_are_the_sum_of_their_members() {
     let text = "*NODE\n1\n2\n3\n*NSET, NSET=A\nB, 1\n*NSET, NSET=B\nA, B, 3\n";
@@ -224,7 +226,8 @@ fn kinematic_hardening_is_the_slope_of_its_curve() {
     assert!((modulus - 1000.0).abs() < 1e-9, "{modulus}");
 }
 
-/// Instances are moved, then turned, about any axis in space; so are axes of `*TRANSFORM`.
+/// Instances are translated, then rotated about any axis in space, together with the axes of
+/// `*TRANSFORM`.
 #[test]
 fn instances_are_moved_then_turned() {
     let axes = "*TRANSFORM, NSET=N, TYPE=C\n1., 2., 3., 1., 2., 4.\n*TRANSFORM, NSET=N\n1., 0., \
@@ -247,13 +250,13 @@ fn instances_are_moved_then_turned() {
     assert_eq!(x, [2.0, -2.0, 3.0]);
     assert_eq!(axis, [[2.0, -2.0, 3.0], [2.0, -3.0, 3.0]]);
     assert_eq!(ways, [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
-    // A third of a turn about the diagonal brings each axis to the next.
+    // A third of a turn about the diagonal maps each axis to the next.
     let (x, _, _) = placed("0., 0., 0.\n0., 0., 0., 1., 1., 1., 120.\n");
     assert!(
         (0..3).all(|d| (x[d] - [3.0, 1.0, 2.0][d]).abs() < 1e-14),
         "{x:?}"
     );
-    // Whole turns are none.
+    // Whole turns have no effect.
     let (x, _, _) = placed("0., 0., 0.\n0., 0., 0., 1., 1., 1., -720.\n");
     assert_eq!(x, [1.0, 2.0, 3.0]);
 }

@@ -1,9 +1,9 @@
-//! What is found wrong with the scene of a deck, in the words of the deck.
+//! Problems in the scene of a deck, reported in the terms of the deck.
 
 use crate::error::Error;
 use crate::scene::Scene;
 
-/// What a scene's messages advise, and what the same is in a deck.
+/// Advice in messages about a scene, each with the corresponding advice for a deck.
 const ADVICE: [(&str, &str); 12] = [
     ("load: there is no load", "*STEP: there is no load"),
     (
@@ -28,7 +28,7 @@ const ADVICE: [(&str, &str); 12] = [
     ("in the scene", "in the deck"),
 ];
 
-/// Keys of a material, and the keyword that has them.
+/// Keys of a material, each with the keyword of the deck that gives it.
 const OF_MATERIALS: [(&str, &str); 8] = [
     (".youngs_modulus", "*ELASTIC of {}: Young's modulus"),
     (".poissons_ratio", "*ELASTIC of {}: Poisson's ratio"),
@@ -40,7 +40,7 @@ const OF_MATERIALS: [(&str, &str); 8] = [
     (".over_temperature", "*ELASTIC or *PLASTIC of {}"),
 ];
 
-/// Lists of a scene, and the keyword that their entries come of.
+/// Lists of a scene, each with the keyword from which the entries come.
 const LISTS: [(&str, &str); 4] = [
     ("contact.", "*CONTACT PAIR"),
     ("tie.", "*TIE"),
@@ -48,7 +48,8 @@ const LISTS: [(&str, &str); 4] = [
     ("support.", "*BOUNDARY"),
 ];
 
-/// An error about the scene of a deck as one about the deck; that of another scene as it is.
+/// Rewords an error about the scene of a deck as one about the deck; errors of other scenes are
+/// returned unchanged.
 pub(crate) fn of_deck(scene: &Scene, error: Error) -> Error {
     if !scene.requests.is_of_deck() {
         return error;
@@ -65,7 +66,7 @@ pub(crate) fn of_deck(scene: &Scene, error: Error) -> Error {
     })
 }
 
-/// A message without keys of a scene.
+/// Rewords a message so that it contains no keys of a scene.
 pub(super) fn reworded(text: &str) -> String {
     let mut text = materials(text);
     for (key, keyword) in LISTS {
@@ -77,7 +78,7 @@ pub(super) fn reworded(text: &str) -> String {
     text
 }
 
-/// `materials.NAME.KEY` and what follows of it (`.3`), as a keyword of the material.
+/// Replaces `materials.NAME.KEY`, with any index after it (`.3`), by a keyword of the material.
 fn materials(text: &str) -> String {
     const START: &str = "materials.";
     let Some((before, rest)) = text.split_once(START) else {
@@ -93,7 +94,7 @@ fn materials(text: &str) -> String {
     format!("{before}{words}{}", materials(after))
 }
 
-/// `contact.3.first` as a keyword.
+/// Replaces a path such as `contact.3.first` by a keyword.
 fn entries(text: &str, key: &str, keyword: &str) -> String {
     let mut out = String::new();
     let mut rest = text;

@@ -1,21 +1,22 @@
-//! Do elements fit together? Shared edges agree, elements do not overlap, no node hangs on an edge.
+//! Conformity of the elements: shared edges agree, elements do not overlap, no node hangs on an
+//! edge.
 
 use super::{Facet, Mesh};
 use crate::space::{self, Vector, cross, difference, dot, length};
 use crate::{Error, Result};
 use rayon::prelude::*;
 
-/// Facets that a thread takes at a time: fewer take less than waking it.
+/// Least number of facets per thread: fewer facets take less time than waking the thread.
 const GRAIN: usize = 512;
 
-/// A facet by its corners, ascending and filled up.
+/// A facet identified by its corners, in ascending order and padded.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct FacetCorners {
     corners: [u32; MOST_CORNERS],
     facet: Facet,
 }
 
-/// Most corners of a facet.
+/// Largest number of corners of a facet.
 const MOST_CORNERS: usize = 4;
 
 /// Checks that each facet belongs to one element, or to two on opposite sides with the same
@@ -23,7 +24,7 @@ const MOST_CORNERS: usize = 4;
 /// that body.
 ///
 /// # Errors
-/// Input errors name elements, nodes and body.
+/// `Input`, naming the elements, nodes and body.
 pub(super) fn check(mesh: &Mesh) -> Result<()> {
     let mut sides: Vec<FacetCorners> = (0..mesh.n_elements())
         .flat_map(|element| {
@@ -45,7 +46,8 @@ pub(super) fn check(mesh: &Mesh) -> Result<()> {
             [only] => boundary.push(only.facet),
             [first, second] => check_pair(mesh, first.facet, second.facet)?,
             [first, second, third, ..] => {
-                // Two of three lie on the same side; a duplicate has the better message.
+                // Two of three facets lie on the same side; comparing all three pairs gives the
+                // better message for duplicate elements.
                 check_pair(mesh, first.facet, second.facet)?;
                 check_pair(mesh, second.facet, third.facet)?;
                 check_pair(mesh, first.facet, third.facet)?;
@@ -56,7 +58,7 @@ pub(super) fn check(mesh: &Mesh) -> Result<()> {
     check_hanging(mesh, &boundary)
 }
 
-/// The corners of a facet in its own order.
+/// The corners of a facet, in the facet's own order.
 fn corners_of(mesh: &Mesh, facet: Facet) -> impl Iterator<Item = u32> + Clone + '_ {
     let corners = mesh.facet_corners(facet);
     mesh.facet_nodes(facet)
@@ -64,7 +66,7 @@ fn corners_of(mesh: &Mesh, facet: Facet) -> impl Iterator<Item = u32> + Clone + 
         .map(|node| node as u32)
 }
 
-/// The mid-side nodes of a facet, ascending.
+/// The mid-side nodes of a facet, in ascending order.
 fn middles(mesh: &Mesh, facet: Facet) -> Vec<u32> {
     let corners = mesh.facet_corners(facet);
     let nodes = mesh.facet_nodes(facet).skip(corners);
@@ -73,8 +75,8 @@ fn middles(mesh: &Mesh, facet: Facet) -> Vec<u32> {
     middles
 }
 
-/// Whether two facets with the same corners run through them in opposite directions, as those of
-/// elements on their two sides do.
+/// Whether two facets with the same corners run through them in opposite directions, as the facets
+/// of elements on opposite sides do.
 fn are_opposite(mesh: &Mesh, first: Facet, second: Facet) -> bool {
     let (one, mut other): (Vec<u32>, Vec<u32>) = (
         corners_of(mesh, first).collect(),
@@ -97,7 +99,8 @@ fn name(mesh: &Mesh, element: usize) -> String {
     )
 }
 
-/// Two elements at one facet must lie on its two sides and agree on its mid-side nodes.
+/// Checks that two elements sharing a facet lie on opposite sides of it and have the same mid-side
+/// nodes there.
 fn check_pair(mesh: &Mesh, first: Facet, second: Facet) -> Result<()> {
     let same_side = !are_opposite(mesh, first, second);
     let (m, n) = (middles(mesh, first), middles(mesh, second));
@@ -138,7 +141,7 @@ fn check_pair(mesh: &Mesh, first: Facet, second: Facet) -> Result<()> {
     }
 }
 
-/// A facet by its corners, in words.
+/// Describes a facet in words by its corners.
 fn described(mesh: &Mesh, facet: Facet) -> String {
     let labels: Vec<String> = corners_of(mesh, facet)
         .map(|node| mesh.node_label(node as usize).to_string())
@@ -149,13 +152,14 @@ fn described(mesh: &Mesh, facet: Facet) -> String {
     }
 }
 
-/// Corners of the boundary within this share of an edge's length from it count as lying on it.
+/// Distance from an edge, as a share of the edge's length, within which a corner of the boundary
+/// counts as lying on the edge.
 const ON_EDGE: f64 = 1e-8;
 
-/// Finds boundary corners in the inside of a boundary edge of the same body.
+/// Finds boundary corners in the interior of a boundary edge of the same body.
 fn check_hanging(mesh: &Mesh, boundary: &[Facet]) -> Result<()> {
-    // Along this skew direction few boundary nodes share a value even where the boundary is
-    // parallel to an axis, so that sorting by it finds neighbours.
+    // Few boundary nodes share a coordinate along this skew direction, even if the boundary is
+    // parallel to an axis. Sorting by the skew coordinate therefore finds neighbours.
     let skew = |[x, y, z]: Vector| x + 0.618_033_988_749_895 * y + 0.381_966_011_250_105 * z;
     let mut edges: Vec<(u32, [u32; 2], usize)> = boundary
         .iter()
@@ -163,13 +167,13 @@ fn check_hanging(mesh: &Mesh, boundary: &[Facet]) -> Result<()> {
             let corners: Vec<u32> = corners_of(mesh, facet).collect();
             let n = corners.len();
             let body = mesh.element_body[facet.element];
-            // A line is one edge.
+            // A facet with two corners is a single edge.
             let edge = move |k: usize| (body, [corners[k], corners[(k + 1) % n]], facet.element);
             (0..if n == 2 { 1 } else { n }).map(edge)
         })
         .collect();
     if mesh.is_solid() {
-        // Two faces meet at an edge: one of them stands for it.
+        // In a solid, two faces meet at each edge, so duplicates are removed.
         edges
             .iter_mut()
             .for_each(|(_, ends, _)| ends.sort_unstable());

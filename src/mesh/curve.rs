@@ -1,15 +1,15 @@
-//! Exact shapes of surfaces.
+//! Exact shapes of surfaces: lines, circles, planes, spheres, cylinders and tori.
 
 use crate::space::{Vector, along, difference, direction, dot, in_space, length};
 use serde::{Deserialize, Serialize};
 
-/// The exact shape of a surface, where it is known. Normals then are exact at every node.
+/// The exact shape of a surface, if it is known. Normals are then exact at every node.
 ///
-/// `outward` is true where the body's outward normal points away from the centre, the axis or the
-/// ring (a disc, a shaft, a ball), false for a hole or a groove.
+/// `outward` is true if the body's outward normal points away from the centre, the axis or the ring
+/// (a disc, a shaft, a ball), and false for a hole or a groove.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Curve {
-    /// A straight line with outward unit normal.
+    /// A straight line with an outward unit normal.
     Line {
         /// Outward unit normal of the body.
         normal: [f64; 2],
@@ -20,11 +20,11 @@ pub enum Curve {
         center: [f64; 2],
         /// Radius of the circle.
         radius: f64,
-        /// True where the body's outward normal points away from the centre (a disc), false for a
+        /// True if the body's outward normal points away from the centre (a disc), false for a
         /// hole.
         outward: bool,
     },
-    /// A plane, of a solid.
+    /// A plane surface of a solid.
     Plane {
         /// Outward unit normal of the body.
         normal: Vector,
@@ -35,7 +35,7 @@ pub enum Curve {
         center: Vector,
         /// Radius of the sphere.
         radius: f64,
-        /// True where the body's outward normal points away from the centre (a ball).
+        /// True if the body's outward normal points away from the centre (a ball).
         outward: bool,
     },
     /// A part of a circular cylinder.
@@ -46,10 +46,10 @@ pub enum Curve {
         axis: Vector,
         /// Radius of the cylinder.
         radius: f64,
-        /// True where the body's outward normal points away from the axis (a shaft).
+        /// True if the body's outward normal points away from the axis (a shaft).
         outward: bool,
     },
-    /// A part of a torus: all points at a distance from a ring.
+    /// A part of a torus: all points at the distance `radius` from a ring.
     Torus {
         /// Centre of the ring.
         center: Vector,
@@ -57,16 +57,17 @@ pub enum Curve {
         axis: Vector,
         /// Radius of the ring.
         ring: f64,
-        /// Distance from the ring: the radius of the tube.
+        /// Radius of the tube, the distance of the surface from the ring.
         radius: f64,
-        /// True where the body's outward normal points away from the ring.
+        /// True if the body's outward normal points away from the ring.
         outward: bool,
     },
 }
 
 impl Curve {
-    /// The nearest point to `x` of what the surface has its radius from: the centre, the axis, the
-    /// ring; with the radius and the side of the body. `None` of lines and planes.
+    /// The point nearest to `x` of the surface's spine, from which the radius is measured (the
+    /// centre, the axis or the ring), with the radius and the value of `outward`. `None` for lines
+    /// and planes.
     pub(crate) fn spine(&self, x: Vector) -> Option<(Vector, f64, bool)> {
         match *self {
             Curve::Line { .. } | Curve::Plane { .. } => None,
@@ -118,7 +119,8 @@ impl Curve {
         }
     }
 
-    /// The nearest point of a round surface, and how far it is; `None` of lines and planes.
+    /// The point of a round surface nearest to `x`, and its distance from `x`; `None` for lines and
+    /// planes.
     pub fn nearest(&self, x: Vector) -> Option<(Vector, f64)> {
         let (from, radius, _) = self.spine(x)?;
         let way = difference(x, from);
@@ -128,7 +130,7 @@ impl Curve {
         ))
     }
 
-    /// The surface with the body on one side of it.
+    /// A copy of the surface with `outward` set, so that the body lies on the chosen side of it.
     pub(crate) fn facing(self, outward: bool) -> Curve {
         let mut out = self;
         match &mut out {
@@ -141,7 +143,8 @@ impl Curve {
         out
     }
 
-    /// All numbers of it, in order, and whether the normal points away from the centre.
+    /// All numbers that define the curve, in the order of the fields, and whether the normal points
+    /// away from the centre.
     pub fn numbers(&self) -> (Vec<f64>, bool) {
         let join = |parts: &[&[f64]]| parts.concat();
         match self {
@@ -173,7 +176,7 @@ impl Curve {
         }
     }
 
-    /// Name of the curve, in words.
+    /// Name of the kind of curve, in words.
     pub fn name(&self) -> &'static str {
         match self {
             Curve::Line { .. } => "line",
@@ -191,8 +194,8 @@ mod tests {
     use super::*;
     use crate::space::cross;
 
-    /// Normals are unit vectors, perpendicular to the surface by differences, and points are drawn
-    /// to where they belong.
+    /// Normals are unit vectors and perpendicular to the surface (checked by differences), and
+    /// nearest points lie on the surface.
     #[test]
     fn nearest_points_lie_on_the_surface_along_the_normal() {
         let axis = [1.0, 2.0, -2.0];

@@ -1,4 +1,4 @@
-//! The mesh of a deck of Abaqus or CalculiX ([`crate::deck`]).
+//! Reads the mesh of a deck of Abaqus or CalculiX ([`crate::deck`]).
 
 use super::{Facet, Mesh, Surface};
 use crate::deck::{Deck, Options};
@@ -8,18 +8,18 @@ use std::path::Path;
 /// Reads the mesh of a deck.
 ///
 /// # Errors
-/// As [`Deck::read`] and [`mesh`].
+/// As for [`Deck::read`] and [`mesh`].
 pub fn read(path: &Path) -> Result<Mesh> {
     mesh(&Deck::read(path)?)
 }
 
-/// The mesh of a deck: sections, or their connected parts, are its bodies; node sets and surfaces
-/// keep their names, and those that loads and supports are on are there too. Nodes of no element
-/// are dropped. What a deck asks for that brinell does not have is no matter here.
+/// The mesh of a deck. Bodies are the deck's sections, or their connected parts. Node sets and
+/// surfaces keep their names; sets on which loads and supports act are included. Nodes that belong
+/// to no element are dropped. Features that brinell does not have are ignored here.
 ///
 /// # Errors
-/// Names and numbers that there are not; elements in no section or of several kinds; nodes out of
-/// the plane.
+/// `Input` for names and numbers that are not defined, elements in no section or of several kinds,
+/// and nodes outside the plane of a plane mesh.
 pub fn mesh(deck: &Deck) -> Result<Mesh> {
     let options = Options {
         small_strain: true,
@@ -35,7 +35,7 @@ pub fn mesh(deck: &Deck) -> Result<Mesh> {
         bodies: bodies.names,
         ..Mesh::default()
     };
-    // New indices of the nodes that are kept.
+    // New indices of the nodes that are kept; `u32::MAX` for others.
     let mut kept = vec![u32::MAX; deck.n_nodes()];
     for (node, kept) in kept.iter_mut().enumerate() {
         if geometry.is_used[node] {
@@ -80,7 +80,7 @@ pub fn mesh(deck: &Deck) -> Result<Mesh> {
     Ok(mesh)
 }
 
-/// Nodes of a plane mesh lie in a plane z = constant.
+/// Checks that the nodes of a plane mesh lie in a plane z = constant.
 fn check_plane(deck: &Deck, is_used: &[bool]) -> Result<()> {
     let nodes = || (0..deck.n_nodes()).filter(|&node| is_used[node]);
     let Some(first) = nodes().next() else {
@@ -92,7 +92,7 @@ fn check_plane(deck: &Deck, is_used: &[bool]) -> Result<()> {
         x.abs().max(y.abs())
     });
     let extent = extent.fold(0.0, f64::max);
-    // Coordinates are often written with some ten digits.
+    // The tolerance allows for coordinates written with about ten digits.
     let is_off = |node: &usize| (deck.point(*node)[2] - height).abs() > 1e-9 * extent;
     match nodes().find(is_off) {
         Some(node) => {

@@ -1,11 +1,11 @@
-//! The Jacobian of the map from the reference element, where an element is checked.
+//! The Jacobian of the map from the reference element, evaluated to check elements.
 
 use super::{Integration, Shape};
 use crate::shape::Functions;
 use crate::space::{Vector, cross, dot, unit};
 
-/// The shape functions where the Jacobian of an element must be positive: at the points that it is
-/// integrated with; at the corners, too, if it is linear.
+/// The shape functions at all places where the Jacobian of an element must be positive: the
+/// integration points, and for a linear element also the corners.
 pub(super) fn integrated(shape: Shape, integration: Integration) -> Vec<Functions> {
     let corners = if shape.is_quadratic() {
         vec![]
@@ -20,13 +20,13 @@ pub(super) fn integrated(shape: Shape, integration: Integration) -> Vec<Function
         .collect()
 }
 
-/// The shape functions at corners and mid-side nodes.
+/// The shape functions at all nodes of an element, corners and mid-side nodes.
 pub(super) fn at_nodes(shape: Shape) -> Vec<Functions> {
     let places = shape.reference().nodes.iter();
     places.map(|&place| shape.functions(place)).collect()
 }
 
-/// Determinant of the Jacobian of an element with these node positions.
+/// Determinant of the Jacobian of an element with the given node positions.
 pub(super) fn determinant(dimension: usize, at: &Functions, points: &[Vector]) -> f64 {
     let mut along = [[0.0; 3]; 3];
     for (gradient, point) in at.gradients.iter().zip(points) {

@@ -1,6 +1,6 @@
-//! Nodes, elements, bodies and named sets: geometry only, no mechanics.
+//! Nodes, elements, bodies and named sets: geometry only, without mechanics.
 //!
-//! The dimension is data ([`Mesh::dimension`]); element shapes carry their own node order and
+//! The dimension is data ([`Mesh::dimension`]). Element shapes define their own node order and
 //! facets ([`Shape`]).
 
 mod conformity;
@@ -36,7 +36,7 @@ use std::collections::BTreeMap;
 /// A facet of an element: an edge in the plane, a face in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Facet {
-    /// Number of the element.
+    /// Index of the element.
     pub element: usize,
     /// Local facet number, see [`Shape::facet`].
     pub local: usize,
@@ -45,9 +45,9 @@ pub struct Facet {
 /// A named surface: facets of one body's boundary.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Surface {
-    /// Facets, in any order.
+    /// Facets of the surface, in any order.
     pub facets: Vec<Facet>,
-    /// The exact shape, where known.
+    /// The exact shape of the surface, if it is known.
     pub curve: Option<Curve>,
 }
 
@@ -56,13 +56,15 @@ pub struct Surface {
 pub struct Mesh {
     /// Space dimension, 2 or 3.
     pub dimension: usize,
-    /// `n_nodes x dimension` coordinates, node by node. Axisymmetric: (r, z).
+    /// `n_nodes x dimension` coordinates, node by node; (r, z) in an axisymmetric model.
     pub coordinates: Vec<f64>,
     /// Shape of each element.
     pub shapes: Vec<Shape>,
-    /// Start of each element's nodes in [`Mesh::connectivity`]; length `n_elements + 1`.
+    /// Index in [`Mesh::connectivity`] at which each element's nodes begin; length
+    /// `n_elements + 1`.
     pub offsets: Vec<usize>,
-    /// Node indices of all elements, one after the other, counter-clockwise, corners first.
+    /// Node indices of all elements, one element after the other; corners first, in the order of
+    /// [`Shape`].
     pub connectivity: Vec<u32>,
     /// Body index of each element.
     pub element_body: Vec<u32>,
@@ -72,16 +74,17 @@ pub struct Mesh {
     pub node_sets: BTreeMap<String, Vec<usize>>,
     /// Named surfaces. A surface's nodes may be used wherever a node set may.
     pub surfaces: BTreeMap<String, Surface>,
-    /// Node numbers as the mesh file had them, for messages; empty where generated (then 1-based).
+    /// Node numbers as given in the mesh file, for messages; empty for a generated mesh (then
+    /// 1-based).
     pub node_labels: Vec<u64>,
-    /// Element numbers as the mesh file had them; empty where generated (then 1-based).
+    /// Element numbers as given in the mesh file; empty for a generated mesh (then 1-based).
     pub element_labels: Vec<u64>,
-    /// How each body's elements are integrated; empty where all are reduced.
+    /// Integration of each body's elements; empty if all bodies use reduced integration.
     pub integration: Vec<Integration>,
 }
 
 impl Mesh {
-    /// Number of nodes.
+    /// Number of nodes of the mesh.
     pub fn n_nodes(&self) -> usize {
         self.coordinates
             .len()
@@ -89,19 +92,19 @@ impl Mesh {
             .unwrap_or(0)
     }
 
-    /// Number of elements.
+    /// Number of elements of the mesh.
     pub fn n_elements(&self) -> usize {
         self.shapes.len()
     }
 
-    /// How an element is integrated.
+    /// The integration (reduced or full) of an element.
     #[inline]
     pub fn integration_of(&self, element: usize) -> Integration {
         let body = self.element_body[element] as usize;
         self.integration.get(body).copied().unwrap_or_default()
     }
 
-    /// The rule that integrates an element.
+    /// The rule with which an element is integrated.
     pub fn rule(&self, element: usize) -> &'static Rule {
         self.shapes[element].rule(self.integration_of(element))
     }
@@ -112,13 +115,13 @@ impl Mesh {
         self.rule(element).len()
     }
 
-    /// Most integration points of an element, at least 1.
+    /// Largest number of integration points of an element, at least 1.
     pub(crate) fn most_points(&self) -> usize {
         let each = (0..self.n_elements()).map(|e| self.n_points(e));
         each.max().unwrap_or(1)
     }
 
-    /// Whether a body is fully integrated.
+    /// Whether any body is fully integrated.
     pub(crate) fn has_full_integration(&self) -> bool {
         self.integration.contains(&Integration::Full)
     }
@@ -129,7 +132,7 @@ impl Mesh {
         if quadratic { 2 } else { 1 }
     }
 
-    /// Coordinates of a node; z = 0 in the plane.
+    /// Coordinates of a node; z = 0 in a plane mesh.
     #[inline]
     pub fn point(&self, node: usize) -> Vector {
         let at = self.dimension * node;
@@ -143,7 +146,7 @@ impl Mesh {
         }
     }
 
-    /// The first two coordinates of a node: all there are in the plane.
+    /// The first two coordinates of a node, which are all its coordinates in a plane mesh.
     pub fn in_plane(&self, node: usize) -> [f64; 2] {
         let [x, y, _] = self.point(node);
         [x, y]
@@ -154,7 +157,7 @@ impl Mesh {
         in_words(self.point(node), self.dimension)
     }
 
-    /// Whether the mesh is of three dimensions.
+    /// Whether the mesh is three-dimensional.
     pub fn is_solid(&self) -> bool {
         self.dimension == 3
     }
@@ -169,7 +172,7 @@ impl Mesh {
         self.facet_reference(facet).n_corners
     }
 
-    /// Coordinates of an element's nodes, at the front of an array.
+    /// Coordinates of an element's nodes, at the front of an array of fixed length.
     #[inline]
     pub fn element_coordinates<const D: usize, const N: usize>(
         &self,
@@ -188,7 +191,7 @@ impl Mesh {
         &self.connectivity[self.offsets[element]..self.offsets[element + 1]]
     }
 
-    /// Node indices of a facet: its corners first, then the mid-side nodes where there are some.
+    /// Node indices of a facet: its corners first, then any mid-side nodes.
     pub fn facet_nodes(&self, facet: Facet) -> impl Iterator<Item = usize> + Clone + '_ {
         let nodes = self.nodes(facet.element);
         self.shapes[facet.element]
@@ -197,8 +200,8 @@ impl Mesh {
             .map(move |&i| nodes[i] as usize)
     }
 
-    /// Nodes of a node set or of a surface, sorted, without duplicates; `None` if there is no such
-    /// name.
+    /// Nodes of a node set or of a surface, sorted, without duplicates; `None` if there is no set
+    /// of this name.
     pub fn set_nodes(&self, name: &str) -> Option<Vec<usize>> {
         if let Some(nodes) = self.node_sets.get(name) {
             return Some(nodes.clone());
@@ -223,7 +226,7 @@ impl Mesh {
             .collect()
     }
 
-    /// The number a user knows a node by.
+    /// The number by which the user knows a node.
     pub fn node_label(&self, node: usize) -> u64 {
         self.node_labels
             .get(node)
@@ -231,7 +234,7 @@ impl Mesh {
             .unwrap_or(node as u64 + 1)
     }
 
-    /// The number a user knows an element by.
+    /// The number by which the user knows an element.
     pub(crate) fn element_label(&self, element: usize) -> u64 {
         self.element_labels
             .get(element)
@@ -239,7 +242,7 @@ impl Mesh {
             .unwrap_or(element as u64 + 1)
     }
 
-    /// An element by its number, shape and body.
+    /// Describes an element by its number, shape and body.
     pub(crate) fn element_in_words(&self, element: usize) -> String {
         format!(
             "element {} ({}, body `{}`)",
@@ -249,7 +252,7 @@ impl Mesh {
         )
     }
 
-    /// Appends an element.
+    /// Appends an element to the mesh.
     pub fn push_element(&mut self, shape: Shape, body: usize, nodes: &[u32]) {
         if self.offsets.is_empty() {
             self.offsets.push(0);

@@ -1,20 +1,21 @@
-//! The node nearest to a place.
+//! Search for the node nearest to a point.
 
 use super::Mesh;
 use crate::space::{Vector, difference, length};
 
-/// A node near a place.
+/// The node nearest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct NearestNode {
     pub node: usize,
-    /// How far from the place.
+    /// Distance of the node from the point.
     pub distance: f64,
-    /// The longest edge of the elements at the node.
+    /// Length of the longest edge of the elements at the node.
     pub edge: f64,
 }
 
 impl Mesh {
-    /// The node nearest to `x`, of all bodies or of one; `None` where there is no such body.
+    /// The node nearest to `x`, among the nodes of all bodies or of one body; `None` if there is no
+    /// such body.
     pub(crate) fn nearest_node(&self, body: Option<&str>, x: Vector) -> Option<NearestNode> {
         let is_of =
             |e: usize| body.is_none_or(|body| self.bodies[self.element_body[e] as usize] == body);

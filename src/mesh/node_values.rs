@@ -1,15 +1,15 @@
-//! Values at nodes from a file, by the number of the node.
+//! Values at nodes read from a file, by node number.
 
 use super::gmsh::node_data;
 use crate::deck::{Deck, is_deck};
 use crate::error::Result;
 use std::path::Path;
 
-/// Reads them: of a Gmsh file the one section `$NodeData`; of a deck, for each of its nodes, the
-/// largest change of its temperature.
+/// Reads values at nodes: from a Gmsh file the only section `$NodeData`; from a deck the largest
+/// change of temperature at each of its nodes.
 ///
 /// # Errors
-/// Errors of reading the file.
+/// The errors of reading the file.
 pub(crate) fn read(path: &Path) -> Result<Vec<(u64, f64)>> {
     match is_deck(path) {
         true => Deck::read(path)?.node_temperatures(),

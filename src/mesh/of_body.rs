@@ -1,11 +1,12 @@
-//! Sets by the name of a body and their own: `body.set`.
+//! Sets named by a body and a set of it: `body.set`.
 
 use super::{Facet, Mesh, Surface};
 
 impl Mesh {
-    /// Names what others call `body.set`: of a set or surface `set` that there is, the part that
-    /// belongs to elements of a body `body`. Names that there are already stay as they are; others
-    /// are left for those who look them up.
+    /// Defines the sets that the given names of the form `body.set` refer to: the part of an
+    /// existing set or surface `set` that belongs to elements of the body `body`. Existing names
+    /// are not changed; names that cannot be resolved are skipped, and are reported when they are
+    /// looked up.
     pub(crate) fn name_parts<'n>(&mut self, names: impl IntoIterator<Item = &'n str>) {
         for name in names {
             if self.has_set(name) {
@@ -32,7 +33,7 @@ impl Mesh {
         }
     }
 
-    /// The body and the set that a name `body.set` is made of, both of which there are.
+    /// Splits a name `body.set` into its body and set, if both exist.
     pub(crate) fn body_and_set<'n>(&self, name: &'n str) -> Option<(usize, &'n str)> {
         let mut bodies = self.bodies.iter().enumerate();
         bodies.find_map(|(index, body)| {
@@ -41,7 +42,7 @@ impl Mesh {
         })
     }
 
-    /// Names of the bodies that a set or surface has something of.
+    /// Names of the bodies of which a set or surface contains a part.
     pub(crate) fn bodies_of_set(&self, set: &str) -> Vec<&str> {
         let has_some = |body: usize| match self.surfaces.get(set) {
             Some(surface) => {
@@ -63,7 +64,7 @@ impl Mesh {
         self.node_sets.contains_key(name) || self.surfaces.contains_key(name)
     }
 
-    /// Whether an element of a body has the node, for each node.
+    /// For each node, whether it belongs to an element of the body.
     fn nodes_of_body(&self, body: usize) -> Vec<bool> {
         let mut is_own = vec![false; self.n_nodes()];
         let own = (0..self.n_elements()).filter(|&e| self.element_body[e] as usize == body);
@@ -79,7 +80,8 @@ mod tests {
     use super::*;
     use crate::mesh::Shape;
 
-    /// Two squares one above the other that share an edge; a surface and a set are of both.
+    /// Two squares one above the other that share an edge, with a surface and a set that extend
+    /// over both.
     fn mesh() -> Mesh {
         let mut mesh = Mesh {
             dimension: 2,
@@ -114,11 +116,11 @@ mod tests {
             facets.map(|facet| facet.element).collect()
         };
         assert_eq!(elements("low.side"), [0]);
-        // Of the ways to take this name apart that of the first body counts.
+        // If a name can be split in several ways, the first body counts.
         assert_eq!(elements("low.er.side"), [0]);
         assert_eq!(mesh.node_sets["low.left"], [0, 3]);
         assert_eq!(mesh.node_sets["low.er.left"], [3, 5]);
-        // A set of the file that is called so comes first.
+        // A set of the file with this full name takes precedence.
         assert_eq!(mesh.node_sets["low.top"], [1]);
         assert_eq!(mesh.node_sets["low.er.top"], [4, 5]);
         assert_eq!(mesh.node_sets.len(), 6);

@@ -1,6 +1,6 @@
-//! Parts of a mesh: which nodes lie together, and some elements by themselves.
+//! Parts of a mesh: nodes grouped by their position, and meshes of selected elements.
 //!
-//! Space is halved along the longest side of what is there, again and again.
+//! Space is bisected recursively along the longest extent of the nodes in it.
 //!
 //! # Source
 //! M. J. Berger, S. H. Bokhari, *A partitioning strategy for nonuniform problems on
@@ -11,7 +11,8 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 impl Mesh {
-    /// The elements of each of `n` parts of space: those whose first node lies there.
+    /// The elements of each of `n` parts of space; an element belongs to the part of its first
+    /// node.
     pub fn elements_among(&self, n: usize) -> Vec<Vec<usize>> {
         let part = self.shared_among(n);
         let mut elements = vec![Vec::new(); n];
@@ -21,14 +22,16 @@ impl Mesh {
         elements
     }
 
-    /// The elements of each part (ascending) and all that share a node with them, ascending.
+    /// The elements of each given part, together with all elements that share a node with the part,
+    /// in ascending order.
     pub fn with_neighbours(&self, parts: &[Vec<usize>]) -> Vec<Vec<usize>> {
         const NONE: u32 = u32::MAX;
         let mut part_of = vec![NONE; self.n_elements()];
         for (part, elements) in (0..).zip(parts) {
             elements.iter().for_each(|&e| part_of[e] = part);
         }
-        // The part that holds each node; of those that several hold, all.
+        // The first part that holds each node; nodes held by several parts are listed separately
+        // with all of them.
         let mut first = vec![NONE; self.n_nodes()];
         let mut several: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         let mut is_shared = vec![false; self.n_nodes()];
@@ -63,8 +66,8 @@ impl Mesh {
         out
     }
 
-    /// Some elements, ascending, on their own nodes, and which nodes these are, ascending. Bodies
-    /// keep their numbers; sets, surfaces and labels are left behind.
+    /// A mesh of the selected elements (ascending) with their own nodes, and the indices of these
+    /// nodes, ascending. Bodies keep their numbers; sets, surfaces and labels are not copied.
     pub fn part(&self, elements: &[usize]) -> (Mesh, Vec<u32>) {
         let mut number = vec![0; self.n_nodes()];
         for &node in elements.iter().flat_map(|&e| self.nodes(e)) {
@@ -94,11 +97,11 @@ impl Mesh {
         (part, nodes)
     }
 
-    /// The part of each node, of `n` parts of space with as many nodes each.
+    /// The part of each node when space is divided into `n` parts with equal numbers of nodes.
     pub fn shared_among(&self, n: usize) -> Vec<u32> {
         let mut owners = vec![0; self.n_nodes()];
         let nodes = (0..self.n_nodes() as u32).collect();
-        // Nodes, and the parts among which they are to be shared.
+        // Groups of nodes, each with the range of parts to which it is still to be distributed.
         let mut open: Vec<(Vec<u32>, Range<usize>)> = vec![(nodes, 0..n)];
         while let Some((mut nodes, parts)) = open.pop() {
             if parts.len() <= 1 || nodes.is_empty() {
@@ -122,7 +125,7 @@ impl Mesh {
             );
             let half = parts.len() / 2;
             let cut = nodes.len() * half / parts.len();
-            // Of equals the one with the lower number.
+            // Nodes with equal coordinates are ordered by number.
             let order = |a: &u32, b: &u32| place(a)[axis].total_cmp(&place(b)[axis]).then(a.cmp(b));
             if cut > 0 {
                 nodes.select_nth_unstable_by(cut, order);
@@ -159,7 +162,7 @@ mod tests {
             let (least, most) = (counts.iter().min().unwrap(), counts.iter().max().unwrap());
             assert!(most - least <= 2, "{ranks}: {counts:?}");
         }
-        // The longer side is cut.
+        // The longer side of the mesh is cut.
         let owners = mesh.shared_among(2);
         assert!(owners[..15 * 7].iter().all(|rank| *rank == 0));
     }

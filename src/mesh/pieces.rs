@@ -1,14 +1,15 @@
-//! Does each body hang together?
+//! Connectedness of each body: its elements must hang together.
 
 use super::Mesh;
 use crate::classes::Classes;
 use crate::{Error, Result};
 
-/// Checks that the elements of a body are joined by nodes, its own or those that it shares with
-/// other bodies: rigid motions are those of bodies, and what holds one piece does not hold another.
+/// Checks that the elements of a body are joined by nodes, either the body's own or nodes shared
+/// with other bodies. Rigid body modes are handled body by body, and a support of one piece would
+/// not hold another.
 ///
 /// # Errors
-/// An input error names the body and a node of two of its pieces.
+/// `Input`, naming the body and a node of each of two pieces.
 pub(super) fn check(mesh: &Mesh) -> Result<()> {
     let mut classes = Classes::new(mesh.n_nodes());
     for element in 0..mesh.n_elements() {

@@ -1,20 +1,23 @@
-//! A surface of a mesh file that a scene says lies on a circle, a sphere, a cylinder or a torus.
+//! Surfaces of a mesh file that, according to the scene, lie on a circle, a sphere, a cylinder or a
+//! torus.
 
 use super::{Curve, Mesh};
 use crate::scene::MeshSource;
 use crate::space::{Vector, along, difference, dot, in_words};
 use crate::{Error, Result};
 
-/// Share of the radius that a node may lie off its surface: files are written with some six digits.
+/// Largest distance of a node from its surface, as a share of the radius: files are written with
+/// about six digits.
 const OFF: f64 = 1e-5;
 
-/// The exact shapes that surfaces of the file are said to have, with the keys that say so.
+/// The exact shapes that the scene declares for surfaces of the file, each with the key that
+/// declares it and the name of the surface.
 pub fn declared(source: &MeshSource) -> Vec<(String, &str, Curve)> {
     let mut out = Vec::new();
     let mut add = |list: &str, index: usize, on, curve| {
         out.push((format!("mesh.{list}.{index}"), on, curve));
     };
-    // Which side the body is on follows from the mesh.
+    // A placeholder: the side on which the body lies is determined from the mesh.
     let outward = true;
     for (index, given) in source.circles.iter().enumerate() {
         let curve = Curve::Circle {
@@ -54,13 +57,13 @@ pub fn declared(source: &MeshSource) -> Vec<(String, &str, Curve)> {
     out
 }
 
-/// Gives a surface its exact shape, a round one: its nodes are moved onto it (what the digits of
-/// the file left out), normals become exact, and subdivision puts new nodes on a circle. Which side
-/// the body is on follows from the facets.
+/// Assigns an exact round shape to a surface. Nodes of the surface are moved onto the shape (by the
+/// digits that the file leaves out), normals become exact, and subdivision puts new nodes on the
+/// shape. The side on which the body lies is determined from the facets.
 ///
 /// # Errors
-/// Input errors: an unknown surface, a shape of another dimension, a node that does not lie on the
-/// shape, facets that face both inward and outward.
+/// `Input` for an unknown surface, a shape of another dimension, a node that does not lie on the
+/// shape, or facets that face both inward and outward.
 pub fn lay_on(mesh: &mut Mesh, on: &str, curve: Curve) -> Result<()> {
     let Some(surface) = mesh.surfaces.get(on) else {
         let known: Vec<&str> = mesh.surfaces.keys().map(String::as_str).collect();

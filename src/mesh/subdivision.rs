@@ -1,10 +1,10 @@
-//! A mesh with every element cut in four, of a solid in eight: half the element size, the same
-//! bodies, sets and surfaces ([`crate::shape::cuts`]).
+//! Subdivision of a mesh: every element is divided into four, in a solid into eight. The element
+//! size is halved; bodies, sets and surfaces stay the same ([`crate::shape::cuts`]).
 //!
 //! New nodes lie where the element's own map puts them (on the straight line or the parabola of a
-//! side), on a surface whose [`Curve`] is known on that curve. Where a surface faces another one in
-//! a contact, its new nodes are put where those of the other's face them, so that the nodes of the
-//! finer mesh pair as those of the mesh did, and their gaps are those of the surfaces. Old nodes
+//! side), or on the surface's [`Curve`] if it is known. If a surface faces another in a contact,
+//! its new nodes are put opposite the new nodes of the other surface. The nodes of the finer mesh
+//! then pair as those of the coarser mesh did, and their gaps are those of the surfaces. Old nodes
 //! keep their indices and labels.
 
 use super::surface::{PAIRING, facing, longest_facet, normals};
@@ -16,17 +16,17 @@ use crate::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::{BTreeMap, HashMap};
 
-/// Most elements that subdivision makes.
+/// Largest number of elements that subdivision makes.
 const MOST_ELEMENTS: usize = 50_000_000;
-/// Steps of Newton's method for a place on a facet or a curve: it converges quadratically from the
-/// middle of a half of it.
+/// Steps of Newton's method for a point on a facet or a curve: it converges quadratically from the
+/// middle of half a facet.
 const NEWTON: usize = 8;
 
-/// The mesh `times` times subdivided. `contacts` say which surfaces face each other.
+/// The mesh after `times` subdivisions. `contacts` lists the surfaces that face each other.
 ///
 /// # Errors
-/// Input errors: a node set that holds both ends of an element's edge (it is not known whether the
-/// node between belongs to it), a mesh that would become too large.
+/// `Input` for a node set that contains both ends of an element's edge (it is then unknown whether
+/// the node between them belongs to the set), or for a mesh that would become too large.
 pub fn subdivided(mesh: Mesh, times: usize, contacts: &[Contact]) -> Result<Mesh> {
     let (parts, word) = match mesh.is_solid() {
         true => (8usize, "eight"),
@@ -59,7 +59,8 @@ fn subdivided_once(mesh: &Mesh, contacts: &[Contact]) -> Result<Mesh> {
     Ok(finer.mesh())
 }
 
-/// A node set cannot say whether what lies between two of its nodes belongs to it; a surface can.
+/// Refuses node sets that contain both ends of an edge: a node set, unlike a surface, does not
+/// determine whether the new node on the edge belongs to it.
 fn check_node_sets(mesh: &Mesh) -> Result<()> {
     let mut marked = vec![false; mesh.n_nodes()];
     for (name, nodes) in mesh.node_sets.iter().filter(|(_, nodes)| nodes.len() > 1) {
@@ -93,7 +94,8 @@ fn check_node_sets(mesh: &Mesh) -> Result<()> {
     Ok(())
 }
 
-/// Corners of the mesh between which a new node lies, sorted, with their parts of [`WHOLE`].
+/// Corners of the mesh between which a new node lies, sorted, each with its weight in parts of
+/// [`WHOLE`].
 type Between = [(u32, u32); 8];
 
 fn sorted(corners: impl Iterator<Item = (u32, u32)>) -> Between {
@@ -107,21 +109,21 @@ fn sorted(corners: impl Iterator<Item = (u32, u32)>) -> Between {
 
 /// A node that subdivision adds.
 struct New {
-    /// Coordinates to which the map of its element takes the node.
+    /// Coordinates to which the element's map takes the node.
     mapped: Vector,
     /// Coordinates of the node.
     x: Vector,
-    /// Whether a curve or a facing surface says where it lies.
+    /// Whether the position is determined by a curve or a facing surface.
     is_laid: bool,
 }
 
-/// The finer mesh while it is made.
+/// The finer mesh under construction.
 struct Finer<'m> {
     mesh: &'m Mesh,
     cuts: Vec<&'static Cut>,
-    /// Start of each element's nodes in `nodes`.
+    /// Index in `nodes` at which each element's nodes begin.
     offsets: Vec<usize>,
-    /// The finer mesh's nodes in each element, in the order of [`Cut::places`].
+    /// Nodes of the finer mesh in each element, in the order of [`Cut::places`].
     nodes: Vec<u32>,
     new: Vec<New>,
     by_corners: HashMap<Between, u32>,
@@ -169,12 +171,12 @@ impl<'m> Finer<'m> {
         self.offsets.push(self.nodes.len());
     }
 
-    /// The finer mesh's nodes in an element.
+    /// The nodes of the finer mesh in an element.
     fn of(&self, element: usize) -> &[u32] {
         &self.nodes[self.offsets[element]..self.offsets[element + 1]]
     }
 
-    /// The new nodes on a facet, with their places on it.
+    /// The new nodes on a facet, with their reference coordinates on it.
     fn on_facet(&self, facet: Facet) -> impl Iterator<Item = (u32, Place)> {
         let cut = self.cuts[facet.element];
         let corners = self.mesh.shapes[facet.element].facet(facet.local);
@@ -183,7 +185,8 @@ impl<'m> Finer<'m> {
         cut.on_facet[facet.local].iter().map(move |&k| {
             let mut place = [0.0; 3];
             for &(corner, part) in &cut.between[k] {
-                // Bilinear functions reproduce the places themselves.
+                // Linear interpolation between the corners reproduces the reference coordinates
+                // exactly.
                 let at = corners.iter().position(|&c| c == corner).unwrap_or(0);
                 let share = f64::from(part) / f64::from(WHOLE);
                 place = along(place, share, reference.nodes[at]);
@@ -204,7 +207,7 @@ impl<'m> Finer<'m> {
         (new.x, new.is_laid) = (x, true);
     }
 
-    /// Puts the new nodes of surfaces on their curves.
+    /// Moves the new nodes of surfaces onto their known curves.
     fn lay_on_curves(&mut self) {
         let mesh = self.mesh;
         for surface in mesh.surfaces.values() {
@@ -220,7 +223,8 @@ impl<'m> Finer<'m> {
         }
     }
 
-    /// Puts the new nodes of a contact's first surface where those of the second face them.
+    /// Moves the new nodes of a contact's first surface to the points opposite the new nodes of the
+    /// second surface.
     fn face(&mut self, contact: &Contact) {
         let mesh = self.mesh;
         let (Some(first), Some(second)) = (
@@ -275,7 +279,7 @@ impl<'m> Finer<'m> {
         }
     }
 
-    /// Moves new nodes inside faces and elements with those on their sides.
+    /// Moves new nodes inside faces and elements along with the nodes on their sides.
     fn follow(&mut self) {
         for corners in [4, 8] {
             for element in 0..self.mesh.n_elements() {
@@ -307,7 +311,7 @@ impl<'m> Finer<'m> {
         };
         let new = self.new.iter().flat_map(|new| &new.x[..mesh.dimension]);
         out.coordinates.extend(new);
-        // Elements have different numbers of children only where their dimensions differ.
+        // All elements of the mesh have the same dimension, and so the same number of children.
         let mut first = Vec::with_capacity(mesh.n_elements());
         for element in 0..mesh.n_elements() {
             first.push(out.n_elements());
@@ -347,7 +351,7 @@ fn points(mesh: &Mesh, facet: Facet) -> Vec<Vector> {
     mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect()
 }
 
-/// The node of the first surface that faces each node of the second.
+/// The node of the first surface that faces each node of the second surface, if there is one.
 fn partners(
     mesh: &Mesh,
     contact: &Contact,
@@ -368,8 +372,8 @@ fn partners(
     found.collect()
 }
 
-/// Where the line through `x` along `normal` meets a round surface, on the side of `near`: Newton's
-/// method for the distance from the surface.
+/// Intersection of the line through `x` along `normal` with a round surface, on the side of `near`,
+/// by Newton's method for the distance from the surface.
 fn on_curve(x: Vector, normal: Vector, curve: Curve, near: Vector) -> Option<Vector> {
     let mut t = dot(difference(near, x), normal);
     for _ in 0..NEWTON {
@@ -382,8 +386,8 @@ fn on_curve(x: Vector, normal: Vector, curve: Curve, near: Vector) -> Option<Vec
     found.iter().all(|c| c.is_finite()).then_some(found)
 }
 
-/// Where the line through `x` along `normal` meets a facet, from a place of it on: Newton's method
-/// for the place and the way along the line.
+/// Intersection of the line through `x` along `normal` with a facet, by Newton's method for the
+/// place on the facet and the distance along the line, beginning at the given place.
 fn on_facet(
     mesh: &Mesh,
     x: Vector,

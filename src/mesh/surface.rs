@@ -1,21 +1,23 @@
-//! Surfaces: their nodes in order, their normals.
+//! Surfaces: their ordered nodes and their normals.
 
 use super::{Facet, Mesh, Surface};
 use crate::space::{Vector, cross, difference, direction, dot, length};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 
-/// Two nodes pair if their distance across the normal is below this share of a facet's length.
+/// Largest distance of two paired nodes across the normal, as a share of a facet's length.
 pub const PAIRING: f64 = 1e-5;
 
-/// Cosine of the angle between neighbouring facets of a smooth line, at least: of a circle of ten.
+/// Smallest cosine of the angle between neighbouring facets of a smooth line: the value for a
+/// circle of ten facets.
 const SMOOTH: f64 = 0.8;
 
-/// The nodes of a surface, mid-side nodes included: in space ascending, in the plane in order.
+/// The nodes of a surface, mid-side nodes included: in space in ascending order, in the plane in
+/// order along the curve.
 ///
 /// # Errors
-/// An input error if the surface is empty or its faces look to different sides; in the plane those
-/// of a surface that is not one curve.
+/// `Input` if the surface is empty, if its faces look to different sides, or if a surface in the
+/// plane is not a single curve.
 pub fn nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     if !mesh.is_solid() {
         return ordered_nodes(mesh, surface);
@@ -31,7 +33,8 @@ pub fn nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     Ok(nodes)
 }
 
-/// Faces that look to the same side run through the edge between them in opposite directions.
+/// Checks that all faces of a surface look to the same side: two such faces run through the edge
+/// between them in opposite directions.
 fn check_orientation(mesh: &Mesh, surface: &Surface) -> Result<()> {
     let mut seen: BTreeMap<[usize; 2], Facet> = BTreeMap::new();
     for &facet in &surface.facets {
@@ -56,11 +59,11 @@ fn check_orientation(mesh: &Mesh, surface: &Surface) -> Result<()> {
 }
 
 /// The nodes of a surface of a plane mesh along its arc, mid-side nodes included, with the body on
-/// the left (a hole is run through clockwise). A closed surface begins at its smallest node index
-/// and does not repeat it.
+/// the left (a hole is traversed clockwise). A closed surface begins at its node with the smallest
+/// index, which is not repeated at the end.
 ///
 /// # Errors
-/// An input error if the surface is empty, branches, or has several pieces; it names nodes.
+/// `Input`, naming nodes, if the surface is empty, branches, or has several pieces.
 pub(crate) fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>> {
     let ends = |facet: Facet| {
         let mut nodes = mesh.facet_nodes(facet);
@@ -125,14 +128,14 @@ pub(crate) fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>
     }
 }
 
-/// Outward unit normals of a surface at some of its nodes.
+/// Outward unit normals of a surface at the given nodes.
 ///
-/// Exact where the surface's [`Curve`](super::Curve) is known, and in the inner nodes of flat
-/// facets where these lie on a circle or a sphere, however long each is: at a node where the edges
-/// `e` meet, straight facets have the weights `1 / |e|^2` and flat faces `1 / |e_1|^2 |e_2|^2` (of
-/// their area vectors). At the end of a line of straight facets a circle is continued. The normal
-/// of a curved facet is that at the node; several have the weights of their areas. A node that is
-/// not on the surface gets zeros.
+/// The normals are exact if the surface's [`Curve`](super::Curve) is known. They are also exact at
+/// inner nodes of flat facets that lie on a circle or a sphere, whatever the lengths of the facets:
+/// at a node where the edges `e` meet, straight facets have the weights `1 / |e|^2` and flat faces
+/// `1 / |e_1|^2 |e_2|^2` (of their area vectors). At the end of a line of straight facets a circle
+/// is continued. For a curved facet the normal at the node is taken, and several curved facets are
+/// weighted with their areas. A node that is not on the surface gets zeros.
 ///
 /// # Source
 /// N. Max, *Weights for computing vertex normals from facet normals* (1999),
@@ -157,7 +160,7 @@ pub fn normals(mesh: &Mesh, surface: &Surface, nodes: &[usize]) -> Vec<Vector> {
     nodes.iter().map(known).collect()
 }
 
-/// Adds the weighted area vectors of a facet at its nodes.
+/// Adds a facet's weighted area vectors at its nodes.
 fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
     let reference = mesh.facet_reference(facet);
     let points: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
@@ -179,9 +182,9 @@ fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
     }
 }
 
-/// Gives the end of a line of straight facets the normal at the other end of its facet, mirrored:
-/// that of a circle through both. Only where the line turns alike at the next two nodes, each turn
-/// over the length that it belongs to.
+/// Continues the normals to the end of a line of straight facets: the end gets the mirrored normal
+/// of the other end of its facet, which is the normal of a circle through both. This is done only
+/// if the line has a similar curvature (angle of the turn over the length) at the next two nodes.
 fn continue_to_the_ends(mesh: &Mesh, surface: &Surface, normals: &mut BTreeMap<usize, Vector>) {
     let mut facets_at: BTreeMap<usize, Vec<Facet>> = BTreeMap::new();
     for &facet in &surface.facets {
@@ -189,7 +192,7 @@ fn continue_to_the_ends(mesh: &Mesh, surface: &Surface, normals: &mut BTreeMap<u
             facets_at.entry(node).or_default().push(facet);
         }
     }
-    // The facet itself, its other end, and the way there.
+    // The node at the facet's other end, and the vector to it.
     let along = |facet: Facet, from: usize| {
         let ends: Vec<usize> = mesh.facet_nodes(facet).collect();
         let &[a, b] = ends.as_slice() else {
@@ -203,7 +206,7 @@ fn continue_to_the_ends(mesh: &Mesh, surface: &Surface, normals: &mut BTreeMap<u
         [a, b] if b == facet => Some(a),
         _ => None,
     };
-    // Sine of the turn over its length.
+    // Sine of the angle between two facets divided by their mean length.
     let curvature = |a: Vector, b: Vector| {
         let mean = 0.5 * (length(a) + length(b));
         (dot(direction(a), direction(b)) >= SMOOTH)
@@ -227,8 +230,9 @@ fn continue_to_the_ends(mesh: &Mesh, surface: &Surface, normals: &mut BTreeMap<u
     normals.extend(mirrored);
 }
 
-/// The index of the node of `candidates` on the line through `x` along the unit vector `normal`,
-/// off it by `tolerance` at most; the nearest if there are several.
+/// The index of the node in `candidates` that lies on the line through `x` along the unit vector
+/// `normal`, up to a distance of `tolerance` from the line. If there are several, the nearest to
+/// `x` is taken.
 pub(crate) fn facing(
     mesh: &Mesh,
     x: Vector,
@@ -248,7 +252,7 @@ pub(crate) fn facing(
     best.map(|(_, i)| i)
 }
 
-/// Length of the longest facet of a surface, in space of the longest edge of one.
+/// Length of the longest facet of a surface; in space the longest edge of a facet.
 pub(crate) fn longest_facet(mesh: &Mesh, surface: &Surface) -> f64 {
     let longest_edge = |&facet: &Facet| {
         let n = mesh.facet_corners(facet);

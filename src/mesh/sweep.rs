@@ -1,24 +1,26 @@
-//! Solid meshes drawn from plane ones: along z, or turned about the y axis.
+//! Solid meshes swept from plane ones: extruded along z, or revolved about the y axis.
 //!
-//! Each element becomes a layer of elements: triangles prisms, quadrilaterals hexahedra. Where a
-//! section is turned about an edge on the axis, a quadrilateral becomes a prism with that edge, a
-//! triangle a tetrahedron. Corners of quadratic elements have a node half way between two layers.
+//! Each plane element becomes a column of solid elements, one per layer: triangles become prisms,
+//! quadrilaterals hexahedra. If an element is revolved about one of its edges on the axis, a
+//! quadrilateral becomes a prism with this edge and a triangle becomes a tetrahedron. Corners of
+//! quadratic elements have an additional node halfway between two layers.
 
 use super::generate::{direction, limits};
 use super::{Curve, Facet, Mesh, Shape, Surface};
 use crate::scene::{Extrusion, Revolution};
 use crate::{Error, Result};
 
-/// A node of a section turned about the axis lies on it up to this share of the section's size.
+/// Distance from the axis, as a share of the section's size, up to which a node counts as lying on
+/// the axis.
 const ON_AXIS: f64 = 1e-12;
 
-/// A plane mesh drawn along z, from z = 0 to `depth`.
+/// Extrudes a plane mesh along z, from z = 0 to `depth`.
 ///
-/// Edges of a surface become its faces; a node set has the nodes of all layers. `BODY.front` is the
-/// section at z = 0, `BODY.back` that at `depth`.
+/// Edges of a surface become its faces; a node set contains the nodes of all layers. `BODY.front`
+/// is the section at z = 0, `BODY.back` the section at `depth`.
 ///
 /// # Errors
-/// Input errors: a solid mesh, names that are taken.
+/// `Input` for a solid mesh or names that are already taken.
 pub fn extruded(plane: &Mesh, extrusion: &Extrusion) -> Result<Mesh> {
     let n = extrusion.elements;
     check(plane, n)?;
@@ -44,14 +46,14 @@ pub fn extruded(plane: &Mesh, extrusion: &Extrusion) -> Result<Mesh> {
     SweptSection::new(plane, n, false, on_axis).mesh(along, curve)
 }
 
-/// A plane mesh of coordinates (r, y) turned about the y axis, from the x axis towards z.
+/// Revolves a plane mesh in coordinates (r, y) about the y axis, from the x axis towards z.
 ///
-/// Surfaces and node sets as of [`extruded`]; a surface on the axis becomes a node set. A full turn
-/// is closed and has neither `front` nor `back`.
+/// Surfaces and node sets are treated as in [`extruded`]; a surface on the axis becomes a node set.
+/// A full turn is closed and has neither `front` nor `back`.
 ///
 /// # Errors
-/// Input errors: a solid mesh, a node at r < 0, an element with a single corner on the axis, names
-/// that are taken.
+/// `Input` for a solid mesh, a node at r < 0, an element with a single corner on the axis, or names
+/// that are already taken.
 pub fn revolved(plane: &Mesh, revolution: &Revolution) -> Result<Mesh> {
     let (n, angle) = (revolution.elements, revolution.angle);
     check(plane, n)?;
@@ -74,7 +76,7 @@ pub fn revolved(plane: &Mesh, revolution: &Revolution) -> Result<Mesh> {
     SweptSection::new(plane, n, angle == 360.0, on_axis).mesh(round, turned_curve)
 }
 
-/// Refuses what cannot be drawn through so many layers: a solid mesh, and one beyond the memory.
+/// Refuses to sweep a solid mesh, or to make so many layers that memory cannot hold the result.
 fn check(plane: &Mesh, layers: usize) -> Result<()> {
     if plane.is_solid() {
         return Err(Error::input(
@@ -93,8 +95,8 @@ fn check(plane: &Mesh, layers: usize) -> Result<()> {
     limits::solids("elements", &bodies, shape)
 }
 
-/// What a line or circle with some points becomes when it is turned about the y axis: nothing that
-/// is known for a cone.
+/// The exact shape that a line or circle through the given points becomes when it is revolved about
+/// the y axis; `None` for a cone, which has no exact shape here.
 fn turned_curve(curve: Curve, points: &[[f64; 2]]) -> Option<Curve> {
     let axis = [0.0, 1.0, 0.0];
     match curve {
@@ -132,27 +134,29 @@ fn turned_curve(curve: Curve, points: &[[f64; 2]]) -> Option<Curve> {
     }
 }
 
-/// A section with the layers it is drawn through, numbered by half steps: even ones are layers of
-/// corners, odd ones half way between.
+/// A section with the layers through which it is swept. Layers are numbered by half steps: even
+/// ones hold corners, odd ones lie halfway between.
 struct SweptSection<'a> {
     plane: &'a Mesh,
     layers: usize,
     closed: bool,
     on_axis: Vec<bool>,
-    /// Which nodes have one half way between layers: corners of quadratic elements.
+    /// For each node of the section, whether it also has nodes halfway between layers, as corners
+    /// of quadratic elements do.
     halved: Vec<bool>,
-    /// First node of each node of the section.
+    /// Index of the first node that each node of the section becomes.
     start: Vec<usize>,
 }
 
-/// An element of the section drawn through a layer.
+/// An element of the section swept through one layer.
 struct Drawn {
     shape: Shape,
-    /// Node of the section and half step within the layer, of each node.
+    /// For each node of the swept element, the node of the section and the half step within the
+    /// layer.
     nodes: Vec<(usize, usize)>,
-    /// The facet that each edge became; none where it lies on the axis.
+    /// The facet that each edge becomes; `None` if the edge lies on the axis.
     facets: Vec<Option<usize>>,
-    /// The facets at the start and the end of the layer.
+    /// The facets at the beginning and at the end of the layer.
     ends: [usize; 2],
 }
 
@@ -180,7 +184,7 @@ impl<'a> SweptSection<'a> {
         out
     }
 
-    /// How many nodes a node of the section becomes.
+    /// Number of nodes that a node of the section becomes.
     fn copies(&self, node: usize) -> usize {
         let per_layer = if self.halved[node] { 2 } else { 1 };
         match (self.on_axis[node], self.closed) {
@@ -190,7 +194,7 @@ impl<'a> SweptSection<'a> {
         }
     }
 
-    /// The node that a node of the section is at a half step.
+    /// The node that a node of the section becomes at a half step.
     fn node(&self, node: usize, half: usize) -> usize {
         let step = if self.halved[node] { half } else { half / 2 };
         self.start[node] + step % self.copies(node)
@@ -230,7 +234,7 @@ impl<'a> SweptSection<'a> {
         Ok(out)
     }
 
-    /// An element drawn through a layer.
+    /// Sweeps an element of the section through one layer.
     fn drawn(&self, element: usize) -> Result<Drawn> {
         let shape = self.plane.shapes[element];
         let n = shape.n_corners();
@@ -240,7 +244,7 @@ impl<'a> SweptSection<'a> {
         let (corners, middles) = nodes.split_at(n);
         let quadratic = shape.is_quadratic();
         let touching: Vec<usize> = (0..n).filter(|&k| self.on_axis[corners[k]]).collect();
-        // The edge on the axis runs from the corner `a` to the next.
+        // The edge on the axis runs from corner `a` to the next corner.
         let a = match touching[..] {
             [] => return Ok(Drawn::layer(corners, middles)),
             [a, b] if b == a + 1 => a,
@@ -255,7 +259,7 @@ impl<'a> SweptSection<'a> {
             }
         };
         let corner = |k: usize| corners[(a + k) % n];
-        // The middle of the edge from corner k of those.
+        // The mid-side node of the edge that begins at corner k, counted from `a`.
         let middle = |k: usize| middles.get((a + k) % n).copied().unwrap_or(0);
         let mut facets = vec![None; n];
         let mut became = |k: usize, facet: usize| facets[(a + k) % n] = Some(facet);
@@ -263,7 +267,7 @@ impl<'a> SweptSection<'a> {
         let linear_and_quadratic;
         let ends;
         if n == 4 {
-            // The edge on the axis joins the triangles at the ends of it.
+            // The edge on the axis joins the two triangles of the prism at its ends.
             let [a, b, c, d] = [0, 1, 2, 3].map(corner);
             places = vec![(a, 0), (d, 0), (d, 2), (b, 0), (c, 0), (c, 2)];
             let edges = [(3, 0), (3, 2), (1, 0), (1, 2), (0, 0), (2, 0), (2, 2)]
@@ -298,7 +302,7 @@ impl<'a> SweptSection<'a> {
         })
     }
 
-    /// Surfaces and node sets of the section.
+    /// Transfers the surfaces and node sets of the section to the solid.
     fn sets(
         &self,
         out: &mut Mesh,
@@ -341,7 +345,7 @@ impl<'a> SweptSection<'a> {
         }
     }
 
-    /// The surfaces `BODY.front` and `BODY.back`.
+    /// Adds the surfaces `BODY.front` and `BODY.back`.
     fn ends(&self, out: &mut Mesh, drawn: &[Drawn]) -> Result<()> {
         let n = drawn.len();
         let last = (self.layers - 1) * n;
@@ -371,7 +375,7 @@ impl<'a> SweptSection<'a> {
 }
 
 impl Drawn {
-    /// A hexahedron or prism through a layer.
+    /// A hexahedron or prism through one layer.
     fn layer(corners: &[usize], middles: &[usize]) -> Drawn {
         let n = corners.len();
         let at = |nodes: &[usize], half: usize| -> Vec<(usize, usize)> {

@@ -7,21 +7,21 @@ use crate::{Error, Result};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Smallest Jacobian determinant over (longest side)^2, about the inverse of the aspect ratio. The
-/// condition of an element grows with the square of the aspect ratio and reaches 1/epsilon at
-/// 1/sqrt(epsilon).
+/// Smallest allowed ratio of the Jacobian determinant to (longest side)^2, about the inverse of the
+/// aspect ratio. The condition number of an element grows with the square of the aspect ratio and
+/// reaches 1/epsilon at an aspect ratio of 1/sqrt(epsilon).
 const FLATTEST: f64 = 1.490_116_119_384_765_6e-8;
-/// Elements that a thread takes at a time: fewer take less than waking it.
+/// Least number of elements per thread: fewer elements take less time than waking the thread.
 const GRAIN: usize = 512;
 
 /// Checks a mesh: consistent arrays, finite coordinates, elements with distinct nodes and a
-/// positive Jacobian at integration points (and corners of linear ones), no unconnected nodes,
-/// unique labels and body names, no empty body, set or surface, no surface that looks both ways, no
-/// duplicate or overlapping elements, no hanging nodes, no body in several pieces.
+/// positive Jacobian at integration points (and at corners of linear elements), no unconnected
+/// nodes, unique labels and body names, no empty body, set or surface, no surface that looks both
+/// ways, no duplicate or overlapping elements, no hanging nodes, no body in several pieces.
 ///
 /// # Errors
-/// Input errors name the node, element, body or set by the number or name the user knows, and the
-/// value.
+/// `Input`, naming the node, element, body or set by the number or name that the user knows, and
+/// the value.
 pub fn validate(mesh: &Mesh) -> Result<()> {
     check_arrays(mesh)?;
     check_labels(mesh)?;
@@ -33,7 +33,7 @@ pub fn validate(mesh: &Mesh) -> Result<()> {
     pieces::check(mesh)
 }
 
-/// Sizes and ranges of the arrays: after this, indexing cannot fail.
+/// Checks sizes and ranges of the arrays, so that later indexing cannot fail.
 fn check_arrays(mesh: &Mesh) -> Result<()> {
     let inconsistent = |what: String| Err(Error::input(format!("inconsistent mesh: {what}")));
     let n_elements = mesh.n_elements();
@@ -195,7 +195,7 @@ fn check_sets(mesh: &Mesh) -> Result<()> {
     Ok(())
 }
 
-/// Distinct nodes and a positive Jacobian where it is integrated, element by element.
+/// Checks each element for distinct nodes and for a positive Jacobian at its integration points.
 fn check_elements(mesh: &Mesh) -> Result<()> {
     let checks = Integration::ALL
         .map(|integration| Shape::ALL.map(|shape| jacobian::integrated(shape, integration)));
@@ -241,15 +241,15 @@ fn check_elements(mesh: &Mesh) -> Result<()> {
     }
 }
 
-/// The smallest Jacobian of an element at some places, over (longest side)^d.
+/// The smallest Jacobian of an element at the given places, divided by (longest side)^d.
 fn least_jacobian(mesh: &Mesh, element: usize, places: &[Functions]) -> f64 {
     let nodes = mesh.nodes(element);
     let mut points = [[0.0; 3]; MAX_NODES];
     for (point, &node) in points.iter_mut().zip(nodes) {
         *point = mesh.point(node as usize);
     }
-    // Relative to the first node: the determinant of a small element far from the origin would
-    // drown in the round-off of its coordinates.
+    // Positions are taken relative to the first node: the determinant of a small element far from
+    // the origin would be lost in the round-off of its coordinates.
     let origin = points[0];
     for point in &mut points[..nodes.len()] {
         *point = difference(*point, origin);
@@ -268,8 +268,8 @@ fn least_jacobian(mesh: &Mesh, element: usize, places: &[Functions]) -> f64 {
         })
 }
 
-/// A warning of quadratic elements that are turned inside out at a node, though not where they are
-/// integrated: they can be computed with, what is shown near them is off.
+/// A warning about quadratic elements that are turned inside out at a node, but not at integration
+/// points. Such elements can be computed with, but results near these nodes are less accurate.
 pub(crate) fn warning_of_folds(mesh: &Mesh) -> Option<String> {
     let at_nodes = Shape::ALL.map(jacobian::at_nodes);
     let is_folded = |element: &usize| {

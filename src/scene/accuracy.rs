@@ -1,4 +1,5 @@
-//! `accuracy = "1 %"`: how wrong the results may be, all of them or those that are named.
+//! The key `accuracy`, such as `accuracy = "1 %"`: how wrong the results may be, either all of them
+//! or only the quantities that are named.
 
 use crate::results::{QUANTITIES, Quantity};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -12,26 +13,26 @@ fn demanded() -> impl Iterator<Item = (&'static str, &'static str)> {
     QUANTITIES.iter().filter_map(short)
 }
 
-/// A demanded relative accuracy: of every quantity (`"1 %"` or `0.01`), or of those that are named
-/// (`"load = 0.5 %, dent = 2 %"` or a table). A name is a key of `summary.json`, its short name or
-/// a whole path such as `states.pressed.load`.
+/// A demanded relative accuracy of every quantity (`"1 %"` or `0.01`), or of the quantities that
+/// are named (`"load = 0.5 %, dent = 2 %"` or a table). A name is a key of `summary.json`, the
+/// key's short name or a whole path such as `states.pressed.load`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Written", into = "String")]
 pub struct AccuracyDemand {
-    /// Demand on quantities that are not named; `None` where some are.
+    /// Demand on quantities that are not named; `None` if some quantities are named.
     all: Option<f64>,
     /// Demands by key or path.
     named: BTreeMap<String, f64>,
 }
 
 impl AccuracyDemand {
-    /// Largest accuracy that can be demanded.
+    /// Upper bound of an accuracy that can be demanded; the bound itself is excluded.
     pub const LARGEST: f64 = 1.0;
 
-    /// One relative accuracy for every quantity.
+    /// Demands one relative accuracy of every quantity.
     ///
     /// # Errors
-    /// Unless `0 < accuracy < 1`, in words.
+    /// A message in words unless `0 < accuracy < 1`.
     pub fn new(accuracy: f64) -> Result<Self, String> {
         Ok(AccuracyDemand {
             all: Some(checked(accuracy)?),
@@ -39,8 +40,8 @@ impl AccuracyDemand {
         })
     }
 
-    /// The demand on a quantity that is named, by its path (`yield.KEY`, `states.NAME.KEY`) or its
-    /// key.
+    /// The demand on a named quantity, looked up by its path (`yield.KEY`, `states.NAME.KEY`), then
+    /// by its key.
     pub fn named(&self, path: &str) -> Option<f64> {
         let key = path.rsplit('.').next().unwrap_or(path);
         self.named
@@ -54,7 +55,7 @@ impl AccuracyDemand {
         self.all
     }
 
-    /// The tightest of all.
+    /// The smallest of all demanded accuracies.
     pub fn tightest(&self) -> f64 {
         let named = self.named.values().copied();
         named.chain(self.all).fold(Self::LARGEST, f64::min)
@@ -76,7 +77,7 @@ impl AccuracyDemand {
     }
 }
 
-/// A relative accuracy within its bounds.
+/// Returns a relative accuracy that lies within its bounds, or the error otherwise.
 fn checked(accuracy: f64) -> Result<f64, String> {
     if accuracy > 0.0 && accuracy < AccuracyDemand::LARGEST {
         Ok(accuracy)
@@ -88,7 +89,8 @@ fn checked(accuracy: f64) -> Result<f64, String> {
     }
 }
 
-/// The key of a quantity, or a whole path that ends with one.
+/// The key of a quantity from its name (key or short name), or a whole path that ends with such a
+/// key.
 fn key(name: &str) -> Result<String, String> {
     let name = name.trim();
     let (prefix, last) = match name.rsplit_once('.') {
@@ -138,7 +140,7 @@ impl JsonSchema for AccuracyDemand {
     }
 }
 
-/// The demand as it stands in a scene.
+/// The demand in the form in which a scene writes it.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -150,7 +152,7 @@ enum Written {
     Table(BTreeMap<String, WrittenShare>),
 }
 
-/// The accuracy of one quantity.
+/// The accuracy of one quantity in a table of demands.
 #[derive(Deserialize)]
 #[serde(untagged, expecting = "an accuracy such as \"1 %\"")]
 enum WrittenShare {
@@ -179,7 +181,7 @@ impl TryFrom<Written> for AccuracyDemand {
     }
 }
 
-/// `1 %` or `0.01`.
+/// Reads a share from text: `1 %` or `0.01`.
 fn share_of(text: &str) -> Result<f64, String> {
     let (number, unit) = match text.trim().strip_suffix('%') {
         Some(number) => (number, 0.01),

@@ -7,8 +7,8 @@ use serde::de::{self, Deserializer, SeqAccess, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 use std::fmt;
 
-/// Two surfaces that may touch, without friction. Where their nodes do not face each other they are
-/// coupled by the integrals of their shape functions (dual mortar).
+/// Two surfaces that may touch, without friction. If their nodes do not face each other, the
+/// surfaces are coupled by the integrals of their shape functions (dual mortar).
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
@@ -18,37 +18,39 @@ pub struct Contact {
     pub second: String,
     /// Direction from the second body to the first; by default the second surface's outward normal.
     pub normal: Option<Components>,
-    /// Initial gap for all pairs instead of the geometric one: a number, or a formula of the
-    /// position or values at nodes, at the nodes of the slaves.
+    /// Initial gap of all contact pairs, used instead of the gap in the mesh: a number, a formula
+    /// of the position, or values at nodes. A formula or nodal values are read at the slave nodes.
     pub gap: Option<Field>,
-    /// Which surface has the slaves, at whose nodes gaps and pressures are: `"auto"` takes the
-    /// finer one (the coarser where its facets are linear and more than twice as long, or longer at
-    /// all where they are of a curved surface whose shape is not known), the second where nodes
-    /// face each other, and the other one of these where nodes at an edge are slaves of an earlier
-    /// contact.
+    /// Which surface is the slave: gaps and pressures are defined at the slave nodes. `"auto"`
+    /// takes the finer surface, with three exceptions. The coarser surface is the slave if its
+    /// facets are linear and more than twice as long as those of the finer one (or longer at all,
+    /// on a curved surface whose shape is not known). The second surface is the slave if the nodes
+    /// of the two surfaces face each other. The other surface becomes the slave if nodes at an edge
+    /// are already slaves of an earlier contact.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
-    /// Pressure over overlap of soft contact: `g + p / stiffness >= 0` in place of `g >= 0`. By
-    /// default contact is hard.
+    /// Stiffness of soft contact, pressure over overlap: `g + p / stiffness >= 0` in place of
+    /// `g >= 0`. By default contact is hard.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<f64>,
-    /// Interference: taken off every initial gap, applied gradually before the load program; a
-    /// number, or a formula of the position or values at nodes, at the nodes of the slaves.
+    /// Interference, subtracted from every initial gap and applied gradually before the load
+    /// program: a number, a formula of the position, or values at nodes. A formula or nodal values
+    /// are read at the slave nodes.
     #[serde(default)]
     pub interference: Field,
-    /// Whether the surfaces may overlap in the mesh: by as much as they do, pair by pair, they
-    /// interfere. By default an overlap is an error.
+    /// Whether the surfaces may overlap in the mesh. If so, the overlap of each contact pair is the
+    /// pair's interference. By default an overlap is an error.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub overlap: bool,
-    /// Whether supports may hold nodes of the surfaces along the contact normal: a slave that is
-    /// held touches nothing, its support bears what presses there; a master that is held is an
-    /// obstacle. By default such a node is an error.
+    /// Whether supports may hold nodes of the surfaces along the contact normal. A held slave node
+    /// touches nothing: its support bears whatever presses there. A held master node is an
+    /// obstacle. By default a held node is an error.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub held: bool,
 }
 
 impl Contact {
-    /// What is said of a negative value of a field.
+    /// The advice given if the field `key` is negative: which other key to use.
     pub(crate) fn instead_of_negative(key: &str) -> &'static str {
         match key {
             "gap" => "an overlap is given by `interference`",
@@ -56,37 +58,38 @@ impl Contact {
         }
     }
 
-    /// What may depend on the position, by its key below that of the contact.
+    /// The fields of the contact that may depend on the position, each with its key relative to the
+    /// contact's key.
     pub(crate) fn fields(&self) -> Vec<(&'static str, &Field)> {
         let gap = self.gap.iter().map(|gap| ("gap", gap));
         gap.chain([("interference", &self.interference)]).collect()
     }
 }
 
-/// Two surfaces that stay together, across and along: whether their nodes face each other or not,
-/// the displacement of one follows that of the other (dual mortar). Nodes that do not lie on the
-/// other surface are moved onto it.
+/// Two surfaces that stay together, both normal and tangential to the surface (tied contact): the
+/// displacement of one follows the displacement of the other, whether or not their nodes face each
+/// other (dual mortar). Nodes that do not lie on the other surface are moved onto it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Tie {
     /// Name of one surface.
     pub first: String,
-    /// Name of the other surface; it may be one of the same body.
+    /// Name of the other surface; both may belong to the same body.
     pub second: String,
-    /// Which surface follows: `"auto"` takes the finer one.
+    /// Which surface is the slave, whose displacement follows: `"auto"` takes the finer one.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
-    /// Largest distance of the surfaces. By default a twentieth of the longest facet, beyond what
-    /// flat facets are off a curved surface.
+    /// Largest distance between the surfaces. By default a twentieth of the longest facet, plus the
+    /// distance by which flat facets deviate from a curved surface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance: Option<f64>,
 }
 
-/// Which surface of a contact or a tie has the slaves.
+/// The choice of the slave surface of a contact or a tie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SlaveSide {
-    /// The finer surface; the second where nodes face each other.
+    /// The finer surface; the second one if the nodes face each other.
     #[default]
     Auto,
     /// The first surface.
@@ -96,37 +99,37 @@ pub enum SlaveSide {
 }
 
 impl SlaveSide {
-    /// Whether the side is left open.
+    /// Whether the choice of the slave surface is left to the program.
     pub(crate) fn is_auto(&self) -> bool {
         *self == SlaveSide::Auto
     }
 }
 
-/// A support of a set of nodes or a surface.
+/// A support of a node set or a surface.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Support {
     /// Node set or surface.
     pub on: String,
-    /// Directions held: `x`, `y`, of a solid `z`; in the turned axes where `angle` is given.
+    /// Directions held: `x`, `y` and, in a solid, `z`; along the turned axes if `angle` is given.
     #[serde(default)]
     pub fix: Vec<Direction>,
-    /// Angle in degrees by which the support's axes are turned counter-clockwise, of a solid about
+    /// Angle in degrees by which the support's axes are turned counter-clockwise; in a solid, about
     /// the z axis.
     pub angle: Option<f64>,
-    /// Any one direction that is held, instead of `fix`.
+    /// A single direction, of any orientation, that is held; given instead of `fix`.
     pub direction: Option<Components>,
 }
 
-/// A coordinate direction; axisymmetric: x is r, y is z.
+/// A coordinate direction; in an axisymmetric model x means r and y means z.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
-    /// Direction x; r of an axisymmetric model.
+    /// Direction x; r in an axisymmetric model.
     X,
-    /// Direction y; z of an axisymmetric model.
+    /// Direction y; z in an axisymmetric model.
     Y,
-    /// Direction z of a solid.
+    /// Direction z, of solids only.
     Z,
 }
 
@@ -134,7 +137,7 @@ impl Direction {
     /// All directions, in the order of the axes.
     pub const ALL: [Direction; 3] = [Direction::X, Direction::Y, Direction::Z];
 
-    /// Number of the axis, from 0.
+    /// Number of the axis, counted from 0.
     pub fn axis(self) -> usize {
         self as usize
     }
@@ -150,7 +153,7 @@ impl Direction {
 }
 
 impl Support {
-    /// The directions it holds, in global axes.
+    /// The directions that the support holds, in global axes.
     pub fn directions(&self) -> Vec<Vector> {
         if let Some(direction) = self.direction {
             return vec![crate::space::direction(direction.vector())];
@@ -166,49 +169,49 @@ impl Support {
     }
 }
 
-/// A load: exactly one of the kinds, with its own history.
+/// A load: exactly one of the kinds below, with its own history.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
-    /// Name, for messages.
+    /// Name of the load, for messages.
     #[serde(default)]
     pub name: String,
-    /// Surface or node set that is loaded; the body of an `acceleration`, a `rotation` or a
-    /// `temperature`.
+    /// Surface or node set that is loaded; the name of a body for an `acceleration`, a `rotation`
+    /// or a `temperature`.
     pub on: String,
-    /// Total force (x, y; of a solid x, y, z), shared by the nodes like a uniform traction
-    /// (surface) or equally (node set).
+    /// Total force (x, y; in a solid x, y, z). On a surface it is distributed to the nodes like a
+    /// uniform traction, on a node set equally.
     pub force: Option<Components>,
-    /// Pressure on a surface, positive into the body: a number, a formula of the position or values
-    /// at nodes.
+    /// Pressure on a surface, positive into the body: a number, a formula of the position, or
+    /// values at nodes.
     pub pressure: Option<Field>,
-    /// Traction (x, y; of a solid x, y, z) on a surface: numbers, formulas of the position or
+    /// Traction (x, y; in a solid x, y, z) on a surface: numbers, formulas of the position, or
     /// values at nodes.
     pub traction: Option<VectorField>,
-    /// Traction of the Kirsch field: plate with a hole of `radius` at the origin under remote
-    /// tensions.
+    /// Traction of the Kirsch field: a plate with a hole of `radius` at the origin under remote
+    /// tension.
     pub kirsch: Option<Kirsch>,
-    /// Prescribed displacement: the given components, at load factor 1 of this load.
+    /// Prescribed displacement: the given components, reached when this load's factor is 1.
     pub displacement: Option<Displacement>,
-    /// A total force on a surface that is held plane: all its nodes share the displacement in
+    /// Total force on a surface that stays plane: all its nodes share one displacement in
     /// `direction`.
     pub plane_force: Option<PlaneForce>,
-    /// Force per mass on all of a body (x, y; of a solid x, y, z), such as gravity: its material
-    /// needs a `density`.
+    /// Force per mass on all of a body (x, y; in a solid x, y, z), such as gravity: the body's
+    /// material needs a `density`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub acceleration: Option<Components>,
-    /// Rotation of a body, whose material needs a `density`: the load factor multiplies the forces,
-    /// which go with the square of the speed.
+    /// Rotation of a body, whose material needs a `density`. The load factor multiplies the
+    /// centrifugal forces, which are proportional to the square of the speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<Rotation>,
-    /// Change of temperature of a body, a number or a formula of the position: its material needs
-    /// `thermal_expansion`.
+    /// Change of temperature of a body, a number or a formula of the position: the body's material
+    /// needs `thermal_expansion`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Field>,
-    /// Change of the gap between a surface and those it may touch: positive takes them apart (a
-    /// layer ground off, a contact that is to be off), negative presses them together (an
-    /// interference that grows). A number, or a formula of the position or values at nodes, at the
-    /// nodes of the slaves.
+    /// Change of the gap between a surface and the surfaces it may touch. A positive change moves
+    /// them apart (a layer ground off, a contact to be released), a negative one presses them
+    /// together (a growing interference). Given as a number, a formula of the position, or values
+    /// at nodes; a formula or nodal values are read at the slave nodes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gap: Option<Field>,
     /// Dependence of the load on the load factor.
@@ -217,12 +220,13 @@ pub struct Load {
 }
 
 impl Load {
-    /// Whether the load acts on the volume of a body, which `on` then names.
+    /// Whether the load acts on the volume of a body; `on` is then the name of the body.
     pub fn acts_on_volume(&self) -> bool {
         self.acceleration.is_some() || self.rotation.is_some() || self.temperature.is_some()
     }
 
-    /// What may depend on the position, by its key below that of the load.
+    /// The fields of the load that may depend on the position, each with its key relative to the
+    /// load's key.
     pub(crate) fn fields(&self) -> Vec<(String, &Field)> {
         let named = |key: &str, field| (key.to_string(), field);
         let single = [
@@ -255,19 +259,19 @@ pub struct Kirsch {
     /// Remote stress along y.
     #[serde(default)]
     pub stress_y: f64,
-    /// Radius of the hole; 0 for a plain plate.
+    /// Radius of the hole; 0 for a plate without a hole.
     pub radius: f64,
 }
 
-/// Prescribed displacement components: numbers, formulas of the position or values at nodes.
+/// Components of a prescribed displacement: numbers, formulas of the position, or values at nodes.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Displacement {
-    /// Displacement along x (r).
+    /// Displacement along x (r in an axisymmetric model).
     pub x: Option<Field>,
-    /// Displacement along y (z).
+    /// Displacement along y (z in an axisymmetric model).
     pub y: Option<Field>,
-    /// Displacement along z, of a solid.
+    /// Displacement along z, of solids only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z: Option<Field>,
 }
@@ -279,13 +283,13 @@ impl Displacement {
     }
 }
 
-/// A total force on a surface held plane.
+/// A total force on a surface that stays plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneForce {
     /// Direction of the force.
     pub direction: Direction,
-    /// Total force along it.
+    /// Total force along `direction`.
     pub total: f64,
 }
 
@@ -293,12 +297,13 @@ pub struct PlaneForce {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Rotation {
-    /// Revolutions per minute, where the scene's density is for seconds (N, mm: t/mm^3).
+    /// Revolutions per minute. The scene's density must then use seconds as the unit of time (with
+    /// N and mm: t/mm^3).
     pub rpm: f64,
     /// A point of the axis; by default the origin. Axisymmetric models turn about their own axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center: Option<Components>,
-    /// Direction of the axis, of a solid.
+    /// Direction of the axis, of solids only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
 }
@@ -306,13 +311,13 @@ pub struct Rotation {
 /// How a load depends on the load factor alpha.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum History {
-    /// `"proportional"`: alpha times the load (default).
+    /// `"proportional"`: the load times alpha (default).
     #[default]
     Proportional,
-    /// `"constant"`: a preload, applied gradually before the load program starts.
+    /// `"constant"`: a preload, applied gradually before the load program begins.
     Constant,
-    /// `[[alpha, factor], ...]`: piecewise linear in alpha, flat outside; the value at 0 is a
-    /// preload.
+    /// `[[alpha, factor], ...]`: a multiple of the load that is piecewise linear in alpha and
+    /// constant outside the table; the value at alpha = 0 is a preload.
     Table(Vec<[f64; 2]>),
 }
 

@@ -1,4 +1,4 @@
-//! Steels and alloys by name, from `data/materials.toml`, each number with its source.
+//! Steels and alloys by name, read from `data/materials.toml`, each number with its source.
 
 use super::units::STRESSES;
 use super::{Material, Scene, Units};
@@ -7,21 +7,22 @@ use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-/// A number and where it is published.
+/// A number and the source in which it is published.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Published(pub f64, pub String);
 
-/// A material of the list: stresses in MPa, the density in kg/m^3, expansion per kelvin.
+/// A material of the built-in list: stresses in MPa, density in kg/m^3, thermal expansion per
+/// kelvin.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Listed {
-    /// Description of the material, and for which pieces its yield stress holds.
+    /// Description of the material, and the sizes of pieces for which the yield stress holds.
     pub what: String,
     /// Young's modulus.
     pub youngs_modulus: Published,
     /// Poisson's ratio.
     pub poissons_ratio: Published,
-    /// Least yield stress; without it nothing is published that holds for all of it.
+    /// Lowest yield stress; `None` if no published value holds for all of the material.
     pub yield_stress: Option<Published>,
     /// Tangent modulus beyond yield.
     pub tangent_modulus: Option<Published>,
@@ -31,10 +32,10 @@ pub struct Listed {
     pub thermal_expansion: Option<Published>,
 }
 
-/// The list, in the order of its file.
+/// The built-in list of materials, in the order of the file.
 static LIST: LazyLock<Vec<(String, Listed)>> = LazyLock::new(|| {
     let text = include_str!("../../data/materials.toml");
-    // A test reads it: what it holds is known when the program is built.
+    // A test parses this file, so reading cannot fail here: the contents are fixed at build time.
     let mut by_name: BTreeMap<String, Listed> = toml::from_str(text).unwrap_or_default();
     let names = text
         .lines()
@@ -50,13 +51,14 @@ pub fn materials() -> &'static [(String, Listed)] {
 }
 
 impl Listed {
-    /// The one of a name.
+    /// The listed material of this name, if there is one.
     pub fn of(name: &str) -> Option<&'static Listed> {
         let found = LIST.iter().find(|(listed, _)| listed == name);
         found.map(|(_, listed)| listed)
     }
 
-    /// Numbers of the material by the key that a scene has for them, with unit and source.
+    /// Numbers of the material: the scene's key for each, its unit in the list, and the number with
+    /// its source.
     pub fn figures(&self) -> Vec<(&'static str, &'static str, &Published)> {
         [
             ("youngs_modulus", "MPa", Some(&self.youngs_modulus)),
@@ -71,11 +73,12 @@ impl Listed {
         .collect()
     }
 
-    /// As a material of a scene with these units. The density needs a unit of length that is known,
-    /// seconds and kelvins are those of the scene.
+    /// Converts the material into one of a scene with these units. The density is converted only if
+    /// the scene's unit of length is known. The scene's unit of time is taken to be the second and
+    /// its unit of temperature the kelvin.
     ///
     /// # Errors
-    /// `Input` where the unit of stress is not known.
+    /// `Input` if the unit of stress is not known.
     pub fn material(&self, units: &Units) -> Result<Material> {
         let stress = units.pascals().ok_or_else(|| {
             let names: Vec<&str> = STRESSES.iter().map(|(name, _)| *name).collect();
@@ -104,10 +107,11 @@ impl Listed {
     }
 }
 
-/// Puts the listed materials that bodies name, and the scene has none of, among those of the scene.
+/// Adds to the scene's materials each listed material that a body names and the scene does not
+/// define.
 ///
 /// # Errors
-/// `Input` naming the body where the scene does not name its units, or they are not known.
+/// `Input` naming the body if the scene does not name its units or its unit of stress is not known.
 pub(super) fn fill_in(scene: &mut Scene) -> Result<()> {
     for (name, body) in &scene.bodies {
         let of_scene = scene.materials.contains_key(&body.material);
@@ -144,7 +148,7 @@ mod tests {
         }
     }
 
-    /// The whole file is read, and every entry is a material that a scene takes.
+    /// The whole file is read, and every entry is a material that a scene accepts.
     #[test]
     fn every_entry_is_a_valid_material_with_sources() {
         let text = include_str!("../../data/materials.toml");
@@ -182,7 +186,7 @@ mod tests {
             inches.yield_stress.unwrap(),
             355e6 / 6894.757293168361
         ));
-        // Slinch (12 slugs) per cubic inch.
+        // Slinch (12 slugs) per cubic inch, the unit of density with pounds-force and inches.
         let slinch = 0.45359237 * 9.80665 / 0.0254;
         assert!(near(
             inches.density.unwrap(),
@@ -211,7 +215,7 @@ mod tests {
         let units = "units={ length = \"m\", force = \"N\", stress = \"Pa\" }";
         let taken = with(&body, units).unwrap();
         assert_eq!(taken.materials["S355"].yield_stress, Some(355e6));
-        // What the program writes down is whole.
+        // The scene that the program writes contains the listed material as an entry of its own.
         let again = Scene::parse(&taken.to_toml().unwrap(), "again").unwrap();
         assert_eq!(again.materials, taken.materials);
         let error = with(&body, "title=unnamed").unwrap_err();

@@ -1,9 +1,9 @@
-//! Nothing that the user wrote may be lost in reading.
+//! Checks that reading a scene loses nothing that the user wrote.
 //!
-//! serde's derived code takes an array for a table (by position) and drops what is too much at the
-//! end of an array of fixed length, without a word. So the scene is written out again and held
-//! against the document: every array must come back as an array of the same length, every table as
-//! a table.
+//! serde's derived code accepts an array in place of a table (by position) and silently drops the
+//! surplus entries of an array of fixed length. Therefore the scene is written out again and
+//! compared with the document: every array must come back as an array of the same length, every
+//! table as a table.
 
 use super::document::join;
 use super::{KeyPlaces, Scene};
@@ -14,7 +14,8 @@ use toml::de::{DeTable, DeValue};
 /// Compares the scene with the document it was read from.
 ///
 /// # Errors
-/// The key and place of an array that is too long, or stands where a table belongs.
+/// `Input` with the key and place of an array that is too long, or that stands where a table
+/// belongs.
 pub(super) fn check(scene: &Scene, document: &DeTable<'_>, places: &KeyPlaces) -> Result<()> {
     let written = Value::try_from(scene)
         .map_err(|cause| Error::internal("a scene cannot be written as TOML").because(cause))?;

@@ -1,4 +1,4 @@
-//! Values of keys that a scene may leave out.
+//! Default values of the keys that a scene may leave out.
 
 use crate::shape::Shape;
 
@@ -82,7 +82,7 @@ pub(super) fn cycles() -> usize {
     1
 }
 
-/// Strains that nobody reads off a result, and that no mesh resolves.
+/// A change of plastic strain too small to be seen in a result or resolved by a mesh.
 pub(super) fn steady() -> f64 {
     1e-3
 }
@@ -91,7 +91,8 @@ pub(super) fn path_error() -> f64 {
     1e-3
 }
 
-/// Days of work for the smallest model: more than any load program was seen to take.
+/// An upper bound far above the increments of any known load program: days of computing even for
+/// the smallest model.
 pub(super) fn max_increments() -> usize {
     1_000_000
 }

@@ -1,33 +1,33 @@
-//! A TOML document in which every key and value has a number, so that an error found anywhere later
-//! (by serde, by validation) is traced back to its key path and its place in the file or override.
+//! A TOML document in which every key and value has a number, so that an error found later (by
+//! serde or by validation) is traced back to its key path and its place in the file or override.
 //!
-//! serde knows places as byte spans. Before the document is handed to it, each span is replaced by
-//! the number of its node: the span of an error then names the node exactly, also for values that
-//! came from an override and stand in no file.
+//! serde knows places as byte spans. Before the document is handed to serde, each span is replaced
+//! by the number of its node. The span of an error then names the node exactly, even for values
+//! that came from an override and stand in no file.
 
 use super::KeyPlaces;
 use crate::error::{Error, Result};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// The text of a scene and the overrides on top of it: what places refer to.
+/// The text of a scene and the overrides applied to it: places refer to both.
 pub(super) struct Source<'t> {
     /// File name for messages.
     pub name: &'t str,
     /// The file's text.
     pub text: &'t str,
-    /// Overrides as given, `key=value`.
+    /// Overrides as given, each `key=value`.
     pub overrides: &'t [String],
-    /// Where the lines of the text begin.
+    /// Byte offsets at which the lines of the text begin.
     lines: Vec<usize>,
-    /// Characters in front of each block of the text.
+    /// Number of characters before each block of [`BLOCK`] bytes of the text.
     characters: Vec<usize>,
 }
 
-/// Bytes of a block.
+/// Bytes of a block of text whose characters are counted in advance.
 const BLOCK: usize = 1024;
 
-/// Characters that begin among some bytes of UTF-8.
+/// Number of characters that begin within these bytes of UTF-8.
 fn count(bytes: &[u8]) -> usize {
     bytes.iter().filter(|&&byte| byte & 0xc0 != 0x80).count()
 }
@@ -49,7 +49,7 @@ impl<'t> Source<'t> {
         }
     }
 
-    /// `FILE:LINE:COLUMN` or `--set KEY=VALUE` of a place.
+    /// Describes a place as `FILE:LINE:COLUMN`, or as `--set KEY=VALUE` if it is in an override.
     fn describe(&self, place: usize) -> String {
         if let Some(number) = place.checked_sub(self.override_place(0))
             && let Some(text) = self.overrides.get(number)
@@ -65,18 +65,19 @@ impl<'t> Source<'t> {
         format!("{}:{line}:{column}", self.name)
     }
 
-    /// Characters in front of a byte offset; counts within a block only, however long the line.
+    /// Number of characters before a byte offset. Only characters within one block are counted,
+    /// however long the line is.
     fn characters(&self, end: usize) -> usize {
         let block = end / BLOCK;
         self.characters[block] + count(&self.text.as_bytes()[block * BLOCK..end])
     }
 
-    /// The place that stands for override `number`: beyond the end of the text.
+    /// The place that stands for override `number`: an offset beyond the end of the text.
     pub fn override_place(&self, number: usize) -> usize {
         self.text.len() + 1 + number
     }
 
-    /// The error of a text that is not TOML.
+    /// The error for a text that is not valid TOML.
     pub fn syntax_error(&self, error: &toml::de::Error) -> Error {
         let place = error.span().map_or(self.text.len(), |span| span.start);
         Error::input(format!(
@@ -89,22 +90,23 @@ impl<'t> Source<'t> {
 
 /// A key or a value of the document.
 struct DocumentNode {
-    /// Key path, as overrides take it: `contact.0.gap`.
+    /// Key path in the form that overrides use, such as `contact.0.gap`.
     path: String,
-    /// Place of the node in words.
+    /// Place of the node in words, such as `FILE:LINE:COLUMN`.
     place: String,
 }
 
-/// Where every key and value of a document stands.
+/// Places of all keys and values of a document.
 pub(super) struct Places {
     nodes: Vec<DocumentNode>,
 }
 
 impl Places {
-    /// Numbers all nodes of `root`, which afterwards carries numbers in place of spans.
+    /// Numbers all nodes of `root`. The returned document carries these numbers in place of byte
+    /// spans.
     ///
     /// # Errors
-    /// A number that is not finite, or an integer beyond 64 bits, by key and place.
+    /// `Input` with key and place for a number that is not finite or an integer beyond 64 bits.
     pub fn number<'i>(
         source: &Source<'_>,
         root: DeTable<'i>,
@@ -122,9 +124,11 @@ impl Places {
         (&node.place, &node.path)
     }
 
-    /// The place of each key path: that of its key, where it has one.
+    /// The place of each key path: the place of the key itself, or of the value if the path has no
+    /// key (list entries).
     pub fn by_key(self) -> KeyPlaces {
-        // A key comes before its value, and of equals the last one stays.
+        // A key comes before its value. In reverse order the key comes last, and of equal paths the
+        // last one is kept.
         let nodes = self.nodes.into_iter().rev();
         KeyPlaces::new(nodes.map(|node| (node.path, node.place)).collect())
     }
@@ -180,7 +184,7 @@ impl Places {
                 }
                 DeValue::Float(number)
             }
-            // TOML's own range; beyond it the scene could not be written again.
+            // The range of integers in TOML; a larger number could not be written back.
             DeValue::Integer(number)
                 if i64::from_str_radix(number.as_str(), number.radix()).is_err() =>
             {
@@ -196,7 +200,7 @@ impl Places {
     }
 }
 
-/// `path.key`, quoting a key that holds a dot.
+/// Joins `path.key`, quoting a key that contains a dot.
 pub(super) fn join(path: &str, key: &str) -> String {
     let key = if key.contains('.') {
         format!("\"{key}\"")

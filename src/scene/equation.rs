@@ -4,14 +4,15 @@ use super::Direction;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A linear equation `sum_k coefficient_k u_k = 0` between displacements of nodes. The first
-/// displacement follows the others: it must be free, and no load, support, contact or other
-/// equation may hold it.
+/// A linear equation `sum_k coefficient_k u_k = 0` between displacements of nodes. The displacement
+/// of the first term is expressed by the others: it must be free, and no load, support, contact or
+/// other equation may hold it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Equation {
-    /// The terms, at least two. Where the first is on a set of several nodes there is one equation
-    /// for each of them: another term is on as many nodes, taken in ascending order, or on one.
+    /// The terms, at least two. If the first term is on a set of several nodes, there is one
+    /// equation for each of these nodes. Every other term is then either on a set with the same
+    /// number of nodes, matched in ascending order, or on a single node.
     pub terms: Vec<EquationTerm>,
 }
 
@@ -19,7 +20,7 @@ pub struct Equation {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EquationTerm {
-    /// Node set or surface.
+    /// Node set or surface of the term.
     pub on: String,
     /// Direction of the displacement.
     pub direction: Direction,

@@ -17,14 +17,15 @@ use std::path::PathBuf;
 pub enum Field {
     /// One value everywhere.
     Uniform(f64),
-    /// A formula of `x`, `y` (of a solid `z`) and of `r`, the distance from the origin, in a solid
-    /// from the z axis; of an axisymmetric model of `r` and `z`, its two coordinates.
+    /// A formula of the position. Names in a plane model are `x`, `y` and `r`, the distance from
+    /// the origin; in a solid `x`, `y`, `z` and `r`, the distance from the z axis; in an
+    /// axisymmetric model the two coordinates `r` and `z`.
     Formula(String),
     /// Values at the nodes of the mesh, from a file.
     Nodal(NodalField),
 }
 
-/// Values at nodes.
+/// Values at nodes, read from a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct NodalField {
@@ -44,7 +45,7 @@ impl From<f64> for Field {
     }
 }
 
-/// As a reader has it: the number, the formula, or the name of the file.
+/// Writes the field for a reader: the number, the formula, or the name of the file.
 impl fmt::Display for Field {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -62,17 +63,17 @@ impl fmt::Display for Field {
 pub struct VectorField(Vec<Field>);
 
 impl VectorField {
-    /// The components, as many as are given.
+    /// The components, two or three as they were given.
     pub fn iter(&self) -> std::slice::Iter<'_, Field> {
         self.0.iter()
     }
 
-    /// How many are given.
+    /// Number of components given.
     pub fn count(&self) -> usize {
         self.0.len()
     }
 
-    /// The vector, where it is the same everywhere.
+    /// The vector, if it is the same everywhere.
     pub fn uniform(&self) -> Option<Vector> {
         let mut vector = [0.0; 3];
         for (component, field) in vector.iter_mut().zip(&self.0) {
@@ -147,7 +148,7 @@ impl JsonSchema for Field {
 }
 
 impl Field {
-    /// The number, where it is one.
+    /// The number, if the field is a number.
     pub fn uniform(&self) -> Option<f64> {
         match self {
             Field::Uniform(value) => Some(*value),
@@ -155,10 +156,11 @@ impl Field {
         }
     }
 
-    /// The field as a function.
+    /// The field as a function of the position.
     ///
     /// # Errors
-    /// What is wrong with the formula, in words; values at nodes are no function of the position.
+    /// A message in words if the formula is wrong, or if the field is given by values at nodes,
+    /// which are no function of the position.
     pub fn function(&self, space: Space) -> Result<impl Fn(Vector) -> f64, String> {
         let formula = match self {
             Field::Uniform(value) => Err(*value),
@@ -191,17 +193,18 @@ impl Field {
                     _ => x[0].hypot(x[1]),
                 };
                 let values: Vec<f64> = formula.var_names().iter().map(of).collect();
-                // Names and number of values are those of the formula.
+                // Cannot fail: the names, and so the number of values, are taken from the formula
+                // itself.
                 formula.eval(&values).unwrap_or(f64::NAN)
             }
         })
     }
 }
 
-/// A formula that is read.
+/// A formula that has been parsed.
 type Parsed = FlatEx<f64, FloatOpsFactory<f64>, Numbers>;
 
-/// Numbers of formulas: digits with a point among them, and an exponent.
+/// Numbers in formulas: digits, optionally with a decimal point and an exponent.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct Numbers;
 

@@ -6,38 +6,41 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Where the mesh comes from: one of a generator's key and `file`.
+/// The source of the mesh: exactly one generator, or `file`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshSource {
-    /// Curved indenter on a block (paper 5.1); axisymmetric: ball on half space.
+    /// Curved indenter on a block (paper 5.1): a cylinder on a half plane, or a ball on a half
+    /// space in an axisymmetric model.
     pub cylinder_on_half_plane: Option<CylinderOnHalfPlane>,
     /// Quarter of a disc in the hole of a plate (paper 5.2).
     pub disc_in_plate: Option<DiscInPlate>,
-    /// Two bodies of any curvature, as half spaces that differ from flat near the contact (solid).
+    /// Two bodies of any curvature (solid), modelled as half spaces that differ from flat near the
+    /// contact only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curved_bodies: Option<CurvedBodies>,
-    /// Blocks, rings and bricks, put together.
+    /// Blocks, rings, discs and bricks, each a body of its own.
     pub parts: Option<Vec<Part>>,
-    /// A Gmsh file (.msh 2.2 or 4.1, text or binary) or the mesh of a deck of Abaqus or CalculiX
-    /// (.inp), relative to the scene file. Physical surfaces are bodies, physical curves surfaces,
-    /// physical points node sets; of a solid mesh physical volumes are bodies, physical surfaces
-    /// surfaces, physical curves and points node sets.
+    /// A Gmsh file (.msh 2.2 or 4.1, text or binary), or the mesh of a deck of Abaqus or CalculiX
+    /// (.inp), relative to the scene file. In a plane mesh physical surfaces are bodies, physical
+    /// curves are surfaces, and physical points are node sets. In a solid mesh physical volumes are
+    /// bodies, physical surfaces are surfaces, and physical curves and points are node sets.
     pub file: Option<PathBuf>,
-    /// Surfaces of the file that lie on circles.
+    /// Surfaces of the mesh file that lie on circles.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub circles: Vec<SurfaceCircle>,
-    /// How many times each element of the file is cut in four, of a solid in eight. New nodes on
-    /// the surfaces in `circles`, `spheres`, `cylinders` and `tori` lie on these.
+    /// Number of times that each element of the file is divided: into four, in a solid into eight.
+    /// New nodes on the surfaces listed in `circles`, `spheres`, `cylinders` and `tori` are placed
+    /// on these shapes.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub subdivisions: usize,
-    /// Surfaces of the file that lie on spheres.
+    /// Surfaces of the mesh file that lie on spheres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spheres: Vec<SurfaceSphere>,
-    /// Surfaces of the file that lie on circular cylinders.
+    /// Surfaces of the mesh file that lie on circular cylinders.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cylinders: Vec<SurfaceCylinder>,
-    /// Surfaces of the file that lie on tori: grooves, raceways, fillets.
+    /// Surfaces of the mesh file that lie on tori: grooves, raceways, fillets.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tori: Vec<SurfaceTorus>,
     /// Extrudes the plane mesh along z into a solid one (`kind = "solid"`).
@@ -46,54 +49,55 @@ pub struct MeshSource {
     /// Revolves the plane mesh about the y axis into a solid one (`kind = "solid"`).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub revolve: Option<Revolution>,
-    /// How the stiffness of linear quadrilaterals, hexahedra and prisms is integrated.
+    /// Integration of the stiffness of linear quadrilaterals, hexahedra and prisms.
     #[serde(default, skip_serializing_if = "Formulation::is_mean")]
     pub formulation: Formulation,
 }
 
-/// How the stiffness of linear quadrilaterals, hexahedra and prisms is integrated.
+/// The integration of the stiffness of linear quadrilaterals, hexahedra and prisms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Formulation {
     /// With the mean dilatation of the element (B-bar), which avoids volumetric locking.
     #[default]
     Mean,
-    /// At all points alike, as CalculiX does for `C3D8`, `CPE4` and `CAX4`: to compare with it.
-    /// Locks where the volume stays the same, as it does where the material yields.
+    /// Full integration at all points, as CalculiX does for `C3D8`, `CPE4` and `CAX4`: for
+    /// comparison with CalculiX. Locks where the volume is preserved, as it is in plastic flow.
     Full,
 }
 
 impl Formulation {
-    /// Whether the formulation is the usual one.
+    /// Whether the formulation is the default one, with the mean dilatation.
     pub(crate) fn is_mean(&self) -> bool {
         *self == Formulation::Mean
     }
 }
 
-/// A plane mesh drawn along z: `BODY.front` is the section at z = 0, `BODY.back` that at `depth`.
+/// Extrusion of a plane mesh along z: `BODY.front` is the section at z = 0, `BODY.back` the section
+/// at `depth`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Extrusion {
     /// Length along z.
     pub depth: f64,
-    /// Number of elements along it.
+    /// Number of elements along z.
     pub elements: usize,
 }
 
-/// A plane mesh of coordinates (r, y), turned about the y axis from the x axis towards z:
-/// `BODY.front` is the section in the x-y plane, `BODY.back` that at `angle`; a full turn is
-/// closed. A surface on the axis becomes a node set.
+/// Revolution of a plane mesh in coordinates (r, y) about the y axis, from the x axis towards z:
+/// `BODY.front` is the section in the x-y plane, `BODY.back` the section at `angle`. A full turn is
+/// closed and has neither. A surface on the axis becomes a node set.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Revolution {
-    /// Angle in degrees, 360 at most.
+    /// Angle of the revolution in degrees, at most 360.
     #[serde(default = "super::defaults::quarter_turn")]
     pub angle: f64,
-    /// Number of elements along it.
+    /// Number of elements along the angle.
     pub elements: usize,
 }
 
-/// The sphere that a surface of a mesh file lies on: normals and gaps are exact.
+/// The sphere on which a surface of a mesh file lies: with it normals and gaps are exact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceSphere {
@@ -106,7 +110,8 @@ pub struct SurfaceSphere {
     pub radius: f64,
 }
 
-/// The circular cylinder that a surface of a mesh file lies on.
+/// The circular cylinder on which a surface of a mesh file lies: with it normals and gaps are
+/// exact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceCylinder {
@@ -121,7 +126,8 @@ pub struct SurfaceCylinder {
     pub radius: f64,
 }
 
-/// The torus that a surface of a mesh file lies on: all points at a distance from a ring.
+/// The torus on which a surface of a mesh file lies: all points at the distance `radius` from a
+/// ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceTorus {
@@ -130,11 +136,11 @@ pub struct SurfaceTorus {
     /// Centre of the ring.
     #[serde(default)]
     pub center: [f64; 3],
-    /// Direction of its axis.
+    /// Direction of the axis of the ring.
     pub axis: [f64; 3],
     /// Radius of the ring.
     pub ring_radius: f64,
-    /// Radius of the tube: that of the groove.
+    /// Radius of the tube, which is the radius of the groove.
     pub radius: f64,
 }
 
@@ -142,9 +148,9 @@ fn is_zero(n: &usize) -> bool {
     *n == 0
 }
 
-/// The circle that a surface of a mesh file lies on. A file holds nodes only: with the circle their
-/// normals and gaps are exact, and a finer mesh comes nearer to the body, not to the polygon of the
-/// file.
+/// The circle on which a surface of a mesh file lies. A file holds nodes only. With the circle the
+/// normals and gaps at the nodes are exact, and refinement converges to the true body, not to the
+/// polygon of the file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceCircle {
@@ -157,8 +163,9 @@ pub struct SurfaceCircle {
     pub radius: f64,
 }
 
-/// The half model (x >= 0) of a cylinder (ball) pressed on a half plane (half space), the first
-/// contact at the origin. Bodies `cylinder` (above) and `half_plane`, if not named otherwise.
+/// The half model (x >= 0) of a cylinder (ball) pressed on a half plane (half space), with the
+/// first contact at the origin. The bodies are called `cylinder` (above) and `half_plane` unless
+/// `names` says otherwise.
 ///
 /// | set | where |
 /// |---|---|
@@ -169,43 +176,44 @@ pub struct SurfaceCircle {
 /// | `cylinder.top`, `half_plane.bottom` | the cuts, y = +-`far_size` half widths |
 /// | `cylinder.pole`, `half_plane.pole` | node sets: the node at the origin |
 ///
-/// The cylinder follows the circle over the candidates and levels off beyond: the model is that of
-/// Hertz, two half planes which differ from flat near the contact only. See
+/// The cylinder follows the circle over the contact candidates and levels off beyond them. The
+/// model is therefore Hertz's: two half planes that differ from flat near the contact only. See
 /// [`crate::mesh::generate::cylinder_on_half_plane`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CylinderOnHalfPlane {
-    /// Names of the two bodies, of which those of their sets are made: `["ball", "race"]` gives
+    /// Names of the two bodies, which also begin the names of their sets: `["ball", "race"]` gives
     /// `ball.contact` and `race.contact`.
     #[serde(default = "super::defaults::cylinder_names")]
     pub names: [String; 2],
     /// Radius of the cylinder or ball.
     pub radius: f64,
-    /// Elements over the contact half width (radius), at first yield and at any larger contact at
-    /// least.
+    /// Number of elements over the contact half width (in an axisymmetric model the contact
+    /// radius), at first yield; a larger contact has at least this number.
     pub resolution: usize,
     /// Contact half width at first yield; by default computed from the materials (Hertz).
     pub half_width: Option<f64>,
     /// Width of the evenly meshed region, in half widths.
     #[serde(default = "super::defaults::fine_width")]
     pub fine_width: f64,
-    /// How far the contact may reach, in half widths. By default it follows from the largest load,
-    /// displacement or half width of the program; beyond `fine_width` elements grow by
-    /// `1 + 1/resolution` up to there.
+    /// Width that the contact may reach, in half widths. By default it follows from the largest
+    /// load, displacement or half width of the program. Between `fine_width` and this width,
+    /// elements grow by a factor of `1 + 1/resolution`.
     pub contact_width: Option<f64>,
     /// Depth of the evenly meshed region, in half widths.
     #[serde(default = "super::defaults::fine_depth")]
     pub fine_depth: f64,
-    /// Size of each body, in half widths; 20,000 by default, 2,000 under a ball. The bodies stand
-    /// for infinite ones: a size W changes the stress under the contact by the order b/W, under a
-    /// ball by (b/W)^2 and its approach by b/W. Elements that grow with the distance make it cheap.
+    /// Size of each body, in half widths; by default 20,000, and 2,000 for a ball. The bodies stand
+    /// for infinite ones. For a half width b, a finite size W changes the stress under the contact
+    /// by the order of b/W; under a ball it changes the stress by (b/W)^2 and the approach by b/W.
+    /// Elements that grow with the distance make a large size cheap.
     pub far_size: Option<f64>,
-    /// Ratio of neighbouring element sizes outside the even region.
+    /// Ratio of neighbouring element sizes outside the evenly meshed region.
     #[serde(default = "super::defaults::growth")]
     pub growth: f64,
-    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to
-    /// that of this one with a power of the distance. What happens far away matters less to the
-    /// contact, so that elements may grow ever faster; default as `growth`.
+    /// Ratio of neighbouring element sizes at the far end; by default equal to `growth`. From
+    /// `growth` on, the logarithm of the ratio rises to this value with a power of the distance.
+    /// Distant elements matter less to the contact, so they may grow ever faster.
     pub far_growth: Option<f64>,
     /// Shape of the elements.
     #[serde(default = "super::defaults::shape")]
@@ -213,8 +221,8 @@ pub struct CylinderOnHalfPlane {
 }
 
 /// Two bodies whose surfaces have principal radii along x and y, pressed together along z: a ball
-/// in a groove, crossed cylinders, a crowned roller on a plate. Bodies `upper` and `lower`, if not
-/// named otherwise; the first contact is at the origin.
+/// in a groove, crossed cylinders, a crowned roller on a plate. The bodies are called `upper` and
+/// `lower` unless `names` says otherwise. The first contact is at the origin.
 ///
 /// | set | where |
 /// |---|---|
@@ -229,64 +237,65 @@ pub struct CylinderOnHalfPlane {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CurvedBodies {
-    /// Names of the two bodies, of which those of their sets are made: `["ball", "race"]` gives
+    /// Names of the two bodies, which also begin the names of their sets: `["ball", "race"]` gives
     /// `ball.contact` and `race.contact`.
     #[serde(default = "super::defaults::curved_names")]
     pub names: [String; 2],
-    /// Principal radii of the upper body along x and y: positive convex, negative hollow, 0 or
-    /// infinite flat.
+    /// Principal radii of the upper body along x and y: positive if convex, negative if hollow, 0
+    /// or infinite if flat.
     pub upper: [f64; 2],
-    /// Principal radii of the lower body along x and y: positive convex, negative hollow, 0 or
-    /// infinite flat.
+    /// Principal radii of the lower body along x and y: positive if convex, negative if hollow, 0
+    /// or infinite if flat.
     pub lower: [f64; 2],
-    /// Elements over the smaller half axis of the contact, at first yield and at any larger contact
-    /// at least.
+    /// Number of elements over the smaller half axis of the contact at first yield; a larger
+    /// contact has at least this number.
     pub resolution: usize,
     /// Half axes of the contact along x and y at first yield; by default computed from the
     /// materials (Hertz).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub semi_axes: Option<[f64; 2]>,
-    /// What of the bodies is meshed: `quarter` (x, y >= 0), `half` (x >= 0) or `full`. The scene's
-    /// `symmetry` is then 4, 2 or 1.
+    /// Part of the bodies that is meshed: `quarter` (x, y >= 0), `half` (x >= 0) or `full`. The
+    /// scene's `symmetry` must then be 4, 2 or 1.
     #[serde(default)]
     pub model: Meshed,
-    /// Width of the evenly meshed region, in half axes.
+    /// Width of the evenly meshed region along x and y, in half axes of the contact.
     #[serde(default = "super::defaults::solid_fine_width")]
     pub fine_width: f64,
-    /// How far the contact may reach, in half axes at first yield. By default it follows from the
-    /// largest load of the program; beyond `fine_width` elements grow by `1 + 1/resolution` up to
-    /// there.
+    /// Width that the contact may reach along x and y, in half axes at first yield. By default it
+    /// follows from the largest load of the program. Between `fine_width` and this width, elements
+    /// grow by a factor of `1 + 1/resolution`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_width: Option<f64>,
-    /// Depth of the evenly meshed region, in smaller half axes.
+    /// Depth of the evenly meshed region, in smaller half axes of the contact.
     #[serde(default = "super::defaults::solid_fine_depth")]
     pub fine_depth: f64,
-    /// Size of each body, in larger half axes. The bodies stand for infinite ones.
+    /// Size of each body, in larger half axes of the contact. The bodies stand for infinite ones.
     #[serde(default = "super::defaults::solid_far_size")]
     pub far_size: f64,
-    /// Ratio of neighbouring element sizes outside the even region.
+    /// Ratio of neighbouring element sizes outside the evenly meshed region.
     #[serde(default = "super::defaults::solid_growth")]
     pub growth: f64,
-    /// Element shape: hex8 or hex20.
+    /// Shape of the elements: hex8 or hex20.
     #[serde(default = "super::defaults::solid_shape")]
     pub element: Shape,
 }
 
-/// How much of a symmetric model is meshed.
+/// The part of a symmetric model that is meshed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Meshed {
-    /// Where x and y are not negative.
+    /// The quarter in which neither x nor y is negative.
     #[default]
     Quarter,
-    /// Where x is not negative.
+    /// The half in which x is not negative.
     Half,
     /// The whole model.
     Full,
 }
 
 impl MeshSource {
-    /// The generator of two bodies, by its key, and what it calls them.
+    /// The generator of two bodies, by its key, and the names it gives the bodies; `None` for parts
+    /// and files.
     pub(crate) fn named_pair(&self) -> Option<(&'static str, &[String; 2])> {
         if let Some(p) = &self.cylinder_on_half_plane {
             Some(("cylinder_on_half_plane", &p.names))
@@ -298,8 +307,8 @@ impl MeshSource {
         }
     }
 
-    /// The kind of the model that the mesh is a section of, where it is drawn to a solid one: plane
-    /// strain for an extrusion, axisymmetric for a revolution, else `kind`.
+    /// The kind of the plane model of which the mesh is a section, if the mesh is swept into a
+    /// solid: plane strain for an extrusion, axisymmetric for a revolution. Otherwise `kind`.
     pub fn section(&self, kind: Space) -> Space {
         match (&self.extrude, &self.revolve) {
             (Some(_), _) => Space::PlaneStrain,
@@ -310,7 +319,7 @@ impl MeshSource {
 }
 
 impl CurvedBodies {
-    /// Whether x = 0 and y = 0 bound the model.
+    /// Whether the planes x = 0 and y = 0 bound the model.
     pub(crate) fn halved(&self) -> [bool; 2] {
         match self.model {
             Meshed::Quarter => [true, true],
@@ -319,31 +328,30 @@ impl CurvedBodies {
         }
     }
 
-    /// How many copies of the model make the whole.
+    /// Number of copies of the model that make the whole.
     pub fn copies(&self) -> usize {
         1 << self.halved().iter().filter(|halved| **halved).count()
     }
 }
 
-/// Quarter model (x, y >= 0) of a disc that fills the hole of a plate, tension along x. Bodies
-/// `disc` and `plate`, if not named otherwise; surfaces `disc.contact`, `plate.contact` (the hole),
-/// `plate.far`,
-/// `disc.symmetry_x`, `plate.symmetry_x` (on x = 0), `disc.symmetry_y`, `plate.symmetry_y` (on y =
-/// 0); node sets `disc.pole`, `plate.pole` (on the y axis, where the contact stays) and
-/// `disc.center`.
+/// Quarter model (x, y >= 0) of a disc that fills the hole of a plate under tension along x. The
+/// bodies are called `disc` and `plate` unless `names` says otherwise. Surfaces are `disc.contact`,
+/// `plate.contact` (the hole), `plate.far`, `disc.symmetry_x` and `plate.symmetry_x` (on x = 0),
+/// `disc.symmetry_y` and `plate.symmetry_y` (on y = 0). Node sets are `disc.pole` and `plate.pole`
+/// (on the y axis, where the contact stays closed) and `disc.center`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DiscInPlate {
-    /// Names of the two bodies, of which those of their sets are made: `["ball", "race"]` gives
+    /// Names of the two bodies, which also begin the names of their sets: `["ball", "race"]` gives
     /// `ball.contact` and `race.contact`.
     #[serde(default = "super::defaults::disc_names")]
     pub names: [String; 2],
     /// Radius of the hole and the disc.
     pub radius: f64,
-    /// Disc radius minus hole radius: positive is interference, negative clearance.
+    /// Disc radius minus hole radius: positive for an interference, negative for a clearance.
     #[serde(default)]
     pub interference: f64,
-    /// Elements over the quarter circle.
+    /// Number of elements over the quarter circle (even).
     pub resolution: usize,
     /// Outer radius of the plate, in hole radii.
     #[serde(default = "super::defaults::far_radius")]
@@ -351,19 +359,21 @@ pub struct DiscInPlate {
     /// Ratio of neighbouring radial element sizes in the plate.
     #[serde(default = "super::defaults::disc_growth")]
     pub growth: f64,
-    /// Ratio of neighbouring element sizes at the far end: from `growth` on, its logarithm rises to
-    /// that of this one with a power of the distance. What happens far away matters less to the
-    /// contact, so that elements may grow ever faster; default as `growth`.
+    /// Ratio of neighbouring element sizes at the far end; by default equal to `growth`. From
+    /// `growth` on, the logarithm of the ratio rises to this value with a power of the distance.
+    /// Distant elements matter less to the contact, so they may grow ever faster.
     pub far_growth: Option<f64>,
     /// Shape of the elements.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,
 }
 
-/// A block, ring sector or disc sector: one body. Surfaces are `BODY.left`, `.right`, `.bottom`,
-/// `.top` for a block; `.inner`, `.outer`, `.start`, `.end` for a ring sector; `.outer`, `.start`,
-/// `.end` for a disc sector. The corners of a block are node sets `BODY.bottom_left`,
-/// `BODY.bottom_right`, `BODY.top_left`, `BODY.top_right`.
+/// A block, brick, ring sector or disc sector that is one body. The surfaces of a block are
+/// `BODY.left`, `.right`, `.bottom`, `.top`; those of a ring sector `.inner`, `.outer`, `.start`,
+/// `.end`; those of a disc sector `.outer`, `.start`, `.end`. A closed ring or a full disc has no
+/// `.start` and `.end`. The corners of a block are node sets `BODY.bottom_left`,
+/// `BODY.bottom_right`, `BODY.top_left`, `BODY.top_right`; the centre of a disc is the node set
+/// `BODY.center`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
@@ -371,15 +381,15 @@ pub struct Part {
     pub body: String,
     /// A rectangle of a plane model.
     pub block: Option<Block>,
-    /// A box of a solid model: surfaces `BODY.left`, `.right` (x), `.front`, `.back` (y),
+    /// A box of a solid model, with surfaces `BODY.left`, `.right` (x), `.front`, `.back` (y),
     /// `.bottom`, `.top` (z).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub brick: Option<BrickPart>,
-    /// A sector of a ring.
+    /// A sector of a ring, or a closed ring.
     pub ring: Option<Ring>,
     /// A quarter, half or full disc.
     pub disc: Option<Disc>,
-    /// Shape of the elements; of a brick hex8 or hex20.
+    /// Shape of the elements; for a brick hex8 or hex20.
     #[serde(default = "super::defaults::shape")]
     pub element: Shape,
 }
@@ -394,11 +404,11 @@ pub struct Block {
     pub y: [f64; 2],
     /// Number of elements along x and y.
     pub elements: [usize; 2],
-    /// Size of the last element over that of the first, along x and y.
+    /// Size of the last element divided by the size of the first, along x and y.
     #[serde(default = "super::defaults::no_bias")]
     pub bias: [f64; 2],
-    /// Named pieces of the sides: surface `BODY.NAME` = facets of `side` whose both ends lie in
-    /// `from..to`.
+    /// Named pieces of the sides: the surface `BODY.NAME` consists of the facets of `side` both of
+    /// whose ends lie in `from..to`.
     #[serde(default)]
     pub pieces: Vec<Piece>,
 }
@@ -415,7 +425,7 @@ pub struct BrickPart {
     pub z: [f64; 2],
     /// Number of elements along x, y and z.
     pub elements: [usize; 3],
-    /// Size of the last element over that of the first, along x, y and z.
+    /// Size of the last element divided by the size of the first, along x, y and z.
     #[serde(default = "super::defaults::no_solid_bias")]
     pub bias: [f64; 3],
 }
@@ -424,9 +434,9 @@ pub struct BrickPart {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
-    /// Name; the surface is `BODY.NAME`.
+    /// Name of the piece; the surface is called `BODY.NAME`.
     pub name: String,
-    /// `left`, `right`, `bottom` or `top`.
+    /// Side of the block: `left`, `right`, `bottom` or `top`.
     pub side: String,
     /// Coordinate along the side where the piece begins.
     pub from: f64,
@@ -443,17 +453,17 @@ pub struct Ring {
     pub center: [f64; 2],
     /// Inner and outer radius.
     pub radius: [f64; 2],
-    /// Start and end angle in degrees, counter-clockwise from x. A full circle is closed.
+    /// Start and end angle in degrees, counter-clockwise from x. A full circle is a closed ring.
     #[serde(default = "super::defaults::quarter")]
     pub angle: [f64; 2],
     /// Number of elements along the radius and along the angle.
     pub elements: [usize; 2],
-    /// Size of the outermost element over that of the innermost.
+    /// Size of the outermost element divided by the size of the innermost.
     #[serde(default = "super::defaults::one")]
     pub bias: f64,
 }
 
-/// A disc or a sector of 90 or 180 degrees of one.
+/// A full disc, or a sector of 90 or 180 degrees.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Disc {
@@ -462,9 +472,9 @@ pub struct Disc {
     pub center: [f64; 2],
     /// Radius of the disc.
     pub radius: f64,
-    /// Start and end angle in degrees: 90, 180 or 360 apart.
+    /// Start and end angle in degrees, which must be 90, 180 or 360 apart.
     #[serde(default = "super::defaults::quarter")]
     pub angle: [f64; 2],
-    /// Elements over a quarter circle (even).
+    /// Number of elements over a quarter circle (even).
     pub elements: usize,
 }

@@ -1,12 +1,12 @@
-//! Where the keys of a scene stand, for what is found wrong with them later: names of sets can be
-//! looked up only once there is a mesh.
+//! Places of the keys of a scene, kept for errors that are found after reading: names of sets, for
+//! example, can be looked up only once there is a mesh.
 
 use crate::error::Error;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-/// Places of the keys of a scene that was read, none of one that was made in code.
+/// Places of the keys of a scene that was read from text; empty for a scene that was made in code.
 #[derive(Clone, Default, PartialEq)]
 pub struct KeyPlaces(Arc<BTreeMap<String, String>>);
 
@@ -16,7 +16,7 @@ impl KeyPlaces {
     }
 
     /// `FILE:LINE:COLUMN` or `--set KEY=VALUE` of a key path (`load.0.on`), or of the innermost
-    /// table around it that is there.
+    /// enclosing table that has a place.
     pub fn of(&self, path: &str) -> Option<&str> {
         let mut path = path;
         loop {
@@ -30,8 +30,9 @@ impl KeyPlaces {
         }
     }
 
-    /// Gives keys of a text that was made from something else their places there; overrides keep
-    /// theirs. A key that has none there is `file`'s.
+    /// Replaces the places of the keys by `places`, for a scene text that was made from another
+    /// source (a deck). Keys set by overrides keep their places. A key without an entry in `places`
+    /// gets the place `file`.
     pub(super) fn elsewhere(&self, places: &BTreeMap<String, String>, file: &str) -> KeyPlaces {
         let there = KeyPlaces::new(places.clone());
         let place_of = |(key, place): (&String, &String)| {
@@ -44,7 +45,7 @@ impl KeyPlaces {
         KeyPlaces::new(self.0.iter().map(place_of).collect())
     }
 
-    /// Puts the place of a key, where it is known, in front of what is wrong with it.
+    /// Prefixes an error about a key with the key's place, if it is known.
     pub(crate) fn in_front(&self, path: &str, error: Error) -> Error {
         match self.of(path) {
             Some(place) => error.within(place),
@@ -53,7 +54,7 @@ impl KeyPlaces {
     }
 }
 
-/// Says nothing: scenes that differ in where their keys stand are the same.
+/// Prints no places, because scenes that differ only in the places of their keys are equal.
 impl fmt::Debug for KeyPlaces {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("KeyPlaces")

@@ -1,8 +1,9 @@
-//! What the user asks for, as data: the scene file.
+//! The scene file: what the user asks for, as data.
 //!
-//! The types here mirror the TOML file key by key; unknown keys are errors. Units are the user's,
-//! consistent (for instance N, mm, MPa). [`Scene::load`] reads a file, [`Scene::parse`] a string,
-//! [`Scene::load_with`] a file with values overridden (`program.steps=40`).
+//! The types here mirror the TOML file key by key; unknown keys are errors. Units are the user's
+//! own and must be consistent (for instance N, mm, MPa). [`Scene::load`] reads a file,
+//! [`Scene::parse`] a string, [`Scene::load_with`] a file with overridden values
+//! (`program.steps=40`).
 //!
 //! ```text
 //!  text ─▶ document ─▶ overrides ─▶ read ─▶ validate ─▶ Scene
@@ -69,7 +70,7 @@ pub use target::{DisplacementTarget, Target, TargetFigure};
 pub(crate) use tensile_test::beyond_yield;
 pub use units::Units;
 
-/// What a scene calls the [`Space`] of its model.
+/// The kind of a scene: the name in scene files for the [`Space`] of the model.
 pub use crate::space::Space as Kind;
 
 use crate::space::Space;
@@ -82,80 +83,82 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// One line for humans.
+    /// Title of the scene, one line for the reader of results.
     #[serde(default)]
     pub title: String,
-    /// Plane strain, plane stress or axisymmetric.
+    /// Plane strain, plane stress, axisymmetric or solid.
     pub kind: Space,
-    /// Names of the scene's units, for reports: nothing is converted.
+    /// Names of the scene's units, for reports: no number of the scene is converted.
     pub units: Option<Units>,
-    /// How many copies of the model make the whole: 1 (the default) where all of it is meshed, 2
-    /// for a half model, 4 for a quarter of a plane model. Total forces (`force`, `plane_force`) in
-    /// the scene, and loads and contact forces in the results, are those of the whole; the model
-    /// carries its share of them.
+    /// Number of copies of the model that make the whole: 1 (the default) if all of it is meshed, 2
+    /// for a half model, 4 for a quarter model, 8 for an eighth of a solid. Total forces (`force`,
+    /// `plane_force`) in the scene, and loads and contact forces in the results, are those of the
+    /// whole; the model carries its share of them.
     #[serde(default = "defaults::single")]
     pub symmetry: usize,
-    /// Where the mesh comes from.
+    /// The source of the mesh: a generator or a file.
     pub mesh: MeshSource,
-    /// The result directory of an earlier run on the same mesh, relative to the scene file: the
-    /// plastic strains, hardening and back stresses that it left, and so its residual stresses, are
-    /// what this run starts from, without load and with contacts open where nothing presses.
+    /// The result directory of an earlier run on the same mesh, relative to the scene file. This
+    /// run begins with the plastic strains, hardening and back stresses that the earlier run left,
+    /// and hence with its residual stresses. It begins without load, and contacts are open unless
+    /// the residual state presses them together.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub start_from: Option<PathBuf>,
-    /// Materials by name; those of the list that `brinell materials` prints need no entry.
+    /// Materials by name. Materials from the list that `brinell materials` prints need no entry.
     #[serde(default)]
     pub materials: BTreeMap<String, Material>,
-    /// Bodies by name: the names are those of the mesh.
+    /// Bodies by name; the names are those of the bodies of the mesh.
     pub bodies: BTreeMap<String, Body>,
-    /// Rigid surfaces by name, which need no mesh: `contact`, `load` and `history` name them as
-    /// they name surfaces of the mesh.
+    /// Rigid surfaces by name. They need no mesh; `contact`, `load` and `history` refer to them by
+    /// name like surfaces of the mesh.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub rigid: BTreeMap<String, RigidSurface>,
     /// Pairs of surfaces that may touch.
     #[serde(default)]
     pub contact: Vec<Contact>,
-    /// Pairs of surfaces that stay together.
+    /// Pairs of surfaces that stay together (tied contact).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tie: Vec<Tie>,
     /// Linear equations between displacements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub equation: Vec<Equation>,
-    /// Supports of sets and surfaces.
+    /// Supports of node sets and surfaces.
     #[serde(default)]
     pub support: Vec<Support>,
-    /// Loads, each with its factor over the program.
+    /// Loads, each with its own history over the load program.
     #[serde(default)]
     pub load: Vec<Load>,
     /// The load program.
     pub program: Program,
-    /// How to compute: every value has a default that needs no thought.
+    /// Settings of the computation; every value has a default that suits most scenes.
     #[serde(default)]
     pub analysis: Settings,
-    /// How wrong the results may be, such as `"1 %"` or `"load = 0.5 %, dent = 2 %"`: the scene is
-    /// then run on finer and finer meshes of its family until the stated errors are within it. In
-    /// Rust `accuracy::reach` does that; an `Analysis` runs on the mesh that the scene describes.
+    /// How wrong the results may be, such as `"1 %"` or `"load = 0.5 %, dent = 2 %"`. The scene is
+    /// run on finer and finer meshes of its family until the stated errors are within this
+    /// accuracy. In Rust `accuracy::reach` does so; an `Analysis` runs on the mesh that the scene
+    /// describes.
     #[serde(default)]
     pub accuracy: Option<AccuracyDemand>,
     /// Published or exact values to compare with the computed ones.
     #[serde(default)]
     pub reference: Vec<Reference>,
-    /// The file the scene was read from, and what relative paths in it are relative to.
+    /// The file from which the scene was read; relative paths in the scene are relative to it.
     #[serde(skip)]
     pub file: Option<PathBuf>,
-    /// Places of the scene's keys in that file or among the overrides, for messages.
+    /// Places of the scene's keys in its file or among the overrides, for messages.
     #[serde(skip)]
     pub places: KeyPlaces,
-    /// Warnings about how the scene was read.
+    /// Warnings that arose while the scene was read.
     #[serde(skip)]
     pub warnings: Vec<String>,
-    /// Which results are asked for in the formats of CalculiX, as a deck does.
+    /// Results that are requested in the formats of CalculiX, as a deck does.
     #[serde(skip)]
     pub requests: Requests,
 }
 
 impl Scene {
-    /// Choice of the program's increments: in plane stress, where flow is not followed along their
-    /// ways, `auto` is `events`.
+    /// How the increments of the program are chosen. In plane stress `auto` means `events`, because
+    /// the path of plastic flow within an increment is not followed there.
     pub fn stepping(&self) -> Stepping {
         match (self.program.stepping, self.kind) {
             (Stepping::Auto, Kind::PlaneStress) => Stepping::Events,
@@ -163,18 +166,18 @@ impl Scene {
         }
     }
 
-    /// Where `start_from` is.
+    /// Path of the directory that `start_from` names.
     pub(crate) fn start_folder(&self) -> Option<PathBuf> {
         Some(self.beside(self.start_from.as_ref()?))
     }
 
-    /// A path that the scene gives, relative to its file.
+    /// Resolves a path given in the scene, which is relative to the scene's file.
     pub(crate) fn beside(&self, path: &Path) -> PathBuf {
         let folder = self.file.as_deref().and_then(Path::parent);
         folder.map_or(path.to_path_buf(), |folder| folder.join(path))
     }
 
-    /// Everything that may depend on the position.
+    /// All fields of loads and contacts, which may depend on the position.
     pub(crate) fn fields(&self) -> impl Iterator<Item = &Field> {
         let of_loads = self
             .load
@@ -185,8 +188,8 @@ impl Scene {
         of_loads.chain(of_contacts.map(|(_, field)| field))
     }
 
-    /// The names of all sets and surfaces of the mesh that it gives, and of the bodies that volume
-    /// loads are on.
+    /// The names of all sets and surfaces of the mesh that the scene refers to, and of the bodies
+    /// on which volume loads act.
     pub(crate) fn set_names(&self) -> impl Iterator<Item = &str> {
         let contacts = self.contact.iter().flat_map(|c| [&c.first, &c.second]);
         let ties = self.tie.iter().flat_map(|tie| [&tie.first, &tie.second]);
@@ -202,8 +205,8 @@ impl Scene {
             .map(String::as_str)
     }
 
-    /// A scene of a kind with nothing in it: the whole of it is meshed, one target at load factor
-    /// 1.
+    /// An otherwise empty scene of this kind: all of the model is meshed, and the program is the
+    /// default one.
     pub(crate) fn of(kind: Space) -> Self {
         Scene {
             title: String::new(),

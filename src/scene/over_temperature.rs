@@ -1,8 +1,9 @@
-//! Materials whose properties depend on the temperature, and what they are at that of a body.
+//! Materials whose properties depend on the temperature, and their properties at the temperature of
+//! a body.
 //!
 //! Each property is linear between the rows that give it, `p = p_1 + (p_2 - p_1)(T - T_1)/(T_2 -
-//! T_1)`, and constant beyond them. A body has one temperature: its elastic stiffness is that of
-//! the whole run, so that one factorisation is enough.
+//! T_1)`, and constant beyond them. A body has one temperature, so its elastic stiffness is
+//! constant over the whole run and one factorisation is enough.
 
 use super::{Material, Scene};
 use crate::interpolation::interpolate;
@@ -11,8 +12,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// Properties of a material at a temperature; those left out are what other rows make them, or what
-/// the material says without rows.
+/// Properties of a material at one temperature. A property that a row leaves out is interpolated
+/// from the rows that give it, or taken from the material itself if no row gives it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialRow {
@@ -42,7 +43,7 @@ pub struct MaterialRow {
 }
 
 impl MaterialRow {
-    /// Whether the row gives no property.
+    /// Whether the row gives no property besides its temperature.
     pub(crate) fn is_empty(&self) -> bool {
         let temperature = self.temperature;
         *self
@@ -54,7 +55,7 @@ impl MaterialRow {
 }
 
 impl Material {
-    /// The material at a temperature: without rows.
+    /// The material at one temperature, with constant properties and no rows.
     pub fn at(&self, temperature: f64) -> Material {
         let of = |value: fn(&MaterialRow) -> Option<f64>| {
             let rows = self.over_temperature.iter();
@@ -78,7 +79,8 @@ impl Material {
         }
     }
 
-    /// The hardening table between those of rows, at the strains of both.
+    /// The hardening table interpolated between the tables of two rows, at the strains of both
+    /// tables; `None` if no row has a table.
     fn table_at(&self, temperature: f64) -> Option<Vec<[f64; 2]>> {
         let rows = self.over_temperature.iter();
         let tables: Vec<(f64, &[[f64; 2]])> = rows
@@ -103,7 +105,7 @@ impl Material {
         Some(at.collect())
     }
 
-    /// The lowest and the highest temperature of its rows; none where it has no rows.
+    /// The lowest and the highest temperature of the material's rows; `None` if it has no rows.
     pub(crate) fn temperatures(&self) -> Option<[f64; 2]> {
         let (first, last) = (
             self.over_temperature.first()?,
@@ -114,8 +116,8 @@ impl Material {
 }
 
 impl Scene {
-    /// What a body is made of, at its temperature; none where the scene does not have the body or
-    /// its material.
+    /// The material of a body at the body's temperature; `None` if the scene does not have the body
+    /// or its material.
     pub fn material_of(&self, body: &str) -> Option<Cow<'_, Material>> {
         let body = self.bodies.get(body)?;
         let material = self.materials.get(&body.material)?;
@@ -127,7 +129,7 @@ impl Scene {
         })
     }
 
-    /// Warnings of bodies whose temperature lies beyond the rows of their material.
+    /// Warnings about bodies whose temperature lies beyond the rows of their material.
     pub(crate) fn beyond_rows(&self) -> impl Iterator<Item = String> + '_ {
         self.bodies.iter().filter_map(|(name, body)| {
             let temperature = body.temperature?;
@@ -158,7 +160,8 @@ mod tests {
         }
     }
 
-    /// Each property between the rows that give it; others as the material says.
+    /// Each property is interpolated between the rows that give it; other properties are those of
+    /// the material.
     #[test]
     fn properties_are_interpolated_one_by_one() {
         let material = Material {

@@ -1,8 +1,8 @@
-//! Overrides: `key.path=value` put over the document before it is read, so that a mistyped key
-//! meets the same checks as one in the file.
+//! Overrides: `key.path=value` applied to the document before it is read, so that a mistyped key
+//! gets the same checks as one in the file.
 //!
-//! A table is merged with the one that is there, key by key; any other value takes the old one's
-//! place. `key.path=` without a value removes the key.
+//! A table is merged key by key with the table already there; any other value replaces the old one.
+//! `key.path=` without a value removes the key.
 
 use super::document::{Source, join};
 use crate::error::{Error, Result};
@@ -10,13 +10,13 @@ use std::borrow::Cow;
 use toml::Spanned;
 use toml::de::{DeArray, DeString, DeTable, DeValue};
 
-/// Applies all overrides in order; later ones win. Returns what the user should know: keys that a
-/// new list of tables no longer has.
+/// Applies all overrides in order; later ones win. Returns warnings about keys that are lost
+/// because a new list of tables no longer has them.
 ///
 /// # Errors
-/// The override, by its text: no `=`, a key that is not a TOML key path, a value that looks like a
-/// TOML array, table or string but is none, a step into something that is not a table, an array
-/// element that does not exist, a key to remove that does not exist.
+/// `Input`, naming the override by its text: no `=`, a key that is not a TOML key path, a value
+/// that looks like a TOML array, table or string but is not valid, a step into a value that is not
+/// a table, an array element that does not exist, a key to remove that does not exist.
 pub(super) fn apply<'i>(source: &Source<'i>, root: &mut DeTable<'i>) -> Result<Vec<String>> {
     let mut lost = Vec::new();
     for (number, text) in source.overrides.iter().enumerate() {
@@ -80,7 +80,7 @@ fn apply_one<'i>(
     Ok(())
 }
 
-/// Puts `value` at `key`.
+/// Puts `value` at `key`, merging tables.
 fn put<'i>(
     table: &mut DeTable<'i>,
     key: &str,
@@ -89,7 +89,7 @@ fn put<'i>(
     lost: &mut Vec<String>,
 ) {
     let place = value.span();
-    // The old key would keep its place in the file.
+    // The key is removed and inserted again, because the old key would keep its place in the file.
     if let Some(old) = table.remove(key) {
         let new = std::mem::replace(&mut value, old);
         replace(&mut value, new, path, lost);
@@ -97,7 +97,7 @@ fn put<'i>(
     table.insert(Spanned::new(place, Cow::Owned(key.to_string())), value);
 }
 
-/// Merges a table with a table; anything else takes the place of what was there.
+/// Merges a table with a table; any other new value replaces the old one.
 fn replace<'i>(
     old: &mut Spanned<DeValue<'i>>,
     new: Spanned<DeValue<'i>>,
@@ -121,7 +121,7 @@ fn replace<'i>(
     }
 }
 
-/// The keys that each table of the old list has and none of the new one.
+/// A warning about the keys that all tables of the old list have and no table of the new list has.
 fn missing_keys(old: &DeArray<'_>, new: &DeArray<'_>, path: &str) -> Option<String> {
     let first = old.first()?.get_ref().as_table()?;
     let has = |item: &Spanned<DeValue>, key: &str| item.get_ref().get(key).is_some();
@@ -149,7 +149,7 @@ fn remove(table: &mut DeTable<'_>, key: &str, whose: &str) -> Result<()> {
     }
 }
 
-/// The key path's parts: TOML's own rules, so that quoted keys work.
+/// Splits a key path into its parts by TOML's own rules, so that quoted keys work.
 fn segments(key: &str) -> Result<Vec<String>> {
     let key = key.trim();
     let wrong = |reason: &str| {
@@ -166,7 +166,7 @@ fn segments(key: &str) -> Result<Vec<String>> {
         .map_err(|error| wrong(error.message()))?
         .into_inner();
     let mut segments = Vec::new();
-    // One line with one number at its end: a chain of tables with one key each.
+    // One line with one number at its end parses as a chain of tables with one key each.
     while let Some((key, value)) = table.into_iter().next() {
         segments.push(key.into_inner().into_owned());
         match value.into_inner() {
@@ -177,7 +177,7 @@ fn segments(key: &str) -> Result<Vec<String>> {
     Ok(segments)
 }
 
-/// A TOML value; a bare word is a string.
+/// Parses a TOML value; a bare word is taken as a string.
 fn parse_value(text: &str) -> Result<DeValue<'_>> {
     match DeValue::parse(text) {
         Ok(value) => Ok(value.into_inner()),
@@ -189,7 +189,7 @@ fn parse_value(text: &str) -> Result<DeValue<'_>> {
     }
 }
 
-/// The value with the place of the override on all its parts.
+/// Assigns the place of the override to all parts of the value.
 fn placed(value: DeValue<'_>, place: usize) -> DeValue<'_> {
     match value {
         DeValue::Table(table) => DeValue::Table(
@@ -214,8 +214,8 @@ fn placed(value: DeValue<'_>, place: usize) -> DeValue<'_> {
     }
 }
 
-/// The value of `key`, created as an empty table where it is absent: if the key is unknown, reading
-/// says so.
+/// The value of `key`, created as an empty table if it is absent. An unknown key is reported later,
+/// when the scene is read.
 fn entry<'t, 'i>(table: &'t mut DeTable<'i>, key: &str, place: usize) -> &'t mut DeValue<'i> {
     table
         .entry(Spanned::new(place..place, Cow::Owned(key.to_string())))
@@ -236,7 +236,8 @@ fn step<'t, 'i>(
     }
 }
 
-/// The array element that a segment means: its index from 0, or the `name` (of a part, its `body`).
+/// The array element that a path segment refers to, by its index from 0 or by its `name` (for a
+/// part, its `body`).
 fn element<'t, 'i>(
     array: &'t mut DeArray<'i>,
     segment: &str,
@@ -267,7 +268,7 @@ fn element<'t, 'i>(
         .ok_or_else(|| Error::input(missing))
 }
 
-/// What an entry of an array of tables goes by.
+/// The name by which an entry of an array of tables can be referred to.
 fn name<'v>(item: &'v DeValue<'_>) -> Option<&'v str> {
     let named = item.get("name").or_else(|| item.get("body"))?;
     named.get_ref().as_str()

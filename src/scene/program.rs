@@ -1,55 +1,57 @@
-//! The load program and how it is computed.
+//! The load program and the settings of its computation.
 
 use super::Target;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The least path error that can be asked for: with less a leg takes some ten thousand increments.
+/// The smallest path error that can be requested: with a smaller one, a leg takes about ten
+/// thousand increments or more.
 pub const LEAST_PATH_ERROR: f64 = 1e-9;
 
 /// The load program.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Program {
-    /// What a load factor of 1 means.
+    /// Meaning of a load factor of 1.
     #[serde(default)]
     pub unit: Unit,
-    /// How increments are chosen.
+    /// How the increments are chosen.
     #[serde(default)]
     pub stepping: Stepping,
-    /// Increments from one target to the next with `stepping = "steps"`.
+    /// Number of increments from one target to the next with `stepping = "steps"`.
     #[serde(default = "super::defaults::steps")]
     pub steps: usize,
-    /// Error of pressure and dent that the increments of `stepping = "auto"` may leave, as a share:
-    /// they become shorter with its square root.
+    /// Relative error of pressure and dent that the increments of `stepping = "auto"` may cause.
+    /// The length of the increments is proportional to its square root.
     #[serde(default = "super::defaults::path_error")]
     pub path_error: f64,
-    /// Most increments of the whole run, whatever the stepping. A run that takes as many ends there
-    /// with what it has reached (exit code 5).
+    /// Largest number of increments of the whole run, whatever the stepping. A run that reaches
+    /// this number ends there with the results so far (exit code 5).
     #[serde(
         default = "super::defaults::max_increments",
         skip_serializing_if = "is_usual_most"
     )]
     pub max_increments: usize,
-    /// Relative tolerance with which events are landed on: a change of contact (paper 4.18, 4.23),
+    /// Relative tolerance with which events are located: a change of contact (paper 4.18, 4.23),
     /// and the maximum of the stress at first yield.
     #[serde(default = "super::defaults::gamma")]
     pub gamma: f64,
-    /// The targets, reached one after the other; each leaves a state.
+    /// The targets, reached one after the other; each yields one state in the results.
     pub targets: Vec<Target>,
-    /// Node sets or surfaces that every row of the history follows: mean displacement of the nodes
-    /// and the force that acts on them from outside (loads and supports, the modelled sum times
-    /// `symmetry`). The approach of all bodies and each contact's approach, force and area come
-    /// with them. It takes a solve for each increment.
+    /// Node sets or surfaces that every row of the history records: the mean displacement of their
+    /// nodes and the external force on them (loads and supports, the sum over the model times
+    /// `symmetry`). The approach of all bodies and the approach, force and area of each contact are
+    /// recorded with them. This takes one additional solve per increment.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub history: Vec<String>,
-    /// The targets again and again, at most so often: until the next cycle would be like the last.
-    /// The states are those of the last cycle.
+    /// Largest number of cycles. The targets are repeated as one cycle until the next cycle would
+    /// be like the last. The states are those of the last cycle.
     #[serde(default = "super::defaults::cycles", skip_serializing_if = "is_one")]
     pub cycles: usize,
-    /// When a cycle counts as like the next: once all cycles to come would change plastic strains,
-    /// against going on as it did, by less than this share of what flowed in the first.
+    /// Criterion for the end of `cycles`: all cycles to come together would change the plastic
+    /// strains, compared with repeating the last cycle, by less than this share of the plastic flow
+    /// in the first cycle.
     #[serde(default = "super::defaults::steady", skip_serializing_if = "is_steady")]
     pub steady: f64,
 }
@@ -67,7 +69,8 @@ fn is_one(cycles: &usize) -> bool {
 }
 
 impl Default for Program {
-    /// Load factors of the loads as given, event by event, no targets yet.
+    /// A program of load factors relative to the loads as given, with automatic stepping and no
+    /// targets yet.
     fn default() -> Self {
         Program {
             unit: Unit::default(),
@@ -84,35 +87,35 @@ impl Default for Program {
     }
 }
 
-/// What a load factor of 1 means.
+/// The meaning of a load factor of 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Unit {
-    /// The loads as given in the scene.
+    /// A load factor of 1 means the loads as given in the scene.
     #[default]
     Load,
-    /// The yield load: alpha = P/P* (paper 5.1, 5.3).
+    /// A load factor of 1 means the yield load: alpha = P/P* (paper 5.1, 5.3).
     Yield,
 }
 
-/// How increments are chosen.
+/// The choice of the increments.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Stepping {
-    /// As the path demands it: elastic stretches from change to change of contact, increments in
-    /// which something flows as long as `path_error` allows. In plane stress as `events`.
+    /// Automatic: an elastic stretch ends at the next change of contact; increments with plastic
+    /// flow are as long as `path_error` allows. In plane stress the same as `events`.
     #[default]
     Auto,
-    /// Each increment ends at the next change of contact (paper 4.10 to 4.23).
+    /// Event by event: each increment ends at the next change of contact (paper 4.10 to 4.23).
     Events,
-    /// A fixed number of increments per target, contact solved at the end of each.
+    /// A fixed number of increments per target, with contact solved at the end of each increment.
     Steps,
 }
 
 impl Program {
-    /// Names of the states of all targets, made unlike each other: a made-up name that was used
-    /// before gets a number, as in `alpha 1.25 (2)`. A scene that was read holds these names
-    /// already.
+    /// Names of the states of all targets, made unique: a generated name that is already in use
+    /// gets a number, as in `alpha 1.25 (2)`. A scene that was read from text already holds these
+    /// names.
     pub fn labels(&self) -> Vec<String> {
         let mut taken: BTreeSet<String> =
             self.targets.iter().filter_map(|t| t.name.clone()).collect();
@@ -125,7 +128,8 @@ impl Program {
                 if target.name.is_some() || taken.insert(label.clone()) {
                     return label;
                 }
-                // Numbers below are taken already: each name is counted on from where it was last.
+                // Lower numbers are already in use, so the count for each name continues from the
+                // last number.
                 let number = next.entry(label.clone()).or_insert(2);
                 loop {
                     let numbered = format!("{label} ({number})");
@@ -139,20 +143,22 @@ impl Program {
     }
 }
 
-/// How to compute.
+/// Settings of the computation.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Settings {
-    /// Yield load: the exact path or the paper's secant (3.14).
+    /// Computation of the yield load: the exact path or the paper's secant (3.14).
     pub yield_load: YieldMethod,
-    /// How the plastic iteration is accelerated.
+    /// Method of the plastic iteration.
     pub plastic_iteration: PlasticIteration,
-    /// Out-of-balance force of the plastic iteration over the contact and applied forces.
+    /// Tolerance of the plastic iteration: the out-of-balance force divided by the contact and
+    /// applied forces.
     pub tolerance: f64,
-    /// Most plastic iterations per increment.
+    /// Largest number of plastic iterations per increment.
     pub max_iterations: usize,
-    /// Estimate the condition of the factored matrix, which takes about six full solves (done
-    /// anyway where accuracy is in doubt; a lower bound is in every summary).
+    /// Whether to estimate the condition number of the factored matrix, which takes about six full
+    /// solves. The estimate is made anyway if the accuracy is in doubt; a lower bound is in every
+    /// summary.
     pub condition: bool,
 }
 
@@ -168,27 +174,27 @@ impl Default for Settings {
     }
 }
 
-/// How the yield load is found.
+/// The method by which the yield load is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum YieldMethod {
-    /// Along the piecewise linear path.
+    /// Exactly, along the piecewise linear path.
     #[default]
     Exact,
-    /// The paper's secant, equation 3.14, bracketed.
+    /// By the paper's secant iteration, equation 3.14, bracketed.
     Secant,
 }
 
-/// How the plastic iteration runs.
+/// The method of the plastic iteration.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum PlasticIteration {
-    /// Newton with the consistent tangent, solved by conjugate gradients on the factored elastic
-    /// stiffness.
+    /// Newton's method with the consistent tangent, solved by conjugate gradients preconditioned
+    /// with the factored elastic stiffness.
     #[default]
     Newton,
-    /// Anderson acceleration of the plain iteration.
+    /// Anderson acceleration of the paper's initial-load iteration.
     Anderson,
-    /// The paper's initial-load iteration.
+    /// The paper's initial-load iteration without acceleration.
     Plain,
 }

@@ -1,4 +1,5 @@
-//! Reading: text to [`Scene`], with errors that name file, line, column, key and what was meant.
+//! Reading of text into a [`Scene`], with errors that name file, line, column and key, and suggest
+//! what was meant.
 
 use super::document::{Places, Source};
 use super::{Scene, catalogue, complete, overrides, unsupported, validate};
@@ -15,7 +16,7 @@ impl Scene {
     /// Reads and validates a scene file.
     ///
     /// # Errors
-    /// [`ErrorKind::Io`] where the file cannot be read; [`ErrorKind::Input`] as
+    /// [`ErrorKind::Io`] if the file cannot be read; [`ErrorKind::Input`] as
     /// `FILE:LINE:COLUMN: ...` for text that is not TOML, unknown or missing keys, wrong types,
     /// numbers that are not finite and values out of range; [`ErrorKind::Unsupported`] for an
     /// effect that brinell does not have.
@@ -23,10 +24,11 @@ impl Scene {
         Self::load_with(path, &[])
     }
 
-    /// Reads a scene file with `overrides` put over it, each `key.path=value`. A segment of the
-    /// path is a key, the index of an array entry or its name (`load.press.history=constant`); the
-    /// value is TOML, or else taken as a string. A table is merged with the one that is there, key
-    /// by key; without a value (`materials.steel.yield_stress=`) the key is removed.
+    /// Reads a scene file with `overrides` applied to it, each `key.path=value`. A segment of the
+    /// path is a key, the index of an array entry or the entry's name
+    /// (`load.press.history=constant`). The value is TOML; anything else is taken as a string. A
+    /// table is merged key by key with the table already there. Without a value
+    /// (`materials.steel.yield_stress=`) the key is removed.
     ///
     /// ```
     /// use brinell::scene::Scene;
@@ -40,7 +42,7 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// As [`Scene::load`]; what is wrong with an override is reported as `--set KEY=VALUE: ...`.
+    /// As for [`Scene::load`]; an error in an override is reported as `--set KEY=VALUE: ...`.
     pub fn load_with(path: impl AsRef<Path>, overrides: &[String]) -> Result<Scene> {
         let path = path.as_ref();
         let text = files::read_text("read the scene", path, Some(files::LARGEST_SCENE))?;
@@ -64,24 +66,25 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// As [`Scene::load`].
+    /// As for [`Scene::load`].
     pub fn parse(text: &str, name: &str) -> Result<Scene> {
         Self::parse_with(text, name, &[])
     }
 
-    /// As [`Scene::parse`], with `overrides` put over it as by [`Scene::load_with`].
+    /// Reads and validates a scene from a string like [`Scene::parse`], with `overrides` applied as
+    /// by [`Scene::load_with`].
     ///
     /// # Errors
-    /// As [`Scene::load_with`].
+    /// As for [`Scene::load_with`].
     pub fn parse_with(text: &str, name: &str, overrides: &[String]) -> Result<Scene> {
         parse(&Source::new(name, text, overrides), None)
     }
 
-    /// As [`Scene::parse_with`] of a text that was made from something else: `places` has where its
-    /// tables stand there.
+    /// Reads a scene from a text that was made from another source (a deck), like
+    /// [`Scene::parse_with`]: `places` holds the places in that source of the scene's tables.
     ///
     /// # Errors
-    /// As [`Scene::parse_with`], with these places.
+    /// As for [`Scene::parse_with`], with the places in the other source.
     pub(crate) fn parse_placed(
         text: &str,
         name: &str,
@@ -94,13 +97,14 @@ impl Scene {
     /// The scene as TOML: [`Scene::parse`] reads it back.
     ///
     /// # Errors
-    /// [`ErrorKind::Internal`] where a value has no form in TOML, which no scene that was read or
-    /// built of finite numbers has.
+    /// [`ErrorKind::Internal`] if a value has no form in TOML, which cannot happen for a scene that
+    /// was read or built from finite numbers.
     pub fn to_toml(&self) -> Result<String> {
         let text = toml::to_string(self).map_err(|cause| {
             Error::internal("the scene cannot be written as TOML").because(cause)
         })?;
-        // Numbers with an exponent where that is shorter, unless that changed what is said.
+        // Numbers are written with an exponent where that is shorter, unless this would change a
+        // value.
         let short = short(&text);
         let said = |text: &str| text.parse::<toml::Table>().ok();
         if matches!(short, Cow::Owned(_)) && said(&short) == said(&text) {
@@ -140,7 +144,7 @@ fn parse(source: &Source<'_>, made_from: Option<&BTreeMap<String, String>>) -> R
     Ok(scene)
 }
 
-/// serde's error in the words of a user.
+/// Converts an error of serde into words for the user.
 fn explain(error: &toml::de::Error, places: &Places) -> Error {
     let (place, path) = places.of_error(error);
     let message = error.message();
@@ -205,7 +209,7 @@ fn unknown_word(word: &str, known: &[&str], path: &str) -> (ErrorKind, String) {
     (ErrorKind::Input, text)
 }
 
-/// The known word closest to `word`, if it is close: at most a third of its letters differ.
+/// The known word closest to `word`, provided that at most a third of its letters differ.
 pub(crate) fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
     let lower = word.to_lowercase();
     let distance = |k: &str| {
@@ -220,7 +224,7 @@ pub(crate) fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
         .map(|(_, k)| k)
 }
 
-/// serde's names of types in plain words.
+/// Replaces serde's names of types by plain words.
 fn in_words(message: &str) -> String {
     if message == "wanted string or table" {
         return "wrong type, expected a word in quotes".to_string();
@@ -241,7 +245,8 @@ fn in_words(message: &str) -> String {
             found = format!("{words}{rest}");
         }
     }
-    // A list of one entry, or a vector by its components: the most natural slips in TOML.
+    // The most common slips in TOML: a list of one entry given as a table, or a vector given by its
+    // components.
     if found == "wrong type: table" && expected == "a sequence" {
         return "a single table, expected a list: write the head of one of several tables with two \
                 brackets, [[...]], values as [1.0, 2.0]"

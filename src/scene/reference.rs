@@ -4,37 +4,39 @@ use crate::space::{Space, Vector};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Reference values: a closed form that applies to the scene, or single values with their source.
+/// A reference value: either a closed form that applies to the scene, or a single value with its
+/// source.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reference {
-    /// Hertz line contact at first yield (paper 5.1, Table I): radius of the cylinder.
+    /// Hertz line contact at first yield (paper 5.1, Table I), with the radius of the cylinder.
     pub hertz_line: Option<RadiusOnly>,
-    /// Hertz point contact at first yield: radius of the ball.
+    /// Hertz point contact at first yield, with the radius of the ball.
     pub hertz_point: Option<RadiusOnly>,
-    /// Hertz' elliptical contact at first yield: the principal radii of the two bodies.
+    /// Hertz's elliptical contact at first yield, with the principal radii of the two bodies.
     pub hertz_ellipse: Option<TwoBodies>,
     /// Disc in a plate with a hole (paper 5.2, Table II).
     pub disc_in_plate: Option<NoParameters>,
-    /// The quantity a single value is for: a path in `summary.json`, such as `yield.load` or
-    /// `states.NAME.max_pressure`; with `at` also one of a place, `states.NAME.` and `pressure`,
-    /// `displacement_x`, ... or a stress, `stress_xx`, ... (axisymmetric: `stress_rr`, `stress_zz`,
-    /// `stress_tt`, `stress_rz`).
+    /// Quantity of the single value: a path in `summary.json`, such as `yield.load` or
+    /// `states.NAME.max_pressure`. With `at` it may also be a quantity at a point: `states.NAME.`
+    /// followed by `pressure`, `displacement_x`, ... or a stress `stress_xx`, ... (axisymmetric:
+    /// `stress_rr`, `stress_zz`, `stress_tt`, `stress_rz`).
     pub quantity: Option<String>,
-    /// Coordinates of the place, whose nearest node it is (of a pressure the nearest contact pair).
+    /// Coordinates of the point. The value at the nearest node is compared, or for a pressure the
+    /// value at the nearest contact pair.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<Vec<f64>>,
-    /// The body whose node it is; of all bodies if it is not given.
+    /// Body whose nodes are considered in the search for the nearest node; by default all bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// The single value.
+    /// The reference value itself, with `quantity`.
     pub value: Option<f64>,
     /// Source of the reference value.
     pub source: Option<String>,
 }
 
 impl Reference {
-    /// The place that `at` gives.
+    /// The point that `at` gives, with missing coordinates set to 0.
     pub(crate) fn place(&self) -> Option<Vector> {
         let at = self.at.as_ref()?;
         Some(std::array::from_fn(|axis| {
@@ -43,7 +45,7 @@ impl Reference {
     }
 }
 
-/// A quantity of a place in a state.
+/// A quantity at a point in a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PlaceQuantity {
     /// Contact pressure.
@@ -55,7 +57,7 @@ pub(crate) enum PlaceQuantity {
 }
 
 impl PlaceQuantity {
-    /// Name of the state, and the quantity, of a path `states.NAME.KEY`.
+    /// Splits a path `states.NAME.KEY` into the name of the state and the quantity.
     pub(crate) fn of(path: &str, space: Space) -> Option<(&str, Self)> {
         let (state, key) = path.strip_prefix("states.")?.rsplit_once('.')?;
         let index = |of: &[&str], name| of.iter().position(|of| *of == name);
@@ -75,7 +77,7 @@ impl PlaceQuantity {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RadiusOnly {
-    /// Radius that the closed form is of.
+    /// Radius of the cylinder or the ball in the closed form.
     pub radius: f64,
 }
 
@@ -83,9 +85,9 @@ pub struct RadiusOnly {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TwoBodies {
-    /// Principal radii of the first body: positive where convex, 0 or inf where flat.
+    /// Principal radii of the first body: positive if convex, 0 or inf if flat.
     pub first: [f64; 2],
-    /// Principal radii of the second body, in the same directions.
+    /// Principal radii of the second body, along the same directions as those of the first.
     pub second: [f64; 2],
 }
 

@@ -1,37 +1,39 @@
-//! Which results are asked for in the formats of CalculiX: `.frd` files and tables in `.dat` files.
+//! Results that are requested in the formats of CalculiX: `.frd` files and tables in `.dat` files.
 
 use crate::space::Vector;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Which results are asked for in the formats of CalculiX, state by state.
+/// Results that are requested in the formats of CalculiX, state by state.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Requests {
-    /// Whether stresses and strains at the integration points are kept for the states with fields.
+    /// Whether stresses and strains at the integration points are kept for the states whose fields
+    /// are written.
     pub point_values: bool,
     /// Lines that describe the model.
     pub heading: Vec<String>,
     /// Names of materials and surface interactions, in the order of the deck.
     pub materials: Vec<String>,
-    /// Thickness of a plane model: forces are those on all of it.
+    /// Thickness of a plane model: forces are totals over this thickness.
     pub thickness: Option<f64>,
-    /// Axes of their own of nodes, by number, in which tables list displacements and forces.
+    /// Local axes of nodes, by node number: tables list displacements and forces of these nodes
+    /// along them.
     pub axes: Arc<BTreeMap<u64, [Vector; 3]>>,
-    /// Where a deck asks for large displacements, which are computed as small ones.
+    /// The place at which a deck asks for large displacements, which are computed as small ones.
     pub large: Option<String>,
-    /// The moment that each target stands for, in the order of the targets.
+    /// The moment of the deck's program that each target stands for, in the order of the targets.
     pub moments: Vec<Moment>,
 }
 
-/// A moment of a deck's program, with the results that are asked for there.
+/// A moment of a deck's program, with the results that are requested there.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Moment {
     /// Number of the step, from 1.
     pub step: usize,
     /// Number of the increment within the step, from 1.
     pub increment: usize,
-    /// Time since the beginning of the first step. `None` of a scene, which knows no time: the load
-    /// factor of the state stands for it.
+    /// Time since the beginning of the first step. `None` for a scene without a deck, which has no
+    /// time: the load factor of the state is used instead.
     pub time: Option<f64>,
     /// Time since the beginning of the step.
     pub step_time: f64,
@@ -41,12 +43,12 @@ pub struct Moment {
     pub prints: Vec<Print>,
 }
 
-/// A result that is asked for at nodes.
+/// A result that is requested at nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileRequest {
     /// The result that is written.
     pub item: ResultItem,
-    /// The nodes; all where there is none.
+    /// Nodes at which the result is written; all nodes if `None`.
     pub nodes: Option<NamedSet>,
 }
 
@@ -55,19 +57,19 @@ pub struct FileRequest {
 pub struct Print {
     /// The result that is written.
     pub item: ResultItem,
-    /// The nodes of displacements and forces, the elements of the other results; of the force of a
-    /// contact the number of the contact, from 0.
+    /// Set to which the table refers: nodes for displacements and forces, elements for the other
+    /// results. For the force of a contact the set holds the number of the contact, counted from 0.
     pub set: NamedSet,
-    /// Whether the values are added up.
+    /// Whether the values of the table are summed.
     pub totals: Totals,
-    /// Whether vectors are along x, y, z also where a node has axes of its own.
+    /// Whether vectors are given along x, y, z even for nodes with local axes.
     pub is_global: bool,
-    /// Faces of the force through a surface: the number of the element, and its local facet
-    /// ([`crate::mesh::Facet::local`]). Empty otherwise.
+    /// Faces of the surface for a force through a surface: the number of the element and its local
+    /// facet ([`crate::mesh::Facet::local`]). Empty for other results.
     pub faces: Arc<Vec<(u64, u8)>>,
 }
 
-/// A set of nodes or elements by their numbers.
+/// A set of nodes or elements, given by their numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedSet {
     /// Name of the set.
@@ -76,7 +78,7 @@ pub struct NamedSet {
     pub labels: Arc<Vec<u64>>,
 }
 
-/// Whether the values of a table are added up.
+/// Whether and how the values of a table are summed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Totals {
     /// The values without a sum.
@@ -88,7 +90,7 @@ pub enum Totals {
     Only,
 }
 
-/// A result that a `.frd` or `.dat` file can have, in the order of a `.frd` file.
+/// A result that a `.frd` or `.dat` file can contain, in the order of a `.frd` file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ResultItem {
     /// Displacements (`U`).
@@ -97,15 +99,15 @@ pub enum ResultItem {
     Stress,
     /// Total strains (`E`).
     TotalStrain,
-    /// Forces that act from outside: loads and reactions (`RF`).
+    /// External forces: loads and reactions (`RF`).
     Force,
     /// Equivalent plastic strain (`PEEQ`).
     PlasticStrain,
     /// Gap and pressure of contact (`CDIS`, `CSTR`).
     Contact,
-    /// Stresses of a polynomial fitted around each node (`ZZS`).
+    /// Recovered stresses, from a polynomial fitted around each node (`ZZS`).
     RecoveredStress,
-    /// Jump of the stress from element to element (`ERR`).
+    /// Jump of the stress between neighbouring elements (`ERR`).
     StressJump,
     /// Volumes of elements (`EVOL`), in tables only.
     Volume,
@@ -118,16 +120,16 @@ pub enum ResultItem {
 /// A part of the force of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ContactForce {
-    /// All of it (`CF`).
+    /// Total force (`CF`).
     Total,
-    /// Across the surfaces (`CFN`).
+    /// Component normal to the surfaces (`CFN`).
     Normal,
-    /// Along the surfaces (`CFS`).
+    /// Component tangential to the surfaces (`CFS`).
     Shear,
 }
 
 impl ResultItem {
-    /// The results that a `.frd` file has where none are named.
+    /// Results of a `.frd` file if none are named.
     pub const USUAL: [ResultItem; 6] = [
         ResultItem::Displacement,
         ResultItem::Stress,
@@ -137,7 +139,7 @@ impl ResultItem {
         ResultItem::Contact,
     ];
 
-    /// Whether the result follows from values at integration points.
+    /// Whether the result is computed from values at integration points.
     pub fn needs_points(self) -> bool {
         use ResultItem::{PlasticStrain, Section, Stress, StressJump, TotalStrain};
         matches!(
@@ -153,12 +155,14 @@ impl Requests {
         self.is_of_deck() && self.moments.iter().any(|moment| !moment.file.is_empty())
     }
 
-    /// Whether a deck asks, which always has a material, and not the command line alone.
+    /// Whether the requests come from a deck and not from the command line alone. A deck always
+    /// names a material.
     pub fn is_of_deck(&self) -> bool {
         !self.materials.is_empty()
     }
 
-    /// Asks for the usual results in each of `n_targets` states: each is a step of its own.
+    /// Requests the usual results in each of `n_targets` states, unless moments are there already;
+    /// without a deck each state is a step of its own.
     pub fn ask_for_usual(&mut self, n_targets: usize) {
         let request = |item| FileRequest { item, nodes: None };
         let usual = || ResultItem::USUAL.map(request).to_vec();

@@ -5,12 +5,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// A rigid surface that meshed bodies may touch, exactly one of the kinds. It moves by a `force` or
-/// a `displacement` on its name, along that push alone; without any it is held.
+/// A rigid surface that meshed bodies may touch; exactly one of the kinds below. A `force` or a
+/// `displacement` load on its name moves it, in the direction of that load only. Without such a
+/// load the surface is fixed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidSurface {
-    /// A sphere; in plane models the circle that a cylinder shows.
+    /// A sphere; in plane models a circle, the section of a cylinder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sphere: Option<RigidSphere>,
     /// A cylinder, convex or hollow.
@@ -22,13 +23,13 @@ pub struct RigidSurface {
     /// A cone with a rounded tip; in plane models a wedge.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cone: Option<RigidCone>,
-    /// A plane without end.
+    /// An unbounded plane.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<RigidPlane>,
-    /// A flat end whose edge has a fillet: of a round bar, in plane models of a strip.
+    /// A punch with a flat end and a fillet at the edge: a round bar, or in plane models a strip.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub punch: Option<RigidPunch>,
-    /// Heights on a grid: roughness, a measured dent.
+    /// Heights on a grid, for a rough surface or a measured dent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heights: Option<RigidHeights>,
 }
@@ -37,11 +38,11 @@ pub struct RigidSurface {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidSphere {
-    /// Centre; axisymmetric: on the axis.
+    /// Centre of the sphere; in an axisymmetric model a point on the axis.
     pub center: Components,
     /// Radius of the sphere.
     pub radius: f64,
-    /// Whether the bodies are inside, as a ball in its socket.
+    /// Whether the bodies are inside the sphere, like a ball in its socket.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub hollow: bool,
 }
@@ -50,33 +51,33 @@ pub struct RigidSphere {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidCylinder {
-    /// A point of its axis.
+    /// A point of the cylinder's axis.
     pub center: Components,
-    /// Direction of its axis, of a solid; in plane models it is z, in axisymmetric ones the axis of
-    /// revolution.
+    /// Direction of the cylinder's axis, for solids only. In plane models the axis is z, in
+    /// axisymmetric models the axis of revolution.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
     /// Radius of the cylinder.
     pub radius: f64,
-    /// Whether the bodies are inside, as a pin in its hole.
+    /// Whether the bodies are inside the cylinder, like a pin in its hole.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub hollow: bool,
 }
 
-/// A rigid torus: all points at a distance from a ring.
+/// A rigid torus: all points at the distance `radius` from a ring.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidTorus {
-    /// Centre of the ring; axisymmetric: on the axis.
+    /// Centre of the ring; in an axisymmetric model a point on the axis.
     pub center: Components,
-    /// Direction of its axis, of a solid; else it is y.
+    /// Direction of the axis of the ring, for solids only; otherwise the axis is y.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
     /// Radius of the ring.
     pub ring_radius: f64,
     /// Radius of the tube.
     pub radius: f64,
-    /// Whether the bodies are inside the tube, as a ball in its groove.
+    /// Whether the bodies are inside the tube, like a ball in its groove.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub hollow: bool,
 }
@@ -85,23 +86,23 @@ pub struct RigidTorus {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidCone {
-    /// The outermost point of the rounded tip; axisymmetric: on the axis.
+    /// The outermost point of the rounded tip; in an axisymmetric model a point on the axis.
     pub tip: Components,
     /// Direction from the tip into the cone.
     pub axis: Components,
-    /// Angle in degrees between its axis and its side.
+    /// Angle in degrees between the axis and the side of the cone.
     pub half_angle: f64,
-    /// Radius of the tip. A sharp one would have an infinite pressure.
+    /// Radius of the rounded tip. Under a sharp tip the pressure would be infinite.
     pub rounding: f64,
 }
 
-/// A rigid plane without end.
+/// A rigid unbounded plane.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidPlane {
     /// A point of the plane.
     pub point: Components,
-    /// Direction out of the rigid body, towards what it touches.
+    /// Normal direction out of the rigid body, towards the bodies that it touches.
     pub normal: Components,
 }
 
@@ -109,31 +110,32 @@ pub struct RigidPlane {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidPunch {
-    /// Centre of its flat end; axisymmetric: on the axis.
+    /// Centre of the flat end; in an axisymmetric model a point on the axis.
     pub center: Components,
     /// Direction from the flat end into the punch.
     pub axis: Components,
-    /// Radius of the bar, in plane models half the width of the strip: of flat and fillet together.
+    /// Radius of the bar, or in plane models half the width of the strip, the fillet included.
     pub radius: f64,
-    /// Radius of the fillet.
+    /// Radius of the fillet at the edge.
     pub fillet: f64,
 }
 
-/// A rigid surface by heights: `y` over `x`, axisymmetric `z` over `r`, of a solid `z` over `x` and
-/// `y`.
+/// A rigid surface given by heights: `y` over `x` in plane models, `z` over `r` in axisymmetric
+/// models, `z` over `x` and `y` in solids.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidHeights {
-    /// A file of the places of a grid and the heights there, with commas between, relative to the
-    /// scene file: `x,y`, of a solid `x,y,z`. Cubics run between them.
+    /// A file, relative to the scene file, of grid points and the heights there, separated by
+    /// commas: `x,y` per line, in a solid `x,y,z`. The surface between the points is interpolated
+    /// by cubics.
     pub file: PathBuf,
-    /// Whether the rigid body is below the surface; by default it is above.
+    /// Whether the rigid body lies below the surface; by default it lies above.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub below: bool,
 }
 
 impl RigidSurface {
-    /// The kinds, and which of them are given.
+    /// The names of all kinds of rigid surface, and whether each is given.
     pub(crate) fn kinds(&self) -> [(&'static str, bool); 7] {
         [
             ("sphere", self.sphere.is_some()),

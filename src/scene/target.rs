@@ -1,58 +1,59 @@
-//! Targets of the load program: what is to be reached next.
+//! Targets of the load program: the conditions that are to be reached one after the other.
 
 use super::Direction;
 use crate::number::exact;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// A target: exactly one of the conditions.
+/// A target: exactly one of the conditions, with a name and options.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Target {
-    /// Name of the state.
+    /// Name of the state that the target leaves.
     pub name: Option<String>,
-    /// `yield = true`: first yield.
+    /// First yield, given as `yield = true`.
     #[serde(default, rename = "yield")]
     pub first_yield: bool,
     /// A load factor of the program.
     pub load_factor: Option<f64>,
-    /// A contact half width, as a multiple of that at first yield.
+    /// A contact half width, as a multiple of the half width at first yield.
     pub half_width: Option<f64>,
-    /// A displacement.
+    /// A mean displacement of a node set or a surface.
     pub displacement: Option<DisplacementTarget>,
-    /// The dent that stays once the load factor has gone back to zero from there, on the way back
-    /// yielding included: that of both surfaces together, or that of `body`. Found in loading.
+    /// The dent that remains after the load factor has gone back to zero from this target,
+    /// including any yielding on the way back. The dent is the sum over both surfaces of the
+    /// contact, or that of `body` alone. Found while the load increases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residual_depth: Option<f64>,
-    /// The sum of all contact forces of the whole, or the force of `contact`.
+    /// The sum of all contact forces of the whole, or the force of `contact` alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_force: Option<f64>,
-    /// The area of the largest contact patch of the whole, or of that of `contact`; in the plane
-    /// its width.
+    /// The area of the contact patch with the largest force of the whole, or of `contact` alone; in
+    /// plane models the width of the patch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_area: Option<f64>,
-    /// The largest contact pressure, or that of `contact`.
+    /// The largest contact pressure, or the largest pressure of `contact` alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_pressure: Option<f64>,
-    /// The approach of the bodies.
+    /// The approach of the bodies towards each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub approach: Option<f64>,
-    /// The largest equivalent plastic strain. Found in loading.
+    /// The largest equivalent plastic strain. Found while the load increases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_equivalent_plastic_strain: Option<f64>,
-    /// The body whose `residual_depth` is meant.
+    /// The body to which `residual_depth` refers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// The contact that is meant by `contact_force`, `contact_area` or `max_pressure`: its number
-    /// in the scene, from 1, as in `contact.csv`.
+    /// The contact to which `contact_force`, `contact_area` or `max_pressure` refers: its number in
+    /// the scene, counted from 1 as in `contact.csv`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<usize>,
-    /// Write fields (VTU) for this state?
+    /// Whether fields (VTU) are written for this state.
     #[serde(default = "super::defaults::yes")]
     pub fields: bool,
 }
 
-/// A figure of a state that a target may wait for, besides half width and displacement.
+/// A figure of a state that a target may prescribe, in addition to half width and displacement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TargetFigure {
     /// Dent that stays after unloading.
@@ -70,7 +71,7 @@ pub enum TargetFigure {
 }
 
 impl TargetFigure {
-    /// All figures, in their order.
+    /// All figures, in the order of their declaration.
     pub const ALL: [TargetFigure; 6] = [
         TargetFigure::ResidualDepth,
         TargetFigure::ContactForce,
@@ -92,7 +93,7 @@ impl TargetFigure {
         }
     }
 
-    /// Whether the figure is one of a contact, of which one may be meant.
+    /// Whether the figure belongs to a contact, so that the key `contact` can select one.
     pub fn is_of_contact(self) -> bool {
         matches!(
             self,
@@ -100,12 +101,12 @@ impl TargetFigure {
         )
     }
 
-    /// Whether only a contact has it.
+    /// Whether the figure exists only in a scene with contact.
     pub fn needs_contact(self) -> bool {
         self.is_of_contact() || self == TargetFigure::ResidualDepth
     }
 
-    /// Whether yielding alone makes it: unloading does not take it back.
+    /// Whether the figure comes from yielding alone, so that unloading does not reduce it.
     pub fn stays(self) -> bool {
         matches!(
             self,
@@ -115,7 +116,7 @@ impl TargetFigure {
 }
 
 impl Target {
-    /// The value that it asks of a figure, if it does.
+    /// The value that the target prescribes for a figure, if it does.
     pub fn value_of(&self, figure: TargetFigure) -> Option<f64> {
         match figure {
             TargetFigure::ResidualDepth => self.residual_depth,
@@ -127,28 +128,28 @@ impl Target {
         }
     }
 
-    /// The figures that it asks for, with their values; one at most in a scene that is valid.
+    /// The figures that the target prescribes, with their values; at most one in a valid scene.
     pub fn figures(&self) -> impl Iterator<Item = (TargetFigure, f64)> {
         let value = |figure| Some((figure, self.value_of(figure)?));
         TargetFigure::ALL.into_iter().filter_map(value)
     }
 
-    /// Whether the load at which it is reached is an answer that depends on what yields or touches:
-    /// a half width or a figure.
+    /// Whether the load at which the target is reached is a result that depends on yielding or
+    /// contact, which is so for a half width or a figure.
     pub fn finds_load(&self) -> bool {
         self.half_width.is_some() || self.figures().next().is_some()
     }
 
-    /// Whether first yield is to be known for it.
+    /// Whether first yield must be known before the target can be sought.
     pub fn needs_first_yield(&self) -> bool {
         let stays = self.figures().any(|(figure, _)| figure.stays());
         self.first_yield || self.half_width.is_some() || stays
     }
 
-    /// Name of the state that this target leaves: as given, else made from the condition (`yield`,
-    /// `alpha 1.0515`, `half width 1.5`, `displacement of top y = -0.1`, `residual depth 0.001 of
-    /// flat`). `index` counts from 0 and names a target that has none.
-    /// [`super::Program::labels`] keeps repeated names apart.
+    /// Name of the state that this target leaves: the given name, or one made from the condition
+    /// (`yield`, `alpha 1.0515`, `half width 1.5`, `displacement of top y = -0.1`,
+    /// `residual depth 0.001 of flat`). `index` counts from 0 and gives a name to a target without
+    /// a condition. [`super::Program::labels`] keeps repeated names apart.
     pub fn label(&self, index: usize) -> String {
         if let Some(name) = &self.name {
             name.clone()
@@ -176,7 +177,7 @@ impl Target {
     }
 }
 
-/// A target displacement: the mean over a set reaches a value.
+/// A target displacement: the mean displacement of a set reaches a value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DisplacementTarget {

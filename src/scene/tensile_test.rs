@@ -2,17 +2,17 @@
 
 use super::Material;
 
-/// A row of a tensile test that the hardening curve takes, with its place in the test.
+/// A row of a tensile test that the hardening curve uses, with its position in the test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TensileRow {
-    /// Row of the test, from 0.
+    /// Number of the row in the test, counted from 0.
     pub row: usize,
     /// Plastic strain and true stress.
     pub point: [f64; 2],
 }
 
-/// Plastic strain and true stress of a row of engineering strain `e` and stress `s` of a bar that
-/// keeps its volume: `sigma = s (1 + e)`, `eps_p = ln(1 + e) - sigma/E`.
+/// Plastic strain and true stress of a bar of constant volume for a row of engineering strain `e`
+/// and stress `s`: `sigma = s (1 + e)`, `eps_p = ln(1 + e) - sigma/E`.
 ///
 /// # Source
 /// W. F. Hosford, *Mechanical Behavior of Materials*, Cambridge 2010, section 3.3.
@@ -21,8 +21,8 @@ fn plastic([strain, stress]: [f64; 2], youngs_modulus: f64) -> [f64; 2] {
     [strain.ln_1p() - true_stress / youngs_modulus, true_stress]
 }
 
-/// The rows that lie beyond yield: above the yield stress where one is given, else those whose
-/// plastic strain is greater than 0.
+/// The rows that lie beyond yield: rows above the yield stress if one is given, otherwise rows with
+/// a positive plastic strain.
 pub(crate) fn beyond_yield(
     test: &[[f64; 2]],
     youngs_modulus: f64,
@@ -39,8 +39,9 @@ pub(crate) fn beyond_yield(
     rows.skip_while(is_elastic).collect()
 }
 
-/// Where the curve leaves plastic strain 0: at the yield stress where one is given, else between
-/// the last row before yield and the first beyond it; `None` where no row lies before it.
+/// The point at which the curve leaves plastic strain 0: at the yield stress if one is given,
+/// otherwise between the last row before yield and the first row beyond it. `None` if there is no
+/// row before yield.
 fn start(test: &[[f64; 2]], first: &TensileRow, material: &Material) -> Option<[f64; 2]> {
     if let Some(yield_stress) = material.yield_stress {
         return Some([0.0, yield_stress]);
@@ -52,7 +53,7 @@ fn start(test: &[[f64; 2]], first: &TensileRow, material: &Material) -> Option<[
     Some([0.0, stress0 + share * (stress1 - stress0)])
 }
 
-/// The curve of plastic strain and true stress; `None` where the test does not say where the
+/// The curve of true stress over plastic strain; `None` if the test does not show where the
 /// material yields.
 pub(super) fn curve(test: &[[f64; 2]], material: &Material) -> Option<Vec<[f64; 2]>> {
     let rows = beyond_yield(test, material.youngs_modulus, material.yield_stress);
@@ -75,8 +76,8 @@ mod tests {
         }
     }
 
-    /// A bar of `sigma_y = 400 + 1000 eps_p` pulled at true strains up to 5 %: what a machine would
-    /// write down gives the curve again.
+    /// A bar of `sigma_y = 400 + 1000 eps_p` is pulled to true strains of up to 5 %: from the
+    /// engineering values that a machine would record, the curve is recovered.
     #[test]
     fn a_test_of_a_known_bar_gives_its_curve() {
         let known = |plastic: f64| 400.0 + 1000.0 * plastic;
@@ -112,7 +113,7 @@ mod tests {
         let curve = bar(&test, None).hardening_curve().unwrap();
         let share = before[0] / (before[0] - after[0]);
         assert_eq!(curve[0], [0.0, before[1] + share * (after[1] - before[1])]);
-        // Nothing says where a test without an elastic row yields.
+        // A test without an elastic row does not show where the material yields.
         assert_eq!(bar(&test[1..], None).hardening_curve(), None);
         assert_eq!(bar(&test[..1], None).hardening_curve(), None);
     }

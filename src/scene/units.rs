@@ -1,9 +1,9 @@
-//! Names of units, for people who read results.
+//! Names of units, for readers of results.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Units of stress in pascals.
+/// Known units of stress, in pascals.
 pub(super) const STRESSES: [(&str, f64); 9] = [
     ("MPa", 1e6),
     ("N/mm^2", 1e6),
@@ -15,7 +15,7 @@ pub(super) const STRESSES: [(&str, f64); 9] = [
     ("psi", POUND / (INCH * INCH)),
     ("ksi", 1e3 * POUND / (INCH * INCH)),
 ];
-/// Units of length in metres.
+/// Known units of length, in metres.
 const LENGTHS: [(&str, f64); 5] = [
     ("mm", 1e-3),
     ("m", 1.0),
@@ -23,7 +23,7 @@ const LENGTHS: [(&str, f64); 5] = [
     ("in", INCH),
     ("\u{b5}m", 1e-6),
 ];
-/// Units of force in newtons.
+/// Known units of force, in newtons.
 const FORCES: [(&str, f64); 6] = [
     ("N", 1.0),
     ("kN", 1e3),
@@ -32,13 +32,13 @@ const FORCES: [(&str, f64); 6] = [
     ("lbf", POUND),
     ("kip", 1e3 * POUND),
 ];
-/// A pound-force in newtons: 0.45359237 kg by 9.80665 m/s^2, exact by definition as the inch is.
+/// A pound-force in newtons: 0.45359237 kg by 9.80665 m/s^2, exact by definition, like the inch.
 const POUND: f64 = 0.45359237 * 9.80665;
 const INCH: f64 = 0.0254;
 
-/// What the scene's numbers are in. brinell computes in whatever consistent units the scene uses
-/// (N, mm and MPa; N, m and Pa; ...) and converts nothing but materials of its own list: these
-/// names stand beside numbers in tables and plots.
+/// Names of the units of the scene's numbers. brinell computes in whatever consistent units the
+/// scene uses (N, mm and MPa; N, m and Pa; ...) and converts only the materials of its own list.
+/// The names appear next to numbers in tables and plots.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Units {
@@ -51,22 +51,22 @@ pub struct Units {
 }
 
 impl Units {
-    /// The unit of stress in pascals, where its name is known.
+    /// The unit of stress in pascals, if its name is known.
     pub(crate) fn pascals(&self) -> Option<f64> {
         known(&STRESSES, &self.stress)
     }
 
-    /// The unit of length in metres, where its name is known.
+    /// The unit of length in metres, if its name is known.
     pub(super) fn metres(&self) -> Option<f64> {
         known(&LENGTHS, &self.length)
     }
 
-    /// How many of the unit of stress are force over length squared, where all three are known and
-    /// that is not one.
+    /// Force over length squared, expressed in the unit of stress, if this is not 1. `None` if the
+    /// units are consistent or one of the three is not known.
     pub(crate) fn mismatch(&self) -> Option<f64> {
         let force = known(&FORCES, &self.force)?;
         let ratio = force / self.metres()?.powi(2) / self.pascals()?;
-        // Products and quotients of a few rounded numbers.
+        // The tolerance covers products and quotients of a few rounded numbers.
         ((ratio - 1.0).abs() > 1e-12).then_some(ratio)
     }
 }
@@ -80,7 +80,8 @@ fn known(units: &[(&str, f64)], name: &str) -> Option<f64> {
 mod tests {
     use super::*;
 
-    /// The usual systems, those of micromechanics among them, and some that are none.
+    /// The usual systems of units, the one of micromechanics among them, and some inconsistent
+    /// ones.
     #[test]
     fn a_stress_is_a_force_over_a_length_squared() {
         let ratio = |[length, force, stress]: [&str; 3]| {

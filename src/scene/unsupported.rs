@@ -1,7 +1,7 @@
-//! Effects that other programs have and brinell has not: a scene that asks for one is refused with
-//! that reason.
+//! Effects that other programs have and brinell lacks: a scene that asks for one of them is refused
+//! with this reason.
 
-/// Words of keys, and the effect that they ask for.
+/// Each effect, with the keys and words that ask for it.
 const EFFECTS: &[(&str, &[&str])] = &[
     (
         "friction: its contact is frictionless",
@@ -66,7 +66,7 @@ const EFFECTS: &[(&str, &[&str])] = &[
     ),
 ];
 
-/// The effect that an unknown key or word asks for, where it is one that brinell does not have.
+/// The effect that an unknown key or word asks for, if it is one that brinell lacks.
 pub(super) fn effect(word: &str) -> Option<&'static str> {
     let word = word.to_lowercase().replace('-', "_");
     let asked = |key: &&str| {

@@ -1,47 +1,53 @@
-//! Elements cut in smaller ones of their shape, half as large: four in the plane, eight in space.
+//! Division of elements into smaller ones of the same shape and half the size: four in the plane,
+//! eight in space.
 //!
-//! Each corner keeps a child that is the element at half its size. Between them lie, of a triangle,
-//! one child turned by half a turn; of a prism, two such; of a tetrahedron, an octahedron that is
-//! cut in four along one of its three diagonals. The shortest keeps the children's angles from
-//! degenerating, however often they are cut (M. E. G. Ong, *SIAM J. Sci. Comput.* 15, 1994, 1134).
+//! Each corner keeps a child that is the element at half its size. Between these children lie: in a
+//! triangle, one child turned by half a turn; in a prism, two such children; in a tetrahedron, an
+//! octahedron that is cut into four along one of its three diagonals. Choosing the shortest
+//! diagonal keeps the children's angles from degenerating, however often they are cut (M. E. G.
+//! Ong, *SIAM J. Sci. Comput.* 15, 1994, 1134).
 
 use super::{Place, Shape};
 use crate::space::{Vector, cross, difference, dot, unit};
 use std::sync::OnceLock;
 
-/// A cut of a shape.
+/// A division of a shape into children.
 #[derive(Debug)]
 pub struct Cut {
-    /// Places of the nodes of all children, each once; those of the element's own nodes come first.
+    /// Reference coordinates of the nodes of all children, each once; the element's own nodes come
+    /// first.
     pub places: Vec<Place>,
-    /// The corners between which each place lies, with the values of their linear functions there
-    /// in parts of [`WHOLE`]: the same from both elements at a facet.
+    /// For each place, the corners whose linear shape functions are not zero there, with the values
+    /// in parts of [`WHOLE`]. For a place on a facet, both elements at the facet give the same
+    /// list.
     pub between: Vec<Vec<(usize, u32)>>,
     /// Nodes of each child, as indices of `places`.
     pub children: Vec<Vec<usize>>,
-    /// The children's facets of which each facet consists: child and local facet.
+    /// For each facet of the element, the children's facets of which it consists: child and local
+    /// facet.
     pub of_facet: Vec<Vec<[usize; 2]>>,
-    /// The new places on each facet.
+    /// For each facet of the element, the new places on it.
     pub on_facet: Vec<Vec<usize>>,
-    /// How a place in the middle of a quadrilateral or of a hexahedron moves where the new nodes on
-    /// its sides do: a sum of their displacements (W. J. Gordon, C. A. Hall, *Int. J. Numer.
-    /// Methods Eng.* 7, 1973, 461). Those of quadrilaterals come first. Of linear elements only:
-    /// places on the sides of quadratic ones move by a higher order of the element size.
+    /// How a new place in the middle of a quadrilateral or of a hexahedron moves if the new nodes
+    /// on its sides move: a weighted sum of their displacements (W. J. Gordon, C. A. Hall, *Int. J.
+    /// Numer. Methods Eng.* 7, 1973, 461). Middles of quadrilaterals come first. Filled for linear
+    /// elements only: in quadratic elements places on the sides move by a higher order of the
+    /// element size.
     pub follows: Vec<(usize, Vec<(f64, usize)>)>,
 }
 
-/// The value that a corner's linear function has at the corner itself, in [`Cut::between`]. Places
-/// at quarters of a side have products of up to three quarters.
+/// The value in [`Cut::between`] of a corner's linear function at the corner itself. A multiple of
+/// all denominators that occur: places at quarters of a side have products of up to three quarters.
 pub const WHOLE: u32 = 64;
 
-/// From the reference coordinates of a child to those of the element.
+/// An affine map from the reference coordinates of a child to those of the element.
 struct ChildMap {
     origin: Place,
     columns: [Place; 3],
 }
 
 impl ChildMap {
-    /// The reference element at `factor` times its size.
+    /// Maps onto the reference element scaled by `factor` and moved to `origin`.
     fn scaled(origin: Place, factor: [f64; 3]) -> ChildMap {
         ChildMap {
             origin,
@@ -49,7 +55,7 @@ impl ChildMap {
         }
     }
 
-    /// A simplex by its corners.
+    /// Maps onto a simplex with the given corners.
     fn simplex([origin, a, b, c]: [Place; 4]) -> ChildMap {
         ChildMap {
             origin,
@@ -66,8 +72,8 @@ impl ChildMap {
     }
 }
 
-/// The cuts of a shape: three of a tetrahedron, one for each diagonal (between the middles of edges
-/// 01-23, 02-13, 03-12), one of any other.
+/// The possible divisions of a shape: three for a tetrahedron, one for each diagonal (between the
+/// middles of edges 01-23, 02-13, 03-12), and one for any other shape.
 pub fn cuts(shape: Shape) -> &'static [Cut] {
     static CUTS: [OnceLock<Vec<Cut>>; Shape::ALL.len()] =
         [const { OnceLock::new() }; Shape::ALL.len()];
@@ -79,7 +85,8 @@ pub fn cuts(shape: Shape) -> &'static [Cut] {
     })
 }
 
-/// The cut of an element with these nodes: of a tetrahedron that along its shortest diagonal.
+/// Index in [`cuts`] of the division of an element with these nodes; for a tetrahedron the one
+/// along its shortest diagonal.
 pub fn cut_of(shape: Shape, nodes: &[Vector]) -> usize {
     if cuts(shape).len() == 1 {
         return 0;
@@ -95,10 +102,11 @@ pub fn cut_of(shape: Shape, nodes: &[Vector]) -> usize {
     )
 }
 
-/// Edges whose middles a diagonal joins.
+/// Pairs of edges whose middles each diagonal joins.
 const DIAGONALS: [[[usize; 2]; 2]; 3] = [[[0, 1], [2, 3]], [[0, 2], [1, 3]], [[0, 3], [1, 2]]];
 
-/// What lies between the children at the corners, but for tetrahedra.
+/// Maps of the children that lie between the children at the corners, for all shapes except
+/// tetrahedra.
 fn between_corners(shape: Shape) -> Vec<ChildMap> {
     let turned = |z: f64| ChildMap::scaled([0.5, 0.5, z], [-0.5, -0.5, 0.5]);
     match shape {
@@ -108,7 +116,8 @@ fn between_corners(shape: Shape) -> Vec<ChildMap> {
     }
 }
 
-/// The four tetrahedra round a diagonal of the octahedron between the middles of the edges.
+/// Maps of the four tetrahedra around a diagonal of the octahedron between the middles of the
+/// edges.
 fn octahedron(shape: Shape, diagonal: usize) -> Vec<ChildMap> {
     let corners = shape.reference().nodes;
     let middle = |[a, b]: [usize; 2]| [0, 1, 2].map(|d| 0.5 * (corners[a][d] + corners[b][d]));
@@ -141,7 +150,7 @@ impl Cut {
         let half = |corner: &Place| ChildMap::scaled(corner.map(|c| 0.5 * c), [0.5; 3]);
         let outer = row.nodes[..row.n_corners].iter().map(half);
         for map in outer.chain(inner) {
-            // All coordinates are multiples of a quarter: equal ones have equal bits.
+            // All coordinates are multiples of a quarter, so equal coordinates have equal bits.
             let child = row.nodes.iter().map(|&at| out.entered(map.apply(at)));
             let child = child.collect();
             out.children.push(child);
@@ -176,7 +185,7 @@ impl Cut {
         out
     }
 
-    /// The index of a place, which is added where it is new.
+    /// The index of a place, which is appended if it is new.
     fn entered(&mut self, place: Place) -> usize {
         let known = self.places.iter().position(|p| *p == place);
         known.unwrap_or_else(|| {
@@ -185,8 +194,9 @@ impl Cut {
         })
     }
 
-    /// [`Cut::follows`]: half the sum over the sides of a quadrilateral; half the sum over the
-    /// faces of a hexahedron less a quarter of that over its edges.
+    /// Computes [`Cut::follows`]. The middle of a quadrilateral moves by half the sum over its
+    /// sides, the middle of a hexahedron by half the sum over its faces minus a quarter of the sum
+    /// over its edges.
     fn middles(&self) -> Vec<(usize, Vec<(f64, usize)>)> {
         let corners = |place: usize| self.between[place].iter().map(|(corner, _)| *corner);
         let mut out = Vec::new();

@@ -1,4 +1,4 @@
-//! Values at the nodes of an element from those at its integration points.
+//! Extrapolation of values from the integration points of an element to its nodes.
 
 use super::{Rule, Shape};
 use nalgebra::DMatrix;
@@ -6,22 +6,22 @@ use nalgebra::DMatrix;
 /// Relative size below which a singular value counts as zero.
 const SINGULAR: f64 = 1e-10;
 
-/// Carries values from the integration points of an element to its nodes: the field that fits the
-/// points best. Where there are as many points as nodes it is one of the element's own functions;
-/// else it is linear along each reference coordinate, at the middle of an edge the mean of its
-/// corners.
+/// Extrapolates values from the integration points of an element to its nodes, by the field that
+/// fits the points best. If there are at least as many points as nodes, the field is spanned by the
+/// element's own shape functions. Otherwise it is linear along each reference coordinate, and the
+/// value at the middle of an edge is the mean of the edge's two corners.
 #[derive(Debug, Clone)]
 pub struct Extrapolation {
     n_points: usize,
-    /// Weights of the points, node by node.
+    /// Weights of the points, stored node by node.
     weights: Vec<f64>,
 }
 
 impl Extrapolation {
-    /// From the points of a rule.
+    /// The extrapolation from the points of a rule.
     ///
-    /// With `N_c` the shape functions of the element itself, or of the linear one with the same
-    /// corners, the values `v_c` at its nodes are the smallest ones for which `sum_c N_c(x_g) v_c`
+    /// With `N_c` the shape functions of the element itself, or of the linear element with the same
+    /// corners, the values `v_c` at the nodes are the smallest ones for which `sum_c N_c(x_g) v_c`
     /// is closest to the values at the points `x_g`.
     pub fn new(shape: Shape, rule: &Rule) -> Self {
         let n_points = rule.len();
@@ -33,13 +33,13 @@ impl Extrapolation {
         let functions: Vec<_> = rule.iter().map(|(at, _)| fitted.functions(*at)).collect();
         let matrix = DMatrix::from_fn(n_points, n_fitted, |g, c| functions[g].values[c]);
         let largest = matrix.norm();
-        // Fails for a negative tolerance only.
+        // Can fail only for a negative tolerance.
         let inverse = matrix
             .clone()
             .pseudo_inverse(SINGULAR * largest)
             .unwrap_or_else(|_| DMatrix::zeros(n_fitted, n_points));
-        // Equal singular values are found to half the digits; a step of Newton's method has all
-        // (A. Ben-Israel, Math. Comp. 19 (1965) 452).
+        // Equal singular values are found to half the digits only; one step of Newton's method
+        // recovers all digits (A. Ben-Israel, Math. Comp. 19 (1965) 452).
         let inverse = 2.0 * &inverse - &inverse * &matrix * &inverse;
         let mut weights = Vec::with_capacity(shape.n_nodes() * n_points);
         for node in 0..shape.n_nodes() {
@@ -56,8 +56,8 @@ impl Extrapolation {
         Extrapolation { n_points, weights }
     }
 
-    /// The value at a node of one component of values at the points, each of `size` components one
-    /// after the other.
+    /// The value of one component at a node. `values` holds `size` components of each point, one
+    /// point after the other.
     pub fn at_node(&self, node: usize, values: &[f64], size: usize, component: usize) -> f64 {
         let weights = &self.weights[self.n_points * node..][..self.n_points];
         let at_points = values.iter().skip(component).step_by(size);
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
     use crate::shape::Integration;
 
-    /// Linear fields are exact where the points tell them apart, constant ones everywhere.
+    /// Linear fields are extrapolated exactly if the points determine them, constant fields always.
     #[test]
     fn fields_are_carried_to_the_nodes() {
         let integrated = |by| Shape::ALL.map(|shape| (shape, shape.rule(by)));
@@ -94,7 +94,7 @@ mod tests {
         }
     }
 
-    /// The two points of a prism of six nodes tell its height only.
+    /// The two points of this prism determine a variation along its height only.
     #[test]
     fn what_points_do_not_tell_is_constant() {
         let at = |z: f64| ([1.0 / 3.0, 1.0 / 3.0, z], 0.5);

@@ -5,18 +5,18 @@ use super::rows::{SQUARE, TRIANGLE};
 use super::{Place, Rule};
 use crate::space::{Vector, cross, unit};
 
-/// What is the same for all facets of a shape.
+/// Reference data shared by all facets of one shape.
 #[derive(Debug)]
 pub struct FacetReference {
-    /// Number of corners, which come first among the nodes: the ends of a line.
+    /// Number of corners (for a line, its ends), which come first among the nodes.
     pub n_corners: usize,
-    /// Places of the nodes: along `[-1, 1]` on a line.
+    /// Reference coordinates of the nodes; on a line within `[-1, 1]`.
     pub nodes: &'static [Place],
     /// Values and derivatives of the shape functions.
     pub functions: fn(Place) -> Functions,
-    /// The rule, exact to degree 5, of tractions and nodal areas on curved facets.
+    /// The rule, exact to degree 5, for tractions and nodal areas on curved facets.
     pub rule: &'static Rule,
-    /// Gmsh's element type.
+    /// Number of the element type in Gmsh.
     pub gmsh: u64,
 }
 
@@ -43,7 +43,7 @@ const QUADRILATERAL_RULE: &Rule = &[
     ([G, G, 0.0], OUTER * OUTER),
 ];
 
-/// Seven points (J. Radon 1948; A. H. Stroud, *Approximate Calculation of Multiple Integrals*,
+/// Seven-point rule (J. Radon 1948; A. H. Stroud, *Approximate Calculation of Multiple Integrals*,
 /// 1971, T2 5-1): the centroid, and two orbits at `(6 -+ sqrt 15)/21`.
 const TRIANGLE_RULE: &Rule = {
     const NEAR: f64 = 0.470_142_064_105_115_1;
@@ -63,7 +63,7 @@ const TRIANGLE_RULE: &Rule = {
 
 const LINE: [Place; 3] = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
 
-/// A line of two nodes, its ends.
+/// A line with two nodes at its ends.
 static LINE2: FacetReference = FacetReference {
     n_corners: 2,
     nodes: LINE.split_at(2).0,
@@ -72,7 +72,7 @@ static LINE2: FacetReference = FacetReference {
     gmsh: 1,
 };
 
-/// Two ends and the node between them.
+/// A line with two nodes at its ends and one between them.
 static LINE3: FacetReference = FacetReference {
     n_corners: 2,
     nodes: &LINE,
@@ -81,7 +81,7 @@ static LINE3: FacetReference = FacetReference {
     gmsh: 8,
 };
 
-/// A triangle of a linear element.
+/// A triangular facet of a linear element.
 static FACE3: FacetReference = FacetReference {
     n_corners: 3,
     nodes: TRIANGLE.split_at(3).0,
@@ -90,7 +90,7 @@ static FACE3: FacetReference = FacetReference {
     gmsh: 2,
 };
 
-/// A triangle of a quadratic element.
+/// A triangular facet of a quadratic element.
 static FACE6: FacetReference = FacetReference {
     n_corners: 3,
     nodes: &TRIANGLE,
@@ -99,7 +99,7 @@ static FACE6: FacetReference = FacetReference {
     gmsh: 9,
 };
 
-/// A quadrilateral of a linear element.
+/// A quadrilateral facet of a linear element.
 static FACE4: FacetReference = FacetReference {
     n_corners: 4,
     nodes: SQUARE.split_at(4).0,
@@ -108,7 +108,7 @@ static FACE4: FacetReference = FacetReference {
     gmsh: 3,
 };
 
-/// A quadrilateral of a quadratic element.
+/// A quadrilateral facet of a quadratic element.
 static FACE8: FacetReference = FacetReference {
     n_corners: 4,
     nodes: &SQUARE,
@@ -118,10 +118,10 @@ static FACE8: FacetReference = FacetReference {
 };
 
 impl FacetReference {
-    /// All facets that shapes have.
+    /// Reference data of all facets that shapes have.
     pub const ALL: [&'static FacetReference; 6] = [&LINE2, &LINE3, &FACE3, &FACE6, &FACE4, &FACE8];
 
-    /// The facet of a dimension with a number of nodes.
+    /// The facet of a given dimension and number of nodes.
     pub(super) fn with_nodes(dimension: usize, n: usize) -> &'static FacetReference {
         match (dimension, n) {
             (1, 2) => &LINE2,
@@ -133,13 +133,13 @@ impl FacetReference {
         }
     }
 
-    /// A triangle of a linear element.
+    /// The triangular facet of a linear element.
     pub fn triangle() -> &'static FacetReference {
         &FACE3
     }
 
-    /// The pieces with straight edges between all of its nodes, by their corners: a linear face is
-    /// one piece.
+    /// Pieces with straight edges between all nodes of the facet, given by their corners: a linear
+    /// facet is one piece.
     pub fn pieces(&self) -> &'static [&'static [usize]] {
         match self.nodes.len() {
             2 => &[&[0, 1]],
@@ -157,12 +157,12 @@ impl FacetReference {
         }
     }
 
-    /// Number of reference coordinates: 1 of a line, 2 of a face.
+    /// Number of reference coordinates: 1 for a line, 2 for a face.
     pub fn dimension(&self) -> usize {
         if self.n_corners == 2 { 1 } else { 2 }
     }
 
-    /// The reference coordinates of its middle.
+    /// The reference coordinates of the middle of the facet.
     pub fn center(&self) -> Place {
         match self.n_corners {
             3 => [1.0 / 3.0, 1.0 / 3.0, 0.0],
@@ -170,8 +170,8 @@ impl FacetReference {
         }
     }
 
-    /// The outward area of a facet per unit of its reference coordinates: the product of its two
-    /// tangents, the second of which is out of the plane for a line.
+    /// The outward area vector of a facet per unit of its reference coordinates: the cross product
+    /// of its two tangents, the second of which is the out-of-plane direction for a line.
     pub fn area(&self, at: &Functions, nodes: &[Vector]) -> Vector {
         let Some(origin) = nodes.first() else {
             return [0.0; 3];

@@ -1,15 +1,15 @@
-//! Shape functions and their derivatives along the reference coordinates: lines, quadrilaterals and
-//! hexahedra on `[-1, 1]^d`, triangles and tetrahedra where no coordinate and not one less their
-//! sum is negative, prisms on such a triangle times `[-1, 1]`.
+//! Shape functions and their derivatives along the reference coordinates. Lines, quadrilaterals and
+//! hexahedra are defined on `[-1, 1]^d`; triangles and tetrahedra on coordinates that are not
+//! negative and whose sum is at most one; prisms on such a triangle times `[-1, 1]`.
 
 use super::{MAX_NODES, Place};
 
-/// The shape functions at a place of an element; zero beyond its nodes.
+/// The shape functions at a place of an element; entries beyond the number of nodes are zero.
 #[derive(Debug, Clone, Copy)]
 pub struct Functions {
     /// Value of each node's shape function.
     pub values: [f64; MAX_NODES],
-    /// Derivatives of each node's along the reference coordinates.
+    /// Derivatives of each node's shape function along the reference coordinates.
     pub gradients: [[f64; 3]; MAX_NODES],
 }
 
@@ -22,7 +22,7 @@ impl Functions {
 
 /// Corners of the reference square.
 const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-/// Derivatives of the area coordinates.
+/// Derivatives of the area coordinates of a triangle.
 const SLOPES: [[f64; 2]; 3] = [[-1.0, -1.0], [1.0, 0.0], [0.0, 1.0]];
 
 pub(super) fn line2([x, ..]: Place) -> Functions {
@@ -98,7 +98,7 @@ pub(super) fn quad8([x, y, _]: Place) -> Functions {
     out
 }
 
-/// Derivatives of the volume coordinates.
+/// Derivatives of the volume coordinates of a tetrahedron.
 const SLOPES_3: [Place; 4] = [
     [-1.0, -1.0, -1.0],
     [1.0, 0.0, 0.0],
@@ -151,7 +151,7 @@ pub(super) fn prism15([x, y, z]: Place) -> Functions {
         let j = (i + 1) % 3;
         for (base, a) in [(0, -1.0), (3, 1.0)] {
             let along = 1.0 + a * z;
-            // Corners, then the middles of the edges of base and top.
+            // Corners, then the middles of the edges of base and top (offset 6).
             let inner = 2.0 * l[i] - 1.0;
             out.values[base + i] = 0.5 * l[i] * (inner * along - bubble);
             let slope = 0.5 * ((4.0 * l[i] - 1.0) * along - bubble);
@@ -183,7 +183,8 @@ pub(super) fn hex8(at: Place) -> Functions {
 pub(super) fn hex20(at: Place) -> Functions {
     let mut out = Functions::NONE;
     for (i, node) in super::rows::CUBE.iter().enumerate() {
-        // 1 + a x along an axis with a = -1, 1, and 1 - x^2 along that of an edge's middle.
+        // The factor is 1 + a x along an axis with a = -1 or 1, and 1 - x^2 along the axis of an
+        // edge with a middle node.
         let along = |d: usize| match node[d] == 0.0 {
             true => (1.0 - at[d] * at[d], -2.0 * at[d]),
             false => (1.0 + node[d] * at[d], node[d]),

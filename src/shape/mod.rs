@@ -1,7 +1,7 @@
 //! Element shapes: one table row per reference element.
 //!
-//! Whatever depends on a shape (readers, writers, facets, subdivision, quadrature, checks) reads
-//! its row ([`Shape::reference`]); a further element is a further row.
+//! All code that depends on a shape (readers, writers, facets, subdivision, quadrature, checks)
+//! reads the shape's row ([`Shape::reference`]). A further element needs a further row only.
 
 mod cut;
 mod extrapolation;
@@ -20,15 +20,16 @@ pub use rows::CORNERS_OF_CUBE;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Most nodes of an element.
+/// Largest number of nodes of an element.
 pub const MAX_NODES: usize = 20;
-/// Most nodes of a facet.
+/// Largest number of nodes of a facet.
 pub const MAX_FACET_NODES: usize = 8;
 
-/// The shape of an element. In the plane nodes run counter-clockwise, corners first, then mid-side
-/// nodes starting with the one between corners 0 and 1. In space they are in the order of VTK: a
-/// hexahedron's or prism's base counter-clockwise seen from inside, then its top, then the middles
-/// of the edges of base, top, and between them.
+/// The shape of an element. In the plane, nodes are numbered counter-clockwise: corners first, then
+/// mid-side nodes beginning with the one between corners 0 and 1. In space, nodes are in the order
+/// of VTK. For a hexahedron or a prism these are the corners of the base counter-clockwise seen
+/// from inside, the corners of the top, and the middles of the edges of the base, of the top, and
+/// between the two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
@@ -54,49 +55,51 @@ pub enum Shape {
     Prism15,
 }
 
-/// Reference coordinates; those beyond the dimension are zero.
+/// Reference coordinates of a point; coordinates beyond the dimension are zero.
 pub type Place = [f64; 3];
-/// Points of a quadrature with their weights.
+/// Points of a quadrature rule with their weights.
 pub type Rule = [(Place, f64)];
 
-/// What is the same for all elements of a shape.
+/// Reference data shared by all elements of one shape.
 #[derive(Debug)]
 pub struct Reference {
     /// The name used in scenes and messages.
     pub name: &'static str,
     /// Number of reference coordinates.
     pub dimension: usize,
-    /// Corners come first among the nodes.
+    /// Number of corners, which come first among the nodes.
     pub n_corners: usize,
     /// Polynomial degree, 1 or 2.
     pub degree: usize,
-    /// Places of the nodes.
+    /// Reference coordinates of the nodes.
     pub nodes: &'static [Place],
     /// Values and derivatives of the shape functions.
     pub functions: fn(Place) -> Functions,
-    /// The usual rule that integrates stiffness and forces: a reduced one of quadratic
-    /// quadrilaterals, hexahedra and prisms.
+    /// The default rule for stiffness and forces: reduced integration for quadratic quadrilaterals,
+    /// hexahedra and prisms.
     pub gauss: &'static Rule,
-    /// The rule that sees every way to deform; of most shapes the usual one.
+    /// The rule under which every deformation mode has stiffness; for most shapes the same as the
+    /// default rule.
     pub full: &'static Rule,
-    /// Where stress is most accurate (superconvergent): the centre of a bilinear element, the
-    /// Gauss points of the others.
+    /// Points at which stress is most accurate (superconvergent): the centre of a bilinear element,
+    /// the Gauss points of other elements.
     pub sampling: &'static Rule,
-    /// Whether the mean over the element may replace the dilatation at the points (B-bar).
+    /// Whether the mean dilatation of the element may replace the dilatation at the points (B-bar).
     pub has_mean_dilatation: bool,
-    /// Jacobian of the element whose sides at a corner are perpendicular and of length 1.
+    /// Jacobian determinant of an element whose sides at a corner are perpendicular and of length
+    /// 1.
     pub unit_jacobian: f64,
     /// Local node numbers of each facet, in the order of the facet's own nodes. In the plane the
-    /// body is on the left from the first end to the second; in space nodes run counter-clockwise
-    /// seen from outside.
+    /// body lies to the left of the line from the first end to the second. In space the nodes run
+    /// counter-clockwise seen from outside.
     pub facets: &'static [&'static [usize]],
-    /// Local node numbers of the corners that edges join.
+    /// Local node numbers of the two corners of each edge.
     pub edges: &'static [[usize; 2]],
-    /// VTK's cell type; the node order is VTK's own.
+    /// Number of the cell type in VTK; the node order is VTK's own.
     pub vtk: u8,
-    /// Gmsh's element type.
+    /// Number of the element type in Gmsh.
     pub gmsh: u64,
-    /// Place of each node in Gmsh's order.
+    /// Position of each node in Gmsh's node order.
     pub gmsh_order: &'static [usize],
 }
 
@@ -115,10 +118,10 @@ impl Shape {
         Shape::Prism15,
     ];
 
-    /// Shapes of the plane.
+    /// Shapes of elements in the plane.
     pub const PLANE: [Shape; 4] = [Shape::Tri3, Shape::Tri6, Shape::Quad4, Shape::Quad8];
 
-    /// Shapes of space.
+    /// Shapes of elements in space.
     pub const SOLID: [Shape; 6] = [
         Shape::Tet4,
         Shape::Tet10,
@@ -128,12 +131,12 @@ impl Shape {
         Shape::Prism15,
     ];
 
-    /// The row of the table.
+    /// The reference data of the shape, its row of the table.
     pub fn reference(self) -> &'static Reference {
         rows::ROWS[self as usize]
     }
 
-    /// The shape with a number of Gmsh.
+    /// The shape with a given element type number of Gmsh.
     pub(crate) fn of_gmsh(number: u64) -> Option<Shape> {
         Self::ALL
             .into_iter()
@@ -151,34 +154,34 @@ impl Shape {
         }
     }
 
-    /// Number of reference coordinates.
+    /// Number of reference coordinates of the shape.
     pub fn dimension(self) -> usize {
         self.reference().dimension
     }
 
-    /// Number of nodes.
+    /// Number of nodes of the shape.
     pub fn n_nodes(self) -> usize {
         self.reference().nodes.len()
     }
 
-    /// Number of corners.
+    /// Number of corners of the shape.
     pub fn n_corners(self) -> usize {
         self.reference().n_corners
     }
 
-    /// Number of facets.
+    /// Number of facets of the shape.
     pub(crate) fn n_facets(self) -> usize {
         self.reference().facets.len()
     }
 
-    /// True where the strain is the same all over an element: such elements lock in isochoric
-    /// plastic flow, and have no points of superconvergent stress.
+    /// Whether the strain is constant within an element. Such elements lock in isochoric plastic
+    /// flow and have no points of superconvergent stress.
     pub(crate) fn has_constant_strain(self) -> bool {
         let row = self.reference();
         row.nodes.len() == row.dimension + 1
     }
 
-    /// True where facets have mid-side nodes.
+    /// Whether facets have mid-side nodes.
     pub fn is_quadratic(self) -> bool {
         self.reference().degree == 2
     }
@@ -193,7 +196,7 @@ impl Shape {
         FacetReference::with_nodes(self.dimension() - 1, self.facet(local).len())
     }
 
-    /// Whether an element has one corner more than dimensions.
+    /// Whether an element has one corner more than it has dimensions.
     pub(crate) fn is_simplex(self) -> bool {
         self.n_corners() == self.dimension() + 1
     }

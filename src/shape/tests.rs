@@ -86,7 +86,8 @@ fn every_complete_polynomial_is_reproduced() {
     }
 }
 
-/// The functions of a facet are those of the element on it.
+/// The shape functions of a facet are the restrictions of the element's shape functions to the
+/// facet.
 #[test]
 fn facets_have_the_functions_of_their_element() {
     for shape in Shape::ALL {
@@ -123,8 +124,8 @@ fn facets_have_the_functions_of_their_element() {
     }
 }
 
-/// Facets point outward: their areas add up to nothing, and their flux of the position is the
-/// volume times the dimension.
+/// Facets point outward: their areas add up to zero, and the flux of the position through them is
+/// the volume times the dimension.
 #[test]
 fn facets_close_the_element_and_point_outward() {
     for shape in Shape::ALL {
@@ -153,8 +154,8 @@ fn facets_close_the_element_and_point_outward() {
     }
 }
 
-/// The middle of each edge is the node that follows the corners in the order of the edges, and
-/// Gmsh's order holds every node once.
+/// The middle of each edge is a node; these nodes follow the corners in the order of the edges.
+/// Gmsh's order contains every node once.
 #[test]
 fn edges_have_their_middles_in_order() {
     for shape in Shape::ALL {
@@ -191,9 +192,9 @@ fn rules_have_the_volume_of_the_reference_element() {
     }
 }
 
-/// Each child is the reference element at half its size, and fills the element with the others; the
-/// parts of a facet are its own shape at half its size; the linear functions of the corners agree
-/// with the places.
+/// Each child is the reference element at half its size, and together the children fill the
+/// element. The parts of a facet have the facet's shape at half its size. The linear functions of
+/// the corners agree with the places.
 #[test]
 fn children_are_elements_of_half_the_size_that_fill_it() {
     for shape in Shape::ALL {
@@ -247,7 +248,8 @@ fn jacobian(shape: Shape, at: Place, nodes: &[Place]) -> f64 {
     j.determinant()
 }
 
-/// The shortest diagonal of a flat tetrahedron's octahedron is chosen, whatever the order of nodes.
+/// The shortest diagonal of a flat tetrahedron's octahedron is chosen, whatever the order of the
+/// nodes.
 #[test]
 fn tetrahedra_are_cut_along_the_shortest_diagonal() {
     // The edges between the first two and the last two corners lie close to each other.

@@ -1,4 +1,4 @@
-//! Blocks of a deck of parts, written as those of a flat one.
+//! Writes the blocks of a deck with parts as those of a flat deck.
 
 use super::{Assembled, Block, Item, Placement};
 use crate::deck::fields::{Fields, Where};
@@ -8,27 +8,28 @@ use crate::deck::source::{Anew, Line, Source};
 use crate::error::Result;
 use std::io::Write;
 
-/// Parameters of sets outside of parts.
+/// Allowed parameters of sets outside of parts.
 const OF_SETS: [&str; 6] = [
     "NSET", "ELSET", "INSTANCE", "GENERATE", "UNSORTED", "INTERNAL",
 ];
 
-/// What the values of a data line are.
+/// The kind of values in a data line, as far as they depend on instances.
 #[derive(Clone, Copy)]
 enum LineValues {
-    /// A number and coordinates.
+    /// A number, followed by coordinates.
     Node,
-    /// Numbers and names, all of them.
+    /// Numbers and names only.
     All,
-    /// A number or name and what else there is to it.
+    /// A number or name, followed by values that do not depend on instances.
     First,
-    /// First and last number and step.
+    /// First number, last number, and step.
     Range,
-    /// Number or name, degree of freedom and coefficient by turns; a single one is their number.
+    /// Number or name, degree of freedom and coefficient, repeated; a single value is the number of
+    /// terms.
     Terms,
     /// Coordinates of two points.
     Points,
-    /// None that depends on instances.
+    /// Values that do not depend on instances.
     Same,
 }
 
@@ -49,21 +50,23 @@ impl LineValues {
     }
 }
 
-/// Where a block stands.
+/// The instance and placement to which a block belongs.
 #[derive(Clone, Copy)]
 struct BlockScope<'m> {
-    /// The instance that what the block makes belongs to; none of the assembly and the model.
+    /// The instance to which sets and surfaces defined by the block belong; `None` in the assembly
+    /// and the model.
     own: Option<usize>,
-    /// The instance that numbers and names of its data lines belong to.
+    /// The instance to which numbers and names in the data lines refer.
     of: Option<usize>,
     placement: Option<&'m Placement>,
 }
 
 impl Assembled {
-    /// The deck as a flat one.
+    /// Returns the deck as a flat one.
     ///
     /// # Errors
-    /// Instances and numbers that there are not; damage to what is moved.
+    /// `Input` for undefined instances and numbers, or for damaged values among those that are
+    /// moved.
     pub(in crate::deck) fn flat(&self, source: &Source, instances: &Instances) -> Result<Anew> {
         let mut writer = Writer {
             source,
@@ -103,7 +106,7 @@ struct Writer<'m, 't> {
 }
 
 impl Writer<'_, '_> {
-    /// A block of the assembly or the model, whose numbers may be those of an instance.
+    /// Writes a block of the assembly or the model, whose numbers may refer to an instance.
     fn outside(&mut self, block: &Block) -> Result<()> {
         let keyword = &block.keyword;
         let mut of = None;
@@ -125,7 +128,7 @@ impl Writer<'_, '_> {
 
     fn block(&mut self, block: &Block, scope: BlockScope) -> Result<()> {
         let keyword = &block.keyword;
-        // With a blank, so that no name makes it a comment.
+        // A blank follows the asterisk, so that no name can turn the line into a comment.
         self.write(format_args!("* {}", keyword.name));
         for (key, value) in keyword.parameters() {
             if scope.own.is_none() && scope.of.is_some() && key == "INSTANCE" {
@@ -155,7 +158,7 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
-    /// Writes a data line for an instance.
+    /// Writes a data line, changed for an instance.
     fn line(
         &mut self,
         block: &Block,
@@ -208,7 +211,7 @@ impl Writer<'_, '_> {
                 return Ok(());
             }
         }
-        // What is left is as it was.
+        // The rest of the line is copied unchanged.
         if !row.is_at_end() {
             self.out.text().extend_from_slice(b", ");
             self.out.text().extend_from_slice(row.rest());
@@ -218,7 +221,7 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
-    /// A line of values of which each `step`-th is a number or name.
+    /// Writes a line in which every `step`-th value is a number or name.
     fn each(&mut self, mut row: Fields, step: usize, scope: BlockScope) -> Result<()> {
         for index in 0.. {
             match index % step {
@@ -236,7 +239,7 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
-    /// The next value of a line, a number or name.
+    /// Writes the next value of a line, a number or a name.
     fn value(&mut self, row: &mut Fields, scope: BlockScope) -> Result<()> {
         let mut ahead = *row;
         let written = ahead.written();
@@ -247,7 +250,7 @@ impl Writer<'_, '_> {
             return Ok(());
         }
         *row = ahead;
-        // What is neither is told where it is read.
+        // A value that is neither a number nor a name is reported when the line is read later.
         let is_name = written
             .iter()
             .any(|b| b.is_ascii_alphabetic() || !b.is_ascii());
@@ -270,7 +273,7 @@ impl Writer<'_, '_> {
         Ok(())
     }
 
-    /// The number in the whole deck of one of an instance.
+    /// Converts a number within an instance into the number in the whole deck.
     fn number(&self, label: u64, of: Option<usize>, place: &Where) -> Result<u64> {
         let offset = of.map_or(0, |instance| self.instances.offset(instance));
         if label <= self.instances.most() {
@@ -288,7 +291,7 @@ impl Writer<'_, '_> {
         }))
     }
 
-    /// The name in the whole deck of a set or surface of an instance.
+    /// Converts the name of a set or surface of an instance into the name in the whole deck.
     fn qualified(&self, name: &str, of: Option<usize>) -> String {
         match of {
             Some(instance) => format!("{}.{name}", self.instances.names()[instance]),
@@ -296,7 +299,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// A name from outside of parts: the assembly's may stand in front of it.
+    /// Removes the assembly's name, which may precede a name outside of parts.
     fn without_assembly<'n>(&self, name: &'n str) -> &'n str {
         match name.split_once('.') {
             Some((first, rest))
@@ -317,7 +320,7 @@ impl Writer<'_, '_> {
     }
 
     fn write(&mut self, what: std::fmt::Arguments) {
-        // A vector takes all that is written to it.
+        // Writing to a vector cannot fail.
         let _ = self.out.text().write_fmt(what);
     }
 }

@@ -1,11 +1,11 @@
-//! Where an instance stands: its part is moved, then turned about an axis.
+//! Placement of an instance: its part is translated, then rotated about an axis.
 
 use super::Block;
 use crate::deck::fields::Fields;
 use crate::deck::source::Source;
 use crate::error::Result;
 
-/// A movement and a rotation.
+/// A translation followed by a rotation.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Placement {
     shift: [f64; 3],
@@ -23,7 +23,7 @@ impl Placement {
     /// Reads the data lines of `*INSTANCE`.
     ///
     /// # Errors
-    /// Too many lines or values; a rotation that is not whole, or about no axis.
+    /// `Input` for too many lines or values, and for a rotation that is incomplete or has no axis.
     pub(super) fn read(source: &Source, block: &Block) -> Result<Placement> {
         let mut out = Placement::default();
         let lines = &block.lines;
@@ -46,12 +46,12 @@ impl Placement {
         Ok(out)
     }
 
-    /// Whether coordinates are those of the part.
+    /// Whether the instance leaves the coordinates of the part unchanged.
     pub(super) fn is_none(&self) -> bool {
         self.turn.is_none() && self.shift == [0.0; 3]
     }
 
-    /// A point of the part.
+    /// The position in the assembly of a point of the part.
     pub(super) fn point(&self, mut x: [f64; 3]) -> [f64; 3] {
         (0..3).for_each(|d| x[d] += self.shift[d]);
         let Some(turn) = &self.turn else { return x };
@@ -60,7 +60,7 @@ impl Placement {
         std::array::from_fn(|d| turn.point[d] + turned[d])
     }
 
-    /// A direction in the part.
+    /// The direction in the assembly of a direction in the part.
     pub(super) fn vector(&self, x: [f64; 3]) -> [f64; 3] {
         let Some(turn) = &self.turn else { return x };
         turn.matrix
@@ -69,7 +69,8 @@ impl Placement {
 }
 
 impl AxisTurn {
-    /// Two points of the axis and degrees about it, by the right hand; `None` of no degrees.
+    /// Reads two points of the axis and the angle in degrees, by the right-hand rule; `None` if the
+    /// rotation is the identity.
     fn read(mut row: Fields) -> Result<Option<AxisTurn>> {
         let mut points = [[0.0; 3]; 2];
         for x in points.as_flattened_mut() {
@@ -103,7 +104,7 @@ impl AxisTurn {
     }
 }
 
-/// Sine and cosine of an angle in degrees; right angles have none of the digits of pi.
+/// Sine and cosine of an angle in degrees, exact for multiples of a right angle.
 fn sine_and_cosine(degrees: f64) -> [f64; 2] {
     match degrees.rem_euclid(360.0) {
         0.0 | 360.0 => [0.0, 1.0],

@@ -1,7 +1,8 @@
-//! Supports and loads.
+//! Supports and loads of a deck as those of the scene.
 //!
-//! What a line gives for a whole set stays one entry on that set, where all its members go through
-//! the same; what is left is gathered by what it goes through, on sets made for it.
+//! A condition that a line gives for a whole set stays one entry on this set if all members of the
+//! set have the same history. Other conditions are grouped by their history, on sets made for the
+//! purpose.
 
 use super::super::bodies::unsupported;
 use super::super::data::{Condition, Kind, Target};
@@ -15,11 +16,11 @@ use crate::scene::{Displacement, Load, Support};
 use crate::space::Vector;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Component of a unit vector up to which it is round-off: of sines and cosines in the deck's
-/// coordinates and of the cross products that axes are made with.
+/// Largest component of a unit vector that counts as round-off, from sines and cosines in the
+/// deck's coordinates and from the cross products that define axes.
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
-/// Members that go through the same, by degree of freedom and what they go through.
+/// Members with the same history, by degree of freedom and history.
 type MemberGroups = BTreeMap<(u8, Vec<u64>), (Vec<u32>, Series, Place)>;
 
 impl Draft<'_> {
@@ -35,7 +36,7 @@ impl Draft<'_> {
         self.pressures(pressures)
     }
 
-    /// All lines of a kind that are for a set.
+    /// All conditions of a kind that are given for sets.
     fn lines_on_sets(&self, kind: Kind) -> Vec<Condition> {
         let program = &self.deck.program;
         let steps = program.steps.iter().flat_map(|step| &step.conditions);
@@ -44,7 +45,8 @@ impl Draft<'_> {
         of_kind.cloned().collect()
     }
 
-    /// Takes out what whole node sets go through: the set, axis, series and line of each.
+    /// Removes the conditions that hold for whole node sets, and returns the set, axis, history and
+    /// line of each.
     fn of_node_sets(&self, kind: Kind, map: &mut Map) -> Result<Vec<(String, u8, Series, Place)>> {
         let mut out = Vec::new();
         for condition in self.lines_on_sets(kind) {
@@ -79,7 +81,7 @@ impl Draft<'_> {
         Ok(out)
     }
 
-    /// Gathers members by what they go through.
+    /// Groups members by their history.
     fn groups(map: Map) -> MemberGroups {
         let mut out = MemberGroups::new();
         for ((member, axis), entry) in map {
@@ -90,7 +92,7 @@ impl Draft<'_> {
         out
     }
 
-    /// Nodes held at zero become supports, others prescribed displacements.
+    /// Turns nodes held at zero into supports, and others into prescribed displacements.
     fn boundary(&mut self, mut map: Map) -> Result<()> {
         map.retain(|key, _| self.geometry.uses(key.0));
         for (on, axis, series, place) in self.of_node_sets(Kind::Boundary, &mut map)? {
@@ -99,7 +101,7 @@ impl Draft<'_> {
                 false => self.displace(on, axis, series, place),
             }
         }
-        // What is held at a node, as a mask of axes.
+        // For each node, the axes along which it is held, as a mask.
         let mut held: BTreeMap<u32, (u8, Place)> = BTreeMap::new();
         map.retain(|&(node, axis), entry| {
             if entry.series.is_zero() {
@@ -141,7 +143,8 @@ impl Draft<'_> {
         self.add_load("displacement", load, series, place);
     }
 
-    /// Each node of a set has the force: the scene's is that of all of them, shared equally.
+    /// Adds forces. The deck gives the force on each node of a set, the scene the total on all
+    /// nodes, shared equally.
     fn forces(&mut self, mut map: Map) -> Result<()> {
         map.retain(|_, entry| !entry.series.is_zero());
         let unused = map.iter().find(|(key, _)| !self.geometry.uses(key.0));
@@ -215,7 +218,8 @@ impl Draft<'_> {
         self.add_load("pressure", load, series, place);
     }
 
-    /// Conditions in local axes: supports become supports along these, forces their components.
+    /// Converts conditions in local axes: zero displacements become supports along these axes, and
+    /// forces are resolved into global components.
     fn turn(&mut self, boundary: &mut Map, forces: &mut Map) -> Result<()> {
         let axes = self.deck.local_axes()?;
         if axes.is_empty() {
@@ -284,7 +288,7 @@ impl Draft<'_> {
     }
 }
 
-/// The name of a set that is made for a line.
+/// The name of a set that is made for a line of the deck.
 fn made(keyword: &str, place: Place) -> String {
     format!("{keyword}-line-{}", place.line())
 }

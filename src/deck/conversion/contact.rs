@@ -1,4 +1,4 @@
-//! Contact pairs and ties.
+//! Contact pairs and ties of a deck as those of the scene.
 
 use super::super::data::{Account, Adjust, ContactPair};
 use super::super::sets::What;
@@ -8,8 +8,8 @@ use crate::number::exact;
 use crate::scene::{Contact, SlaveSide, Tie};
 
 impl Draft<'_> {
-    /// The slave surface is the first one. A clearance is a gap, or an interference where it is
-    /// negative.
+    /// Adds the contact pairs, with the slave surface first. A clearance becomes a gap, or an
+    /// interference if it is negative.
     pub(super) fn contacts(&mut self, account: &mut Account) -> Result<()> {
         let properties = &self.deck.properties;
         for pair in &properties.contacts {
@@ -41,7 +41,7 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// The slave surface is the first one, and stays it.
+    /// Adds the ties, with the deck's slave surface first and fixed as the slave.
     pub(super) fn ties(&mut self) -> Result<()> {
         for tie in &self.deck.properties.ties {
             for name in [&tie.slave, &tie.master] {

@@ -1,7 +1,8 @@
-//! Contact pairs that are on in some steps and off in others.
+//! Contact pairs that are active in some steps only.
 //!
-//! A pair that is off has its surfaces apart by more than bodies may move: a load by a gap as long
-//! as the model, which a step that switches takes on or back over its time.
+//! The surfaces of an inactive pair are kept apart by more than the bodies may move: a load by a
+//! gap as long as the model. A step that switches the pair applies or removes this gap gradually
+//! over its time.
 
 use super::super::bodies::unsupported;
 use super::super::data::{Account, ContactChange, ContactPair};
@@ -15,11 +16,11 @@ use crate::space::{difference, length};
 const KEYWORD: &str = "MODEL CHANGE";
 
 impl Draft<'_> {
-    /// Loads of the pairs that change.
+    /// Adds a gap load for each pair that is switched.
     ///
     /// # Errors
-    /// Pairs that there are not; surfaces that belong to other pairs too, of which a gap would be
-    /// that of all of them.
+    /// `Input` for pairs that are not defined; `Unsupported` if both surfaces belong to other pairs
+    /// too, because the gap would then act on all of these pairs.
     pub(super) fn contact_changes(&mut self, account: &mut Account) -> Result<()> {
         let alike = |a: &str, b: &str| a.eq_ignore_ascii_case(b);
         let pairs = &self.deck.properties.contacts;
@@ -76,7 +77,7 @@ impl Draft<'_> {
         self.deck.error(change.place, KEYWORD, message)
     }
 
-    /// The surface of a contact that no other contact has.
+    /// A surface of a contact pair that belongs to no other pair.
     fn own_surface(&self, index: usize, place: Place) -> Result<String> {
         let contact = &self.contacts[index];
         let has = |contact: &Contact, name: &str| contact.first == name || contact.second == name;
@@ -96,7 +97,7 @@ impl Draft<'_> {
         })
     }
 
-    /// The diagonal of the box round the nodes.
+    /// The diagonal of the bounding box of all nodes.
     fn length_of_model(&self) -> f64 {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for node in 0..self.deck.nodes.labels.len() {

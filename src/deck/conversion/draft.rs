@@ -1,4 +1,4 @@
-//! The scene in the making: supports, loads and contacts with their places.
+//! The scene under construction: supports, loads and contacts with their places.
 
 use super::super::Deck;
 use super::super::series::Series;
@@ -8,21 +8,21 @@ use crate::scene::{Contact, Direction, Equation, Load, Support, Tie};
 use crate::space::{Components, Vector};
 use std::collections::BTreeMap;
 
-/// Parts of a scene, and the sets that they are on.
+/// Parts of a scene, and the sets to which they refer.
 pub(super) struct Draft<'d> {
     pub(super) deck: &'d Deck,
     pub(super) geometry: Geometry,
-    /// Forces are per unit of it.
+    /// Thickness of a plane model: forces of the scene are per unit thickness.
     pub(super) thickness: f64,
     pub(super) supports: Vec<Support>,
-    /// Loads at their largest, and what they go through.
+    /// Loads at their largest value, each with its history.
     pub(super) loads: Vec<(Load, Series)>,
     pub(super) contacts: Vec<Contact>,
     pub(super) ties: Vec<Tie>,
     pub(super) equations: Vec<Equation>,
-    /// Names of sets of one node that equations are on.
+    /// Names of the sets of a single node that equations use.
     pub(super) sets_of_nodes: BTreeMap<u32, String>,
-    /// Lines of the deck by key.
+    /// Lines of the deck, by key of the scene.
     pub(super) places: BTreeMap<String, String>,
 }
 
@@ -50,7 +50,7 @@ impl<'d> Draft<'d> {
         }
     }
 
-    /// Holds a set along axes, together with what the entry before holds of it.
+    /// Holds a set along axes; a preceding support of the same set is extended.
     pub(super) fn hold(&mut self, on: &str, axes: &[usize], place: Place) {
         let directions = axes.iter().map(|&axis| Direction::ALL[axis]);
         if let Some(last) = self.supports.last_mut()
@@ -75,7 +75,7 @@ impl<'d> Draft<'d> {
         self.supports.push(support);
     }
 
-    /// Adds a load under a name made of `kind`.
+    /// Adds a load under a name made from `kind`.
     pub(super) fn add_load(&mut self, kind: &str, mut load: Load, series: Series, place: Place) {
         let number = self.loads.len();
         load.name = format!("{kind}-{}", number + 1);

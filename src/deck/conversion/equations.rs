@@ -1,4 +1,4 @@
-//! Equations between displacements, and surfaces that they hold plane.
+//! Equations between displacements, and surfaces that equations hold plane.
 
 use super::super::constraints::HeldPlane;
 use super::super::history::{Entry, Map};
@@ -8,8 +8,8 @@ use crate::error::Result;
 use crate::scene::{self, Direction, EquationTerm, Load, PlaneForce};
 
 impl Draft<'_> {
-    /// The forces on all nodes of a plane are one force on it; what moves or holds the leader moves
-    /// or holds all.
+    /// Converts surfaces that are held plane. The forces on all nodes of the plane become one total
+    /// force; a condition that moves or holds the leader applies to all nodes.
     pub(super) fn hold_planes(
         &mut self,
         planes: Vec<HeldPlane>,
@@ -60,14 +60,14 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// A surface that is held plane and pressed by no force of its own.
+    /// Converts a surface that is held plane and on which no force acts into an equation.
     fn follow_leader(&mut self, plane: &HeldPlane) -> Result<()> {
         let (leader, axis) = plane.leader;
         let others = plane.nodes.iter().copied();
         let others: Vec<u32> = others.filter(|node| *node != leader).collect();
         let used = |nodes: Vec<u32>| self.geometry.used(nodes);
         let (followers, leaders) = (used(others), used(vec![leader]));
-        // The first follower leads where the leader belongs to no element.
+        // The first follower becomes the leader if the leader belongs to no element.
         let (followers, leader) = match (&leaders[..], &followers[..]) {
             ([leader], _) => (followers.clone(), *leader),
             ([], [first, rest @ ..]) => (rest.to_vec(), *first),

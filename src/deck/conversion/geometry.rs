@@ -1,4 +1,5 @@
-//! The sets of the mesh that a deck becomes: those it names, and those that its conditions need.
+//! The sets of the mesh made from a deck: sets that the deck names, and sets that its conditions
+//! need.
 
 use super::super::Deck;
 use super::super::data::{Kind, Target};
@@ -15,37 +16,37 @@ pub(crate) struct Geometry {
     pub(crate) surfaces: BTreeMap<String, Vec<Face>>,
     /// Whether a node belongs to an element.
     pub(crate) is_used: Vec<bool>,
-    /// Surfaces that look both ways and are for results only.
+    /// Surfaces that look both ways and are used for results only.
     pub(super) left_out: Vec<(String, Place)>,
-    /// Names of surfaces by those in the deck, in capitals.
+    /// Names of surfaces in the mesh, by their names in the deck in capitals.
     surface_names: BTreeMap<String, String>,
-    /// How often each name was asked for.
+    /// Number of times that each name was requested.
     numbers: BTreeMap<String, usize>,
 }
 
 impl Geometry {
-    /// What a surface of the deck is called in the mesh.
+    /// The name in the mesh of a surface of the deck.
     pub(super) fn surface_name(&self, name: &str) -> String {
         let found = self.surface_names.get(&name.to_uppercase());
         found.map_or_else(|| name.to_string(), String::clone)
     }
 
-    /// Adds a set of nodes under a name that is free.
+    /// Adds a set of nodes under a free name, which is returned.
     pub(super) fn add_nodes(&mut self, name: &str, nodes: Vec<u32>) -> String {
         let name = self.free_name(name);
         self.node_sets.insert(name.clone(), nodes);
         name
     }
 
-    /// Adds a surface under a name that is free.
+    /// Adds a surface under a free name, which is returned.
     pub(super) fn add_surface(&mut self, name: &str, faces: Vec<Face>) -> String {
         let name = self.free_name(name);
         self.surfaces.insert(name.clone(), faces);
         name
     }
 
-    /// The name itself, or the first number behind it that is free: numbers only grow, so that a
-    /// line of thousands of sets is not gone through anew for each.
+    /// The name itself if it is free, otherwise the name with a number appended. Numbers only grow,
+    /// so that the search does not begin anew for each of thousands of sets of one name.
     fn free_name(&mut self, name: &str) -> String {
         let number = self.numbers.entry(name.to_string()).or_default();
         loop {
@@ -65,7 +66,7 @@ impl Geometry {
         self.is_used.get(node as usize) == Some(&true)
     }
 
-    /// The nodes of a set that belong to elements.
+    /// Keeps only the nodes that belong to elements.
     pub(super) fn used(&self, mut nodes: Vec<u32>) -> Vec<u32> {
         nodes.retain(|node| self.is_used[*node as usize]);
         nodes
@@ -73,14 +74,14 @@ impl Geometry {
 }
 
 impl Deck {
-    /// Whether faces of both elements beside each other are among some.
+    /// Whether the given faces include both sides of a face between two elements.
     fn looks_both_ways(&self, faces: &[Face]) -> bool {
         let mut corners: Vec<Vec<u32>> = faces.iter().map(|face| self.corners_of(*face)).collect();
         corners.sort_unstable();
         corners.windows(2).any(|pair| pair[0] == pair[1])
     }
 
-    /// The corners of a face, ascending.
+    /// The corners of a face, in ascending order.
     fn corners_of(&self, (element, local): Face) -> Vec<u32> {
         let shape = self.shape(element as usize);
         let n = shape.facet_reference(local as usize).n_corners;
@@ -91,7 +92,7 @@ impl Deck {
         corners
     }
 
-    /// Whether a contact, a tie or a load is on a surface.
+    /// Whether a contact, a tie or a pressure refers to a surface.
     fn presses_on(&self, surface: &str) -> bool {
         let is_it = |name: &str| name.eq_ignore_ascii_case(surface);
         let properties = &self.properties;
@@ -106,10 +107,10 @@ impl Deck {
             })
     }
 
-    /// The sets that the deck names. A surface that shares the name of a node set gets another one.
+    /// The sets that the deck names. A surface that shares the name of a node set is renamed.
     ///
     /// # Errors
-    /// Names and numbers in them that there are not.
+    /// `Input` for undefined names and numbers in the sets.
     pub(crate) fn geometry(&self) -> Result<Geometry> {
         let mut out = Geometry {
             is_used: vec![false; self.n_nodes()],

@@ -1,4 +1,4 @@
-//! From a deck to a scene on its mesh.
+//! Conversion of a deck into a scene on the deck's mesh.
 
 mod conditions;
 mod contact;
@@ -28,35 +28,36 @@ use draft::Draft;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// How a deck is to be taken.
+/// Options for the conversion of a deck.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Options {
-    /// Steps with `NLGEOM` are computed with small strains and displacements, instead of refused.
+    /// Whether steps with `NLGEOM` are computed with small strains and displacements without
+    /// measuring whether they are small.
     pub small_strain: bool,
-    /// Besides at its end, a step leaves a state at each increment that it asks results for: at
-    /// those of a fixed size and at `TIME POINTS`. Where nothing yields and nothing touches a step
-    /// has one increment, as in CalculiX.
+    /// Whether a step leaves a state not only at its end but at each increment for which it
+    /// requests results: at increments of a fixed size and at `TIME POINTS`. If nothing yields and
+    /// nothing touches, a step has one increment, as in CalculiX.
     pub increments: bool,
 }
 
-/// A deck as a scene, whose mesh is the deck itself.
+/// A deck converted into a scene, whose mesh is the deck itself.
 #[derive(Debug, Clone)]
 pub struct Conversion {
     /// The scene; its `mesh.file` is the deck.
     pub scene: Scene,
-    /// What was understood, taken otherwise, and ignored.
+    /// Which lines were understood, interpreted differently, or ignored.
     pub account: Account,
     pub(crate) geometry: Geometry,
-    /// Lines of the deck from which the keys of the scene come.
+    /// Lines of the deck that the keys of the scene come from.
     pub(super) places: BTreeMap<String, String>,
 }
 
 impl Deck {
-    /// The scene that the deck describes.
+    /// Converts the deck into the scene that it describes.
     ///
     /// # Errors
-    /// `Unsupported` with all lines that ask for what brinell does not have; `Input` by file, line
-    /// and keyword for what does not fit together.
+    /// `Unsupported` with all lines that ask for effects that brinell does not have; `Input` with
+    /// file, line and keyword for inconsistent data.
     pub fn convert(&self, options: Options) -> Result<Conversion> {
         let mut account = self.account.clone();
         let large = self.judge_nlgeom(options, &mut account);
@@ -109,8 +110,9 @@ impl Deck {
         })
     }
 
-    /// Where large displacements are asked for, small ones are computed: whether they are is
-    /// measured at the end, unless the user has said that they are to be taken so.
+    /// Notes that `NLGEOM` is computed with small displacements. Whether displacements are small is
+    /// measured at the end of the run, unless the user has asked for small strains. Returns the
+    /// place of the keyword if they are to be measured.
     fn judge_nlgeom(&self, options: Options, account: &mut Account) -> Option<String> {
         let place = self.nlgeom?;
         let text = match options.small_strain {
@@ -123,7 +125,8 @@ impl Deck {
         (!options.small_strain).then(|| self.files.show(place))
     }
 
-    /// The one thickness of a plane model: forces are per unit of it.
+    /// The thickness of a plane model, which all sections must share: forces of the scene are per
+    /// unit thickness.
     fn thickness(&self, space: Space, account: &mut Account) -> Result<f64> {
         if !matches!(space, Space::PlaneStrain | Space::PlaneStress) {
             return Ok(1.0);
@@ -159,7 +162,7 @@ impl Deck {
         Ok(first)
     }
 
-    /// A scene with nothing in it but its mesh and its targets.
+    /// A scene with only a title and a mesh file.
     fn empty_scene(&self, space: Space) -> Scene {
         let name = self.file_name();
         let file = || name.to_string_lossy().into_owned();
@@ -170,7 +173,7 @@ impl Deck {
         scene
     }
 
-    /// The name of its file, which scene and deck lie beside.
+    /// The name of the deck's file, in whose directory the scene lies.
     fn file_name(&self) -> PathBuf {
         let file = Path::new(self.files.first());
         file.file_name().unwrap_or_default().into()
@@ -223,7 +226,8 @@ impl Deck {
         Ok(())
     }
 
-    /// A body with elements that are fully integrated is so as a whole.
+    /// Sets the integration of bodies: a body with any fully integrated element is fully integrated
+    /// as a whole.
     fn add_integration(&self, bodies: &Bodies, scene: &mut Scene, account: &mut Account) {
         let types = &self.elements.types;
         let is_full = |element: usize| types[element].integration == Integration::Full;
@@ -234,7 +238,7 @@ impl Deck {
                 body.integration = Integration::Full;
             }
         }
-        // The first element of another kind in each of these.
+        // The first element with a different integration is noted for each such body.
         let mut is_said = vec![false; bodies.names.len()];
         for (element, &body) in bodies.of_element.iter().enumerate() {
             let name = &bodies.names[body as usize];
@@ -253,8 +257,8 @@ impl Deck {
         }
     }
 
-    /// Without contact there is no event to step to: steps then take equal increments, at least as
-    /// many as the deck's first ones would be.
+    /// Chooses equal increments if there is no contact, hence no event to step to: at least as many
+    /// per step as the deck's first increments suggest.
     fn choose_stepping(&self, draft: &Draft, scene: &mut Scene) {
         if draft.contacts.is_empty() && scene.any_can_yield() {
             let steps = self.program.steps.iter().enumerate();
@@ -274,9 +278,9 @@ impl Deck {
         }
     }
 
-    /// Loads with their histories, and a target for each step. Where everything that changes does
-    /// so in proportion and from step to step, load factors are multiples of the loads; otherwise
-    /// times.
+    /// Adds loads with their histories, and a target for each moment. If all loads that vary are
+    /// proportional to each other and change only from step end to step end, load factors are
+    /// multiples of the loads; otherwise they are times.
     fn add_loads(&self, draft: &mut Draft, scene: &mut Scene) {
         let ends = self.step_ends();
         let shapes: Vec<_> = draft

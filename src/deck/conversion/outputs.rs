@@ -1,4 +1,4 @@
-//! Which results each step asks for.
+//! The results that each step requests.
 
 use super::super::Deck;
 use super::super::data::{Account, ContactPair, Group, OutputRequest, Schedule, Step, Target};
@@ -10,15 +10,16 @@ use crate::space::Space;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Times closer to an end of a step than this share of it are that end.
+/// Distance from the end of a step, as a share of the step, up to which a time counts as the end.
 const CLOSE: f64 = 1e-9;
-/// Most increments that results may be asked for.
+/// Largest number of increments at which results may be requested.
 const MOST_MOMENTS: usize = 10_000;
 
-/// The requests that hold in a step. Those of a group stay until a step asks for the group anew.
+/// The requests in force in a step. Requests of a group remain until a step makes new requests for
+/// the group.
 struct InForce<'d> {
     requests: Vec<&'d OutputRequest>,
-    /// Schedule of all requests.
+    /// Schedule for all requests.
     schedule: Schedule,
 }
 
@@ -37,7 +38,7 @@ impl<'d> InForce<'d> {
 }
 
 impl Deck {
-    /// What is asked for, increment by increment.
+    /// The requested results, increment by increment.
     pub(super) fn requests(
         &self,
         (space, thickness): (Space, f64),
@@ -79,7 +80,7 @@ impl Deck {
                 for request in &in_force.requests {
                     add(request, sets.of(request)?, &mut moment);
                 }
-                // Behind all others.
+                // Section prints come after all other prints.
                 let prints = &mut moment.prints;
                 prints.sort_by_key(|print| print.item == ResultItem::Section);
                 moment.file.sort_by_key(|request| request.item);
@@ -105,13 +106,14 @@ impl Deck {
         Ok(out)
     }
 
-    /// Whether a step is more than one solution of linear equations.
+    /// Whether a step takes more than one linear solution.
     fn is_nonlinear(&self) -> bool {
         let mut materials = self.properties.materials.iter();
         !self.properties.contacts.is_empty() || materials.any(|(_, of)| !of.plastic.is_empty())
     }
 
-    /// Increments of a step that results are asked for: number and time of the step, its end last.
+    /// Increments of a step at which results are requested: number and time within the step; the
+    /// last is the end of the step.
     fn instants(&self, step: &Step, schedule: &Schedule, start: f64) -> Vec<(usize, f64)> {
         let mut out = Vec::new();
         match schedule {
@@ -119,7 +121,7 @@ impl Deck {
                 let Some(time) = step.fixed else {
                     return vec![(1, step.period)];
                 };
-                // A share of the time may be rounded.
+                // The tolerance allows for a rounded share of the time.
                 let n = (step.period / time - 1e-6).ceil().max(1.0) as usize;
                 let every = if *every == 0 { n } else { *every };
                 let within = (every..n).step_by(every).take(MOST_MOMENTS);
@@ -140,7 +142,7 @@ impl Deck {
         out
     }
 
-    /// Materials, then surface interactions, in the order of the deck.
+    /// Names of materials and surface interactions, in the order of the deck.
     fn material_names(&self) -> Vec<String> {
         let properties = &self.properties;
         let materials = properties.materials.iter();
@@ -152,7 +154,7 @@ impl Deck {
     }
 }
 
-/// Adds a request to those of a moment.
+/// Adds a request to a moment.
 fn add(request: &OutputRequest, on: On, moment: &mut Moment) {
     for &item in &request.items {
         match (&on, request.is_print) {
@@ -162,11 +164,11 @@ fn add(request: &OutputRequest, on: On, moment: &mut Moment) {
                 let nodes = on.clone().set();
                 moment.file.push(FileRequest { item, nodes });
             }
-            // Gap and pressure are one table each, whichever of them is named.
+            // Gap and pressure form one table, whichever of them is named.
             (On::Set(_), true)
                 if item == ResultItem::Contact
                     && moment.prints.iter().any(|print| print.item == item) => {}
-            // Force, moment and area are one table of a surface.
+            // Force, moment and area of a surface form one table.
             (On::Section(set, _), true)
                 if (moment.prints.iter()).any(|p| p.item == item && p.set.name == set.name) => {}
             (On::Set(set) | On::Section(set, _), true) => moment.prints.push(Print {
@@ -183,14 +185,14 @@ fn add(request: &OutputRequest, on: On, moment: &mut Moment) {
     }
 }
 
-/// What a request is for.
+/// The nodes, elements or faces to which a request refers.
 #[derive(Debug, Clone)]
 enum On {
     All,
-    /// A set that there is not.
+    /// A set that does not exist.
     Nothing,
     Set(NamedSet),
-    /// A surface: its elements, and its faces.
+    /// A surface, given by its elements and its faces.
     Section(NamedSet, Arc<Vec<(u64, u8)>>),
 }
 
@@ -203,16 +205,16 @@ impl On {
     }
 }
 
-/// The sets that requests are for, each found once.
+/// The sets to which requests refer; each is looked up once.
 struct RequestedSets<'d, 'a> {
     deck: &'d Deck,
     account: &'a mut Account,
-    /// Sets by whether they are of elements, and by name in capitals.
+    /// Known sets, by whether they are sets of elements and by name in capitals.
     known: BTreeMap<(bool, String), NamedSet>,
 }
 
 impl RequestedSets<'_, '_> {
-    /// The set of a request. One that there is not is a remark.
+    /// The set of a request. A set that does not exist causes a remark.
     fn of(&mut self, request: &OutputRequest) -> Result<On> {
         let deck = self.deck;
         let keyword = match (request.group, request.is_print) {
@@ -263,7 +265,8 @@ impl RequestedSets<'_, '_> {
         Ok(On::Set(set))
     }
 
-    /// The faces of the surface that a request names; a surface that there is not is a remark.
+    /// The faces of the surface that a request names. A surface that does not exist causes a
+    /// remark.
     fn section(&mut self, request: &OutputRequest) -> Result<On> {
         let (deck, keyword) = (self.deck, "SECTION PRINT");
         let name = request.set.clone().unwrap_or_default().to_uppercase();
@@ -281,8 +284,8 @@ impl RequestedSets<'_, '_> {
         Ok(On::Section(NamedSet { name, labels }, Arc::new(faces)))
     }
 
-    /// The contact between the surfaces that a request names, by its number; none where it names
-    /// none that there is.
+    /// The contact between the surfaces that a request names, by its number; an empty set if there
+    /// is no such pair.
     fn contact(&self, request: &OutputRequest) -> NamedSet {
         let [slave, master] = request.contact.clone().unwrap_or_default();
         let pairs = &self.deck.properties.contacts;

@@ -1,5 +1,5 @@
-//! Equations of all kinds as equations of the scene: chains, terms in local axes, rigid bodies,
-//! nodes without elements.
+//! All kinds of constraints as equations of the scene: chains of equations, terms in local axes,
+//! rigid bodies, nodes without elements.
 
 use super::super::bodies::unsupported;
 use super::super::constraints::HeldPlane;
@@ -15,13 +15,13 @@ use crate::scene::{self, Direction, EquationTerm};
 use crate::space::Vector;
 use std::collections::BTreeMap;
 
-/// Share of the terms that a sum of displacements may be and count as zero.
+/// Share of its terms up to which a sum of displacements counts as zero.
 const ROUND_OFF: f64 = 1e-9;
 
 impl Draft<'_> {
-    /// Takes all equations into the scene but for planes that are held with nothing else to do;
-    /// these are left. Nodes without elements are done with: what moves or presses them moves or
-    /// presses the nodes that follow them.
+    /// Converts all equations into equations of the scene, except those of planes that are held by
+    /// nothing else; these planes are returned. Nodes without elements are eliminated: conditions
+    /// and forces on such a node are passed on to the nodes that are coupled to it.
     pub(super) fn constrain(
         &mut self,
         boundary: &mut Map,
@@ -75,7 +75,7 @@ impl Draft<'_> {
         Ok(simple)
     }
 
-    /// What is held at zero is in no equation.
+    /// Reduces the rows to independent ones, after removing displacements that are held at zero.
     fn reduced(&self, mut rows: Vec<LinearRow>, boundary: &Map) -> Reduced {
         let dimension = self.deck.dimension();
         let is_zero = |key: &Key| {
@@ -142,8 +142,8 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// A force on a node without elements presses what it follows from; one on a node that is held
-    /// goes into the support.
+    /// Transfers the force on a node without elements to the nodes that it follows. A force on a
+    /// node that is held goes into the support.
     fn move_forces(
         &self,
         reduced: &Reduced,
@@ -189,7 +189,7 @@ impl Draft<'_> {
         self.deck.error(place, "CLOAD", message)
     }
 
-    /// Rows between displacements that are all given must hold.
+    /// Checks that rows between displacements that are all prescribed hold.
     fn check_known(&self, rows: &[LinearRow], boundary: &Map) -> Result<()> {
         for row in rows {
             let sum = series_of(&row.terms, boundary);
@@ -207,7 +207,8 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// A displacement that follows known ones alone is held or moved; another is an equation.
+    /// Holds or moves a displacement that follows prescribed ones only; any other becomes an
+    /// equation.
     fn follow(
         &mut self,
         follows: &Follows,
@@ -244,7 +245,7 @@ impl Draft<'_> {
                 .enumerate()
                 .collect();
             parts.retain(|(_, c)| c.abs() > ROUND_OFF * coefficient.abs());
-            // The largest one first: it follows.
+            // The largest term comes first, because the first displacement follows the others.
             parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
             let on = self.set_of_node(node);
             terms.extend(parts.into_iter().map(|(axis, coefficient)| EquationTerm {
@@ -259,7 +260,7 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// The name of a set of one node.
+    /// The name of a set with this node only.
     fn set_of_node(&mut self, node: u32) -> String {
         let known = self.sets_of_nodes.get(&node);
         if let Some(name) = known {
@@ -274,7 +275,7 @@ impl Draft<'_> {
 
 const GLOBAL: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// The sum of known displacements times coefficients.
+/// The sum of known displacements multiplied by coefficients.
 fn series_of(terms: &Terms, known: &Map) -> Series {
     let mut sum = Series::starting(0.0);
     for (key, c) in terms {
@@ -285,7 +286,8 @@ fn series_of(terms: &Terms, known: &Map) -> Series {
     sum
 }
 
-/// Planes that share nothing with others or with rows, and those that do or are to be among them.
+/// Separates planes that share no displacement with other planes or rows from planes that do, or
+/// that `is_joined` selects.
 fn apart(
     planes: Vec<HeldPlane>,
     rows: &[LinearRow],

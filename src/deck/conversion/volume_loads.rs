@@ -1,4 +1,4 @@
-//! Loads on the volumes of bodies: weight, rotation, changes of temperature.
+//! Loads on the volumes of bodies: weight, rotation, and change of temperature.
 
 use super::super::bodies::{Bodies, unsupported};
 use super::super::data::{Account, Kind, VolumeLoad};
@@ -10,7 +10,7 @@ use crate::scene::{Field, Load, NodalField, Rotation};
 use crate::space::Space;
 use std::f64::consts::PI;
 
-/// How far a unit vector may be off another: digits of a deck.
+/// Tolerance for the direction of a unit vector, given with the digits of a deck.
 const ALIGNED: f64 = 1e-6;
 
 impl Draft<'_> {
@@ -38,8 +38,8 @@ impl Draft<'_> {
         Ok(())
     }
 
-    /// Load by rotation: of a plane model about an axis across it, of an axisymmetric model about
-    /// its own.
+    /// A load by rotation; the axis must be perpendicular to a plane model, and the model's own
+    /// axis if it is axisymmetric.
     fn rotation(
         &self,
         space: Space,
@@ -66,10 +66,11 @@ impl Draft<'_> {
         })
     }
 
-    /// Temperatures of bodies that expand; those of others do nothing, which is said.
+    /// Adds temperature loads on bodies that expand. Temperatures of other bodies have no effect,
+    /// which is noted.
     ///
     /// # Errors
-    /// Nothing but such temperatures acts on the bodies.
+    /// `Input` if temperatures without effect are the only loads.
     pub(super) fn temperatures(
         &mut self,
         bodies: &Bodies,

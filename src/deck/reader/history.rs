@@ -1,4 +1,4 @@
-//! Steps, amplitudes and the conditions of each step.
+//! Reading of steps, amplitudes, and the conditions of each step.
 
 use super::mesh::{face, target};
 use super::volume::{OnVolume, volume_load};
@@ -11,10 +11,10 @@ use crate::deck::source::Line;
 use crate::error::Result;
 use crate::number::exact;
 
-/// Most increments of a step that are taken over.
+/// Largest number of increments of a step that is taken over from the deck.
 const MOST_INCREMENTS: f64 = 1000.0;
 
-/// Kinds of supports by name, and the degrees of freedom that they hold.
+/// Named kinds of supports, with the ranges of degrees of freedom that they hold.
 const NAMED_SUPPORTS: [(&str, &[[usize; 2]]); 5] = [
     ("XSYMM", &[[1, 1], [5, 6]]),
     ("YSYMM", &[[2, 2], [4, 4], [6, 6]]),
@@ -100,7 +100,7 @@ impl Reader<'_> {
             conditions: std::mem::take(&mut self.of_first_step),
             ..Step::default()
         });
-        // A line of words may describe the step.
+        // A line of text may follow, which describes the step.
         self.skip()
     }
 
@@ -145,9 +145,9 @@ impl Reader<'_> {
                 return Err(row.place.error(message));
             }
             if first > 0.0 {
-                // A share of the time may be rounded.
+                // The tolerance allows for a rounded share of the time.
                 increments = (period / first - 1e-6).ceil().clamp(1.0, MOST_INCREMENTS);
-                // Increments that may not grow are fixed, too.
+                // Increments that may not grow are fixed too.
                 let largest = match row.is_at_end() {
                     true => 0.0,
                     false => {
@@ -177,7 +177,7 @@ impl Reader<'_> {
         self.no_more(keyword)
     }
 
-    /// The index of the step at hand.
+    /// The index of the current step; `None` outside of steps.
     pub(super) fn current_step(&self) -> Option<usize> {
         self.deck
             .program
@@ -187,7 +187,8 @@ impl Reader<'_> {
             .filter(|_| self.is_in_step)
     }
 
-    /// Parameters that all conditions have in common.
+    /// Reads the parameters that are common to all conditions, and returns the name of the
+    /// amplitude.
     pub(super) fn conditions(&mut self, keyword: &Keyword, kind: Kind) -> Result<Option<String>> {
         let files = &self.source.files;
         keyword.allow(files, &["OP", "AMPLITUDE", "FIXED", "TYPE"])?;
@@ -213,7 +214,7 @@ impl Reader<'_> {
     pub(super) fn add(&mut self, condition: Condition) {
         match self.current_step() {
             Some(step) => self.deck.program.steps[step].conditions.push(condition),
-            // A displacement before the first step is reached over that step.
+            // A displacement given before the first step is reached over that step.
             None if condition.kind == Kind::Boundary && condition.value != 0.0 => {
                 self.of_first_step.push(condition);
             }
@@ -393,7 +394,7 @@ fn is_no(value: &str) -> bool {
     value.trim().eq_ignore_ascii_case("no")
 }
 
-/// Ranges of degrees of freedom, and their value.
+/// Reads ranges of degrees of freedom, and the prescribed value.
 fn freedoms(row: &mut Fields) -> Result<(Vec<[usize; 2]>, f64)> {
     let mut ahead = *row;
     let word = ahead.word();

@@ -1,4 +1,4 @@
-//! Nodes, elements, sets and surfaces.
+//! Reading of nodes, elements, sets and surfaces.
 
 use super::{Reader, fields};
 use crate::deck::boundary::nodes_of_boundary;
@@ -52,7 +52,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Lines or shells with so many nodes.
+    /// Reads boundary elements, which are lines or shells, with `n` nodes each.
     fn boundary_elements(&mut self, keyword: &Keyword, n: usize) -> Result<()> {
         let name = keyword.require(&self.source.files, "TYPE")?;
         self.deck.boundary.note_type(name, keyword.place);
@@ -63,7 +63,7 @@ impl Reader<'_> {
             for _ in 0..n {
                 nodes.push(fields.label("a node number")?);
             }
-            // Beams may have a node more that turns their section.
+            // Beams may have an additional node that orients the cross-section.
             if !fields.is_at_end() {
                 fields.label("a node number")?;
             }
@@ -79,7 +79,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A set of nodes or elements.
+    /// Reads a set of nodes or elements.
     pub(super) fn set(&mut self, keyword: &Keyword, key: &str) -> Result<()> {
         let known: &[&str] = match key {
             "NSET" => &["NSET", "GENERATE", "ELSET", "UNSORTED", "INTERNAL"],
@@ -137,7 +137,7 @@ impl Reader<'_> {
     }
 }
 
-/// A number, or the name of a set.
+/// Reads a number, or the name of a set.
 pub(super) fn target(fields: &mut Fields) -> Result<Target> {
     let mut ahead = *fields;
     let word = ahead.word();
@@ -149,7 +149,7 @@ pub(super) fn target(fields: &mut Fields) -> Result<Target> {
     Ok(Target::Set(fields.text("a number or the name of a set")?))
 }
 
-/// The number of a face: `S3`, `P3`.
+/// Reads the number of a face, as in `S3` or `P3`.
 pub(super) fn face(fields: &mut Fields, letter: u8) -> Result<usize> {
     let word = fields.text("a face")?;
     let number = match word.as_bytes() {
@@ -167,7 +167,7 @@ pub(super) fn face(fields: &mut Fields, letter: u8) -> Result<usize> {
     })
 }
 
-/// First, last, and step of `GENERATE`.
+/// Reads first number, last number and step of `GENERATE`.
 fn range(fields: &mut Fields) -> Result<Member> {
     let first = fields.label("the first number")?;
     let last = fields.label("the last number")?;
@@ -185,7 +185,7 @@ fn range(fields: &mut Fields) -> Result<Member> {
     Ok(Member::Range(first, last, step))
 }
 
-/// Numbers and coordinates.
+/// Reads node numbers and coordinates.
 fn read_nodes(source: &mut Source, keyword: &Keyword, nodes: &mut Nodes) -> Result<()> {
     while let Some(line) = source.next_data()? {
         let mut fields = fields(source, keyword, line);
@@ -205,7 +205,8 @@ fn read_nodes(source: &mut Source, keyword: &Keyword, nodes: &mut Nodes) -> Resu
     Ok(())
 }
 
-/// Numbers and nodes, which go on in the next line where one ends with a comma.
+/// Reads element numbers and their nodes, which continue in the next line if a line ends with a
+/// comma.
 fn read_elements(
     source: &mut Source,
     keyword: &Keyword,

@@ -1,4 +1,4 @@
-//! Which results are asked for: `*NODE FILE`, `*EL PRINT` and their like.
+//! Reading of requests for results: `*NODE FILE`, `*EL PRINT` and similar keywords.
 
 use super::{Reader, fields};
 use crate::deck::data::{Group, OutputRequest, Schedule, TimePoints};
@@ -6,19 +6,19 @@ use crate::deck::keyword::{Keyword, plain};
 use crate::error::Result;
 use crate::scene::{ContactForce, ResultItem, Totals};
 
-/// Most times of a keyword.
+/// Largest number of times of a keyword.
 const MOST_TIMES: usize = 10_000;
 
 impl Reader<'_> {
-    /// `*OUTPUT`: how often; in Abaqus, whether what follows is for the field file or for
-    /// histories.
+    /// Reads `*OUTPUT`: the frequency of results and, in Abaqus, whether the following requests are
+    /// for the field file or for histories.
     pub(super) fn output(&mut self, keyword: &Keyword) -> Result<()> {
         self.is_history = keyword.has("HISTORY");
         self.schedule(keyword);
         self.skip()
     }
 
-    /// How often results are asked for: the last that a step says holds for all of them.
+    /// Reads the schedule of results: the last one in a step holds for all requests.
     fn schedule(&mut self, keyword: &Keyword) {
         let every = || keyword.get("FREQUENCY")?.parse().ok().map(Schedule::Every);
         let points = keyword.get("TIMEPOINTS");
@@ -28,7 +28,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Times at which results are asked for; from, to, by steps of with `GENERATE`.
+    /// Reads times at which results are requested; with `GENERATE` as first time, last time and
+    /// step.
     pub(super) fn time_points(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
         let name = keyword.require(files, "NAME")?.to_string();
@@ -58,7 +59,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A request for results. What brinell does not write is a remark.
+    /// Reads a request for results. Results that brinell does not write cause a remark.
     pub(super) fn request(&mut self, keyword: &Keyword) -> Result<()> {
         let group = match keyword.name.as_bytes() {
             [b'N', ..] => Group::Node,
@@ -123,7 +124,7 @@ impl Reader<'_> {
                 }
             }
         }
-        // The error of a stress goes with it.
+        // The error of the stress is written together with the stress.
         if has_jump && !request.is_print && request.items.contains(&ResultItem::Stress) {
             request.items.push(ResultItem::StressJump);
         }
@@ -138,7 +139,7 @@ impl Reader<'_> {
     }
 }
 
-/// The result of a name that CalculiX or Abaqus has for it.
+/// The result that CalculiX or Abaqus denotes by this name.
 fn item(word: &str) -> Option<ResultItem> {
     Some(match word {
         "U" => ResultItem::Displacement,

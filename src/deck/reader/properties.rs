@@ -1,4 +1,4 @@
-//! Materials, sections, contact and constraints.
+//! Reading of materials, sections, contact and constraints.
 
 use super::mesh::target;
 use super::{Reader, fields};
@@ -11,7 +11,7 @@ use crate::deck::keyword::Keyword;
 use crate::error::Result;
 use crate::number::exact;
 
-/// Most terms of an equation.
+/// Largest number of terms of an equation.
 const MOST_TERMS: u64 = 100_000;
 
 impl Reader<'_> {
@@ -28,7 +28,7 @@ impl Reader<'_> {
         self.no_more(keyword)
     }
 
-    /// The material that a law belongs to.
+    /// The material to which a law belongs.
     pub(super) fn of_material(&mut self, keyword: &Keyword) -> Result<&mut MaterialData> {
         let name = self.material.as_deref();
         let materials = &mut self.deck.properties.materials;
@@ -169,11 +169,12 @@ impl Reader<'_> {
             stiffness: None,
         };
         self.interaction = Some(name.to_string());
-        // A thickness out of the plane may follow: forces are per unit of it.
+        // A thickness out of the plane may follow; it is not used, because forces are per unit
+        // thickness.
         self.skip()
     }
 
-    /// Contact is exact complementarity, hard or on a linear spring.
+    /// Reads the law of contact: exact complementarity, for hard contact or on a linear spring.
     pub(super) fn behavior(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
         keyword.allow(
@@ -212,7 +213,8 @@ impl Reader<'_> {
         self.skip()
     }
 
-    /// The slope of the pressure; what CalculiX takes after it, a pull far away, is none here.
+    /// Reads the slope of the pressure. The further value that CalculiX accepts, a tension at large
+    /// distance, has no counterpart here.
     fn slope(&mut self, keyword: &Keyword) -> Result<()> {
         let line = self.one_line(keyword, "the slope of the pressure over the overlap")?;
         let mut row = fields(&self.source, keyword, line);
@@ -241,7 +243,7 @@ impl Reader<'_> {
         self.skip()
     }
 
-    /// A coefficient of 0 is no friction.
+    /// Reads the coefficient of friction, which must be 0.
     pub(super) fn friction(&mut self, keyword: &Keyword) -> Result<()> {
         let mut coefficient = f64::NAN;
         if let Some(line) = self.source.next_data()? {
@@ -387,7 +389,8 @@ impl Reader<'_> {
         self.no_more(keyword)
     }
 
-    /// The number of terms; then node, degree of freedom and coefficient of each, line by line.
+    /// Reads the number of terms, then node, degree of freedom and coefficient of each term, line
+    /// by line.
     pub(super) fn equation(&mut self, keyword: &Keyword) -> Result<()> {
         keyword.allow(&self.source.files, &[])?;
         while let Some(first) = self.source.next_data()? {
@@ -462,7 +465,7 @@ impl Reader<'_> {
     }
 }
 
-/// Temperatures of a table are ascending.
+/// Requires the temperatures of a table to be ascending.
 pub(super) fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> Result<()> {
     match last.filter(|last| temperature <= *last) {
         None => Ok(()),
@@ -474,7 +477,7 @@ pub(super) fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> R
     }
 }
 
-/// Whether rows of plastic strain and yield stress lie on a line, to the digits of a deck.
+/// Whether rows of plastic strain and yield stress lie on a line, within the digits of a deck.
 fn is_straight(rows: &[[f64; 2]]) -> bool {
     let (Some([from, low]), Some([to, high])) = (rows.first(), rows.last()) else {
         return true;

@@ -1,4 +1,4 @@
-//! Rigid bodies and couplings.
+//! Reading of rigid bodies and couplings.
 
 use super::{Reader, fields};
 use crate::deck::data::{Rigid, RigidNodes, Target};
@@ -29,7 +29,8 @@ impl Reader<'_> {
         self.no_more(keyword)
     }
 
-    /// The surface follows the reference node once `*KINEMATIC` says along which axes.
+    /// Reads a coupling: the surface follows the reference node along the axes that a later
+    /// `*KINEMATIC` gives.
     pub(super) fn coupling(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
         let known = ["REFNODE", "SURFACE", "CONSTRAINTNAME", "ORIENTATION"];
@@ -50,7 +51,7 @@ impl Reader<'_> {
         self.no_more(keyword)
     }
 
-    /// Axes from a first to a last, line by line; without lines all.
+    /// Reads the first and last axis that follow, line by line; without lines all axes follow.
     pub(super) fn kinematic(&mut self, keyword: &Keyword) -> Result<()> {
         keyword.allow(&self.source.files, &[])?;
         let Some(mut rigid) = self.coupling.take() else {
@@ -78,7 +79,7 @@ impl Reader<'_> {
     }
 }
 
-/// A number, or the name of a set.
+/// A node given by its number, or a set given by its name.
 fn node_or_set(text: &str) -> Target {
     let number = text.parse().ok();
     number.map_or_else(|| Target::Set(text.to_string()), Target::Label)

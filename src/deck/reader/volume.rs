@@ -1,4 +1,4 @@
-//! Mass and heat: what acts on the volume of elements, and what materials need for it.
+//! Reading of loads on the volume of elements, and of the material properties that they need.
 
 use super::mesh::target;
 use super::properties::ascending;
@@ -44,7 +44,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// A value that is the same at all temperatures.
+    /// Reads a value that must not depend on temperature.
     fn one_value(&mut self, keyword: &Keyword, what: &str) -> Result<f64> {
         let line = self.one_line(keyword, what)?;
         let mut row = fields(&self.source, keyword, line);
@@ -64,7 +64,7 @@ impl Reader<'_> {
         self.temperatures(keyword, amplitude)
     }
 
-    /// Lines of nodes and their temperatures.
+    /// Reads lines of nodes and their temperatures.
     pub(super) fn temperatures(
         &mut self,
         keyword: &Keyword,
@@ -89,17 +89,17 @@ impl Reader<'_> {
     }
 }
 
-/// What a line of `*DLOAD` is.
+/// The kind of load that a line of `*DLOAD` gives.
 pub(super) enum OnVolume {
-    /// A load on faces.
+    /// A load on faces of elements.
     Face,
-    /// One on the volume, with its size.
+    /// A load on the volume, with its size.
     Load(VolumeLoad, f64),
-    /// One that brinell does not have, and why.
+    /// A load that brinell does not have, with the reason.
     Refused(String),
 }
 
-/// Reads a load on the volume of elements; of one on faces nothing.
+/// Reads a load on the volume of elements; of a load on faces nothing is read.
 pub(super) fn volume_load(mut row: Fields) -> Result<OnVolume> {
     let word = row.word();
     if word

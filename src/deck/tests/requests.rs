@@ -1,4 +1,4 @@
-//! Results that a deck asks for.
+//! Results that a deck requests.
 
 use super::{Conversion, Deck, Options};
 use crate::scene::{Moment, ResultItem, Totals};
@@ -50,7 +50,7 @@ fn items(moment: &Moment) -> Vec<ResultItem> {
     moment.file.iter().map(|request| request.item).collect()
 }
 
-/// A step that asks for a group anew replaces what was asked for in that group, and no other.
+/// Requests for a group in a later step replace the earlier requests of the same group only.
 #[test]
 fn requests_stay_until_their_group_is_asked_for_anew() {
     use ResultItem::{Displacement, Force, PlasticStrain, Stress, StressJump};
@@ -99,7 +99,7 @@ fn requests_stay_until_their_group_is_asked_for_anew() {
     assert_eq!(ignored, expected);
 }
 
-/// Increments of `DIRECT` and time points are targets where increments are asked for.
+/// With the option `increments`, increments of `DIRECT` and time points become targets.
 #[test]
 fn increments_are_those_that_results_are_asked_for() {
     let steps = [
@@ -138,7 +138,7 @@ fn increments_are_those_that_results_are_asked_for() {
     );
 }
 
-/// Field output of Abaqus is written, histories are not.
+/// Field output of Abaqus is written; history output is skipped.
 #[test]
 fn histories_are_read_over() {
     let found = converted(

@@ -1,9 +1,10 @@
-//! Directions on a circle, exact on the axes.
+//! Direction vectors of angles on a circle, exact on the axes.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// `[cos, sin]` of an angle in degrees; exactly 0 and 1 at multiples of 90 degrees, exactly equal
-/// components at odd multiples of 45, so that nodes on symmetry lines lie exactly on them.
+/// `[cos, sin]` of an angle in degrees: exactly 0 and 1 at multiples of 90 degrees, and exactly
+/// equal components at odd multiples of 45 degrees. Nodes on symmetry lines therefore lie exactly
+/// on these lines.
 pub(crate) fn direction(degrees: f64) -> [f64; 2] {
     let turned = degrees.rem_euclid(360.0);
     let quadrant = (turned / 90.0).floor();
@@ -17,7 +18,7 @@ pub(crate) fn direction(degrees: f64) -> [f64; 2] {
     }
 }
 
-/// Directions of angles from 0 to 90 degrees, by way of the first octant.
+/// Directions of angles from 0 to 90 degrees, computed from the first octant.
 fn first_quadrant(degrees: f64) -> [f64; 2] {
     if degrees < 45.0 {
         let (s, c) = degrees.to_radians().sin_cos();
@@ -30,8 +31,8 @@ fn first_quadrant(degrees: f64) -> [f64; 2] {
     }
 }
 
-/// Directions at `2 n + 1` equal angles from `start` over `span` degrees: element corners and
-/// mid-sides.
+/// Directions at `2 n + 1` equally spaced angles from `start` over `span` degrees, for element
+/// corners and mid-side nodes.
 pub(crate) fn directions(start: f64, span: f64, n: usize) -> Vec<[f64; 2]> {
     let halves = 2 * n;
     (0..=halves)
@@ -39,7 +40,7 @@ pub(crate) fn directions(start: f64, span: f64, n: usize) -> Vec<[f64; 2]> {
         .collect()
 }
 
-/// `v` turned counter-clockwise by the angle whose direction is `d`.
+/// The vector `v` turned counter-clockwise by the angle whose direction is `d`.
 pub(super) fn turned(v: [f64; 2], d: [f64; 2]) -> [f64; 2] {
     [v[0] * d[0] - v[1] * d[1], v[0] * d[1] + v[1] * d[0]]
 }
@@ -72,7 +73,8 @@ mod tests {
             let degrees = 0.7 * f64::from(k);
             let (s, c) = degrees.to_radians().sin_cos();
             let d = direction(degrees);
-            // The plain argument carries a relative round-off, up to 9 radians here.
+            // The plain argument in radians carries a relative round-off, and is as large as 9
+            // radians here.
             let tolerance = 16.0 * f64::EPSILON;
             assert!((d[0] - c).abs() < tolerance && (d[1] - s).abs() < tolerance);
             assert!((d[0].hypot(d[1]) - 1.0).abs() < 4.0 * f64::EPSILON);

@@ -1,7 +1,7 @@
-//! Structured bodies in space: `nx x ny x nz` hexahedral cells.
+//! Structured bodies in space, made of `nx x ny x nz` hexahedral cells.
 //!
-//! Points are addressed by half steps as in the plane (`grid`): even indices are corners, one odd
-//! index the middle of an edge.
+//! Points are addressed by half steps, as in the plane (`grid`): three even indices address a
+//! corner, one odd index among them the middle of an edge.
 
 use crate::mesh::{Facet, Mesh, Shape, Surface};
 use crate::{Error, Result};
@@ -35,7 +35,7 @@ impl BrickSide {
         ("top", BrickSide::Top),
     ];
 
-    /// Axis across the side, and whether the side lies at the end of it.
+    /// Axis normal to the side, and whether the side lies at the end of this axis.
     fn place(self) -> (usize, bool) {
         match self {
             BrickSide::Left => (0, false),
@@ -47,7 +47,7 @@ impl BrickSide {
         }
     }
 
-    /// The facet of a hexahedron that lies on it.
+    /// Local number of the facet of a hexahedron that lies on this side.
     fn facet(self) -> usize {
         match self {
             BrickSide::Left => 5,
@@ -60,23 +60,24 @@ impl BrickSide {
     }
 }
 
-/// A finished body.
+/// A finished structured body of hexahedra.
 pub(super) struct Brick {
     cells: [usize; 3],
     first_element: usize,
     name: String,
-    /// Nodes by half steps; none in the middle of faces and cells.
+    /// Nodes by half steps; [`NONE`] in the middle of faces and cells.
     nodes: Vec<u32>,
 }
 
-/// Marks a place without a node.
+/// Marks a place that has no node.
 const NONE: u32 = u32::MAX;
 
 impl Brick {
-    /// Adds a body of hexahedra whose points are where `point` says, by half steps.
+    /// Adds a body of hexahedra to the mesh; `point` gives the position for each triple of half
+    /// steps.
     ///
     /// # Errors
-    /// A shape that is no hexahedron.
+    /// `Input` for a shape that is not a hexahedron.
     pub(super) fn add(
         mesh: &mut Mesh,
         name: &str,
@@ -115,7 +116,7 @@ impl Brick {
         for k in 0..cells[2] {
             for j in 0..cells[1] {
                 for i in 0..cells[0] {
-                    // Reference coordinates -1, 0, 1 are steps 0, 1, 2 of the cell.
+                    // Reference coordinates -1, 0, 1 correspond to half steps 0, 1, 2 of the cell.
                     let node = |place: &[f64; 3]| {
                         let step = |d: usize, cell: usize| 2 * cell + (place[d] + 1.0) as usize;
                         out.nodes[out.index([step(0, i), step(1, j), step(2, k)])]
@@ -133,13 +134,13 @@ impl Brick {
         (k * ny + j) * nx + i
     }
 
-    /// The node at half steps.
+    /// The node at the given half steps.
     pub(super) fn node(&self, at: [usize; 3]) -> usize {
         self.nodes[self.index(at)] as usize
     }
 
-    /// Names the part of a side whose cells lie in two ranges, along the two other axes in their
-    /// order.
+    /// Names a part of a side: the cells within `ranges`, along the other two axes in ascending
+    /// order, that `takes` accepts.
     pub(super) fn surface(
         &self,
         mesh: &mut Mesh,
@@ -174,7 +175,7 @@ impl Brick {
         }
     }
 
-    /// Names a whole side.
+    /// Names a whole side of the body as a surface.
     pub(super) fn side(&self, mesh: &mut Mesh, name: &str, face: BrickSide) {
         let (axis, _) = face.place();
         let others: Vec<usize> = (0..3).filter(|d| *d != axis).collect();

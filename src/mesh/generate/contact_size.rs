@@ -1,6 +1,5 @@
-//! How large the contact of a generated cylinder or ball becomes: what its mesh is made to the
-//! measure of. Hertz' theory gives that size and nothing else: no result depends on it but through
-//! the mesh.
+//! Size of the contact of a generated cylinder or ball, to which the mesh is fitted. Hertz's theory
+//! is used for this size only: it influences results through the mesh alone.
 
 use super::cylinder::{PLANE_FAR_SIZE, ROUND_FAR_SIZE};
 use super::{ContactSize, WIDEST};
@@ -13,27 +12,27 @@ use crate::scene::{
 };
 use std::f64::consts::PI;
 
-/// Elastic contacts are meshed this much wider than Hertz's theory has them: room for what is read
-/// off next to their edge.
+/// Factor by which the mesh of an elastic contact is wider than Hertz's contact, so that results
+/// can be evaluated beside its edge.
 const ROOM: f64 = 1.15;
-/// Mean pressure under a ball over the yield stress where yielding is fully developed.
+/// Ratio of the mean pressure under a ball to the yield stress when yielding is fully developed.
 ///
 /// # Source
 /// D. Tabor, The Hardness of Metals (1951), chapter 4.
 pub(super) const FULLY_PLASTIC: f64 = 3.0;
-/// Largest square of the contact radius over `2 R h` with the depth `h`: the pile-up of a material
-/// without hardening.
+/// Largest ratio of the squared contact radius to `2 R h`, with the depth `h`: the pile-up of a
+/// material without hardening.
 ///
 /// # Source
 /// R. Hill, B. Storakers, A. B. Zdunek, A theoretical study of the Brinell hardness test, Proc. R.
 /// Soc. A 423 (1989) 301, doi:10.1098/rspa.1989.0056.
 pub(super) const PILE_UP: f64 = 1.45;
 
-/// The size of the contact: at first yield, and the largest of the load program.
+/// The size of the contact at first yield, and the largest size in the load program.
 ///
 /// # Errors
-/// A body without material, or bodies without a yield stress where the half width at first yield is
-/// not given.
+/// `Input` if a body has no material, or if no body has a yield stress and the half width at first
+/// yield is not given.
 pub(crate) fn of(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<ContactSize> {
     let half_width = match p.half_width {
         Some(given) => given,
@@ -57,7 +56,7 @@ pub(crate) fn of(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<ContactSize> 
     })
 }
 
-/// Size of each body, in half widths.
+/// Size of each body, in half widths, as given or by default.
 pub(crate) fn far_size(scene: &Scene, p: &CylinderOnHalfPlane) -> f64 {
     let round = scene.mesh.section(scene.kind).is_axisymmetric();
     p.far_size.unwrap_or(match round {
@@ -66,7 +65,7 @@ pub(crate) fn far_size(scene: &Scene, p: &CylinderOnHalfPlane) -> f64 {
     })
 }
 
-/// Hertz' contact of a line or a point.
+/// Hertz's solution for a line contact or a point contact.
 enum Hertz {
     Line(HertzLine),
     Point(HertzPoint),
@@ -116,10 +115,10 @@ impl Hertz {
         }
     }
 
-    /// How wide the contact is expected to become under a load. Under a ball of radius `R` that is
-    /// where the load is the area times the smallest of three mean pressures: Hertz' one, that of a
-    /// plastic core in an elastic body, and that of fully developed yielding. Over the yield stress
-    /// `Y` the second one is
+    /// Expected half width of the contact under a load. For a ball of radius `R` it follows from
+    /// equating the load to the contact area times the smallest of three mean pressures: the
+    /// elastic one (Hertz), the pressure with a plastic core in an elastic body, and the pressure
+    /// of fully developed yielding. The second, divided by the yield stress `Y`, is
     ///
     /// ```text
     /// 2/3 (2 + ln((E* a/(R Y) + 4 (1 - 2 nu))/(6 (1 - nu)))).
@@ -131,12 +130,12 @@ impl Hertz {
         let (Hertz::Point(_), Some(first)) = (self, first.filter(|first| load > first.load)) else {
             return self.widest(load, first);
         };
-        // Hertz' mean pressure grows with the radius.
+        // Hertz's mean pressure is proportional to the contact radius.
         let at_yield = first.load / (PI * first.half_width.powi(2));
         let force = |a: f64| {
             let hertz = at_yield * a / first.half_width;
             let nu = first.poissons_ratio;
-            // E* a/R is 3 pi/4 of Hertz' mean pressure.
+            // E* a/R equals 3 pi/4 times Hertz's mean pressure.
             let strain = 0.75 * PI * hertz / first.yield_stress;
             let core = (strain + 4.0 * (1.0 - 2.0 * nu)) / (6.0 * (1.0 - nu));
             let plastic = (2.0 / 3.0 * (2.0 + core.ln())).min(FULLY_PLASTIC);
@@ -149,9 +148,9 @@ impl Hertz {
         )
     }
 
-    /// The widest contact under a load, where the weaker body yields at `first`: the mean pressure
-    /// only rises with the load (from 1.1 to 3 times the yield stress under a ball), so that the
-    /// area rises no faster.
+    /// The widest possible contact under a load if the weaker body yields at `first`. The mean
+    /// pressure only rises with the load (from 1.1 to 3 times the yield stress under a ball), so
+    /// the area grows no faster than the load.
     fn widest(&self, load: f64, first: Option<YieldInContact>) -> f64 {
         let elastic = ROOM * self.half_width(load);
         let Some(first) = first.filter(|first| load > first.load) else {
@@ -165,7 +164,7 @@ impl Hertz {
     }
 }
 
-/// First yield of a body in contact.
+/// Values at first yield of a body in contact.
 #[derive(Clone, Copy)]
 struct YieldInContact {
     half_width: f64,
@@ -174,8 +173,8 @@ struct YieldInContact {
     poissons_ratio: f64,
 }
 
-/// First yield of the weaker of the two bodies; `None` where neither has a
-/// yield stress. A body that is kept elastic still has the yield stress that the mesh is made for.
+/// First yield of the weaker of the two bodies; `None` if neither has a yield stress. A body
+/// declared elastic counts too, because the mesh is fitted to its yield stress.
 fn first_yield(scene: &Scene, p: &CylinderOnHalfPlane) -> Result<Option<YieldInContact>> {
     weaker(scene, p, |_| true)
 }
@@ -196,7 +195,7 @@ fn weaker(
     Ok(bodies.reduce(|a, b| if b.half_width < a.half_width { b } else { a }))
 }
 
-/// The widest contact of the load program; `None` where its loads do not say.
+/// The widest contact of the load program; `None` if it cannot be determined from the loads.
 fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64> {
     let most = Largest::of(scene, p, half_width)?;
     let by_load = most
@@ -207,9 +206,9 @@ fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64>
     Some(by_load.max(by_depth).max(most.dented(p.radius)))
 }
 
-/// What the user should know before a run whose contact may become wider than its candidates, if
-/// that is so. Displacements do not count: how much of them the rest of the bodies takes is not
-/// known before.
+/// A warning, given before the run, if the contact may become wider than its candidates. Prescribed
+/// displacements are not considered: the share of them that deforms the rest of the bodies is not
+/// known in advance.
 pub(crate) fn warning(scene: &Scene) -> Option<String> {
     let p = scene.mesh.cylinder_on_half_plane.as_ref()?;
     let ContactSize {
@@ -244,23 +243,23 @@ pub(crate) fn warning(scene: &Scene) -> Option<String> {
     ))
 }
 
-/// What a load program asks of a contact at most.
+/// The largest values that a load program demands of a contact.
 struct Largest {
     hertz: Hertz,
-    /// First yield of the weaker body that may yield.
+    /// First yield of the weaker of the bodies that are allowed to yield.
     first: Option<YieldInContact>,
-    /// Largest contact force.
+    /// Largest contact force of the program.
     force: f64,
-    /// Half width that a target asks for.
+    /// Largest half width that a target prescribes.
     asked: f64,
-    /// Displacement of the bodies towards each other.
+    /// Largest displacement of the bodies towards each other.
     depth: f64,
-    /// Dent that is to stay.
+    /// Largest dent that a target prescribes.
     dent: f64,
 }
 
 impl Largest {
-    /// `None` where the loads do not say.
+    /// Evaluates the load program; `None` if Hertz's contact or first yield cannot be computed.
     fn of(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<Self> {
         let hertz = Hertz::of(scene, p).ok()?;
         let first = weaker(scene, p, |plastic| plastic != Plastic::No).ok()?;
@@ -277,7 +276,8 @@ impl Largest {
         for load in &scene.load {
             let times = match &load.history {
                 History::Proportional if program.unit == Unit::Yield => {
-                    // Multiples of the yield load, whatever the load's own size.
+                    // Load factors are multiples of the yield load, whatever the size of the load
+                    // itself.
                     force = first.map_or(force, |first| factor * first.load);
                     continue;
                 }
@@ -311,11 +311,11 @@ impl Largest {
         })
     }
 
-    /// How wide the contact may be when the dent asked for is left behind: with the depth `d` of
-    /// the dent and the elastic sinking `P/(2 a E*)` of a fully plastic contact of radius `a` and
-    /// load `P = 3 Y pi a^2` the square of the radius is at most `2 R (d + P/(2 a E*))` times the
-    /// pile-up. `Y/E*` follows from the mean pressure at first yield, `4 E* a_1/(3 pi R)` under a
-    /// ball, which is no less than the yield stress.
+    /// Upper bound of the contact radius when the prescribed dent has been made. With the depth `d`
+    /// of the dent and the elastic sinking `P/(2 a E*)` of a fully plastic contact of radius `a`
+    /// and load `P = 3 Y pi a^2`, the square of the radius is at most `2 R (d + P/(2 a E*))` times
+    /// the pile-up. `Y/E*` is bounded by means of the mean pressure at first yield,
+    /// `4 E* a_1/(3 pi R)` under a ball, which is no less than the yield stress.
     ///
     /// # Source
     /// I. Sneddon, Int. J. Engng Sci. 3 (1965) 47: a flat punch sinks by `P/(2 a E*)`.
@@ -331,7 +331,8 @@ impl Largest {
     }
 }
 
-/// Displacement along y that a target asks for. Not inlined, as [`prescribed`].
+/// Displacement along y that a target prescribes. Not inlined, for the reason given at
+/// [`prescribed`].
 #[inline(never)]
 fn asked_for(displacement: Option<&DisplacementTarget>) -> f64 {
     displacement.map_or(0.0, |d| match d.direction {
@@ -340,19 +341,20 @@ fn asked_for(displacement: Option<&DisplacementTarget>) -> f64 {
     })
 }
 
-/// Size of a prescribed displacement along y, where it is a number. Not inlined: the tag of `y`
-/// would be read before that of the displacement, which memory checkers of programs in C report.
+/// Size of a prescribed displacement along y, if it is a number. Not inlined: otherwise the tag of
+/// `y` would be read before the tag of the displacement, which memory checkers report in programs
+/// written in C.
 #[inline(never)]
 fn prescribed(displacement: Option<&Displacement>) -> f64 {
     let along_y = displacement.and_then(|d| d.y.as_ref()?.uniform());
     along_y.map_or(0.0, f64::abs)
 }
 
-/// Total force along y of a load on the whole cylinder or ball, where its kind and place state it:
-/// the mesh is that of half a cylinder, or a sector of a ball, forces that are given as totals are
+/// Total force along y of a load on the whole cylinder or ball, as far as the kind and place of the
+/// load determine it. The mesh is half a cylinder or a sector of a ball. Forces given as totals are
 /// those of `symmetry` such models.
 fn normal_force(scene: &Scene, p: &CylinderOnHalfPlane, load: &Load, size: f64) -> f64 {
-    // How many such models make the ball, or a unit of the cylinder's length.
+    // Number of such models that make up the ball, or a unit length of the cylinder.
     let (models, area) = match (&scene.mesh.extrude, &scene.mesh.revolve) {
         (Some(extrude), _) => (2.0 / extrude.depth, size * extrude.depth),
         (_, Some(revolve)) => {

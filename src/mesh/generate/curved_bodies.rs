@@ -1,4 +1,4 @@
-//! Two bodies of any curvature pressed together: Hertz' model in space.
+//! Two bodies of any curvature pressed together: Hertz's model in space.
 
 use super::brick::{Brick, BrickSide};
 use super::grading::{self, Growth};
@@ -9,33 +9,35 @@ use crate::scene::CurvedBodies;
 use crate::{Error, Result};
 
 const KEY: &str = "mesh.curved_bodies";
-/// Elements along the larger half axis are at most this much longer than along the smaller one.
+/// Largest ratio of the element length along the larger half axis to the length along the smaller
+/// half axis.
 const LONGEST: f64 = 4.0;
-/// Share of a number of elements that is far above its round-off and far below one.
+/// Tolerance on a number of elements, far above its round-off and far below one.
 const ROUND_OFF: f64 = 1e-9;
 
-/// How large the contact of two curved bodies is.
+/// Size of the contact of two curved bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EllipseSize {
     /// Half axes along x and y at first yield.
     pub semi_axes: [f64; 2],
-    /// Reach of the contact, in these half axes; less than the even part of the mesh is no matter.
+    /// Half axes that the contact may reach, as multiples of those at first yield. Values within
+    /// the even part of the mesh have no effect.
     pub reach: f64,
 }
 
-/// Two bodies that are half spaces but for their curvature near the contact, which is what Hertz'
-/// theory takes them for; the first contact is at the origin, z points from the lower body to the
-/// upper.
+/// Generates two bodies that are half spaces except for their curvature near the contact, as
+/// Hertz's theory assumes. The first contact is at the origin, and z points from the lower body to
+/// the upper.
 ///
-/// Before loading the upper surface is at the height `z = x^2/(2 R_x) + y^2/(2 R_y)` above the
-/// lower one, which is flat: of the two bodies' curvature only the sum matters. Beyond the
-/// candidates it levels off. Elements are even with a size of the half axis over `resolution` out
-/// to `fine_width` half axes, and down to `fine_depth` of the smaller one; where the contact may
-/// reach further they grow by `1 + 1/resolution` up to there, and from there on by `growth`. Both
-/// surfaces have nodes at the same x and y.
+/// Before loading, the upper surface is at the height `z = x^2/(2 R_x) + y^2/(2 R_y)` above the
+/// lower surface, which is flat: only the sum of the two bodies' curvatures matters. Beyond the
+/// candidates the upper surface levels off. Elements have an even size of the half axis over
+/// `resolution` out to `fine_width` half axes, and down to `fine_depth` of the smaller half axis.
+/// If the contact may reach further, elements grow by `1 + 1/resolution` up to its reach, and from
+/// there on by `growth`. Both surfaces have nodes at the same x and y.
 ///
 /// # Errors
-/// Input errors name the key, its value and what to give instead.
+/// `Input`, naming the key, its value and what to give instead.
 pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
     let layout = CurvedLayout::new(p, contact)?;
     let [x, y, depth] = &layout.lines;
@@ -48,7 +50,7 @@ pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
     let [above, below] = &p.names;
     let upper = Brick::add(&mut mesh, above, p.element, cells, |[i, j, k]| {
         let height = depth[k];
-        // The bottom's shape fades out linearly towards the flat top.
+        // The raised shape of the bottom fades out linearly towards the flat top.
         let raised = layout.height(x[i], y[j]) * (1.0 - height / layout.size);
         [x[i], y[j], if k == last { height } else { height + raised }]
     })?;
@@ -73,7 +75,7 @@ pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
         body.side(&mut mesh, front, BrickSide::Front);
         body.side(&mut mesh, "back", BrickSide::Back);
     }
-    // The corner or middle of the surfaces is the origin.
+    // The origin is the corner of the contact surfaces, or their middle in a full model.
     let origin = [layout.origin[0], layout.origin[1]];
     for (name, body, k) in [(above, &upper, 0), (below, &lower, last)] {
         let pole = body.node([origin[0], origin[1], k]);
@@ -82,25 +84,26 @@ pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
     Ok(mesh)
 }
 
-/// Grid lines of both bodies.
+/// Grid lines of both curved bodies.
 struct CurvedLayout {
-    /// Along x and y by half steps; distance from the contact surface by half steps.
+    /// Coordinates along x and y by half steps, and the distance from the contact surface by half
+    /// steps.
     lines: [Vec<f64>; 3],
-    /// Half steps from the beginning to 0.
+    /// Half steps from the beginning of the line to 0, along x and y.
     origin: [usize; 2],
-    /// Cells that may touch, along x and y.
+    /// Ranges of cells that may touch, along x and y.
     candidates: [std::ops::Range<usize>; 2],
-    /// Coordinates where these cells end, along x and y.
+    /// Coordinates at which the candidate cells end, along x and y.
     edge: [f64; 2],
-    /// Relative radii.
+    /// Relative radii of curvature along x and y.
     radii: [f64; 2],
     /// Size of each body.
     size: f64,
 }
 
 impl CurvedLayout {
-    /// Height of the upper surface: quadratic out to the last candidate at `c`; beyond, along each
-    /// axis, `c^2 + 2 c^2 (1 - exp(-(x - c)/c))` takes the place of `x^2`.
+    /// Height of the upper surface. It is quadratic out to the last candidate at `c`; beyond, `x^2`
+    /// is replaced along each axis by `c^2 + 2 c^2 (1 - exp(-(x - c)/c))`.
     fn height(&self, x: f64, y: f64) -> f64 {
         let along = |d: usize, x: f64| {
             let (x, edge) = (x.abs(), self.edge[d]);
@@ -136,7 +139,7 @@ impl CurvedLayout {
         let fine = small / resolution;
         let slow = (1.0 + 1.0 / resolution).min(p.growth);
         let growth = Growth::new(p.growth, None, 0.0);
-        // Along each axis and down: element size, even length, and reach.
+        // Along x, y and the depth: element size, number of even elements, and reach.
         let plans = [0, 1, 2].map(|d| {
             let (h, even) = match d {
                 2 => (fine, p.fine_depth * small),
@@ -145,7 +148,8 @@ impl CurvedLayout {
                     (h, p.fine_width * semi_axes[d])
                 }
             };
-            // Half an element more or less is not for round-off, so for units, to say.
+            // The tolerance keeps round-off, and so the choice of units, from deciding whether half
+            // an element is rounded up.
             let n = (even / h * (1.0 + ROUND_OFF)).round().max(1.0);
             let until = match d {
                 2 => reach * p.fine_depth / p.fine_width * small,
@@ -153,7 +157,7 @@ impl CurvedLayout {
             };
             (h, n, until.min(0.5 * size))
         });
-        // Refused before any line is made.
+        // Too many elements are refused before any line is allocated.
         let even: f64 = plans.iter().map(|(_, n, _)| n).product();
         limits::total(&key("resolution"), 2.0 * even)?;
         let near = plans.map(|(h, n, until)| grading::even_then_slow(h, n as usize, until, slow));

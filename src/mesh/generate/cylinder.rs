@@ -8,21 +8,23 @@ use crate::scene::CylinderOnHalfPlane;
 use crate::{Error, Result};
 
 const KEY: &str = "mesh.cylinder_on_half_plane";
-/// The candidates may reach this share of the radius: further out the circle is nearly vertical.
+/// Largest ratio of the candidates' reach to the radius: further out the circle is nearly vertical.
 pub const WIDEST: f64 = 0.9;
-/// Size of each body in half widths, under a cylinder and under a ball. A size W changes the stress
-/// under a cylinder by the order b/W, under a ball by (b/W)^2 and its approach by b/W.
+/// Default size of each body in half widths, for a cylinder and for a ball. A size W changes the
+/// stress under a cylinder by the order b/W; under a ball it changes the stress by (b/W)^2 and the
+/// approach by b/W.
 pub(super) const PLANE_FAR_SIZE: f64 = 20_000.0;
 pub(super) const ROUND_FAR_SIZE: f64 = 2_000.0;
 
-/// How large the contact of a cylinder on a half plane is, in the unit of its radius.
+/// Size of the contact of a cylinder on a half plane, in the unit of the cylinder's radius.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactSize {
-    /// Contact half width (radius) at first yield.
+    /// Contact half width (radius for a ball) at first yield.
     pub half_width: f64,
-    /// How far the contact may reach; less than the even part of the mesh is no matter.
+    /// Half width that the contact may reach. Values within the even part of the mesh have no
+    /// effect.
     pub reach: f64,
-    /// Size of each body, in half widths, where the parameters leave it open.
+    /// Size of each body, in half widths, if the parameters do not give it.
     pub far_size: f64,
 }
 
@@ -39,28 +41,28 @@ impl ContactSize {
 
 /// Half model (x >= 0) of a cylinder or ball on a half plane or half space.
 ///
-/// With `b` = `half_width` (contact half width at first yield, same unit as the radius `R`) and
+/// With `b` = `half_width` (contact half width at first yield, in the unit of the radius `R`) and
 /// `W = far_size b`, the half plane is the block `[0, W] x [-W, 0]` and the cylinder the block
 /// `[0, W]` between its surface and the flat top `y = W`. The surface is the circle
-/// `y = R - sqrt(R^2 - x^2)` over the candidates and levels off beyond: as in Hertz' theory both
+/// `y = R - sqrt(R^2 - x^2)` over the candidates and levels off beyond: as in Hertz's theory, both
 /// bodies are half planes that differ from flat near the contact only. A body of finite size W
 /// changes the stress under the contact by the order b/W (a uniform stress along the surface), a
-/// true cylinder by b/R; `far_size` is therefore large, which the growing elements make cheap.
+/// true cylinder by b/R. `far_size` is therefore large, which the growing elements make cheap.
 /// Elements are even with size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to
-/// the nearest whole element). Where the contact may reach further they grow by `1 + 1/resolution`
-/// from there on out to its reach, and down in proportion: a contact of any half width has at least
-/// `resolution` elements over it. Beyond, they grow by `growth`, by up to `far_growth` at the far
-/// end. Both surfaces have nodes at the same `x`; corner and mid-side nodes of the cylinder lie on
-/// the circle to round-off, so that nodal gaps are the exact gaps.
+/// the nearest whole element). If the contact may reach further, elements grow by
+/// `1 + 1/resolution` from there out to its reach, and downwards in proportion: a contact of any
+/// half width has at least `resolution` elements over it. Beyond, they grow by `growth`, rising to
+/// `far_growth` at the far end. Both surfaces have nodes at the same `x`. Corner and mid-side nodes
+/// of the cylinder lie on the circle to round-off, so nodal gaps are the exact gaps.
 ///
-/// Only the even part of the surfaces, and what the contact may reach beyond, are contact
-/// candidates (`cylinder.contact`, `half_plane.contact`): the condensed matrix stays small. The
-/// rest is `cylinder.outside` and `half_plane.outside`. Node sets `cylinder.pole` and
+/// Only the even part of the surfaces, and the part beyond that the contact may reach, are contact
+/// candidates (`cylinder.contact`, `half_plane.contact`), which keeps the condensed matrix small.
+/// The rest is `cylinder.outside` and `half_plane.outside`. Node sets `cylinder.pole` and
 /// `half_plane.pole` are the two nodes at the origin.
 ///
 /// # Errors
-/// Input errors name the key, its value and what to give instead; among them a block wider than 0.9
-/// radii.
+/// `Input`, naming the key, its value and what to give instead; among other cases for candidates
+/// wider than 0.9 radii.
 pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> Result<Mesh> {
     let layout = CylinderLayout::new(p, contact)?;
     let CylinderLayout {
@@ -84,7 +86,7 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> 
             if j == last {
                 return [x[i], height];
             }
-            // The bottom's shape fades out linearly towards the flat top.
+            // The curved shape of the bottom fades out linearly towards the flat top.
             [
                 x[i],
                 height + layout.bottom(p.radius, x[i]) * (1.0 - height / size),
@@ -130,22 +132,22 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> 
     Ok(mesh)
 }
 
-/// Grid lines of both bodies.
+/// Grid lines of the cylinder and of the half plane.
 struct CylinderLayout {
-    /// Elements along x that may touch.
+    /// Number of elements along x that may touch.
     n_contact: usize,
     /// Size `W` of each body.
     size: f64,
-    /// Coordinates by half steps from 0 to `W`.
+    /// Coordinates along x, by half steps from 0 to `W`.
     x: Vec<f64>,
-    /// Distance from the contact surface by half steps from 0 to `W`.
+    /// Distances from the contact surface, by half steps from 0 to `W`.
     depth: Vec<f64>,
 }
 
 impl CylinderLayout {
-    /// Height of the cylinder's surface: the circle, without the cancellation of
-    /// `R - sqrt(R^2 - x^2)`, out to the last candidate at `c`; beyond, with the slope there,
-    /// `y_c + slope c (1 - exp(-(x - c)/c))`.
+    /// Height of the cylinder's surface. Out to the last candidate at `c` it is the circle,
+    /// computed without the cancellation in `R - sqrt(R^2 - x^2)`. Beyond, it continues with the
+    /// slope at `c` as `y_c + slope c (1 - exp(-(x - c)/c))`.
     fn bottom(&self, radius: f64, x: f64) -> f64 {
         let root = |x: f64| ((radius - x) * (radius + x)).sqrt();
         let edge = self.x[2 * self.n_contact];
@@ -215,12 +217,13 @@ impl CylinderLayout {
 
         let h = half_width / resolution;
         let growth = Growth::new(p.growth, p.far_growth, 0.0);
-        // Not finer than the contact at its edge needs: the size over the distance is that at first
-        // yield.
+        // Elements are no finer than needed at the edge of the contact: the ratio of size to
+        // distance is the one at first yield.
         let slow = (1.0 + 1.0 / resolution).min(p.growth);
         let reach = reach.min(WIDEST * p.radius).min(0.5 * size);
         let near = |n: f64, until: f64| grading::even_then_slow(h, n as usize, until, slow);
-        // Refused before any line is made: a wrong input can ask for more than memory holds.
+        // Too many elements are refused before any line is made: a wrong input can ask for more
+        // than memory holds.
         let even = limits::elements(2.0 * n_fine * n_deep, p.element);
         limits::total(&key("resolution"), even)?;
         let near_x = near(n_fine, reach);

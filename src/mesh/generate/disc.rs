@@ -14,18 +14,18 @@ const KEY: &str = "mesh.disc_in_plate";
 
 /// Quarter model (x, y >= 0) of a disc in the hole of a plate.
 ///
-/// Both contact surfaces lie on radius `R` with nodes at the same equal angles: an interference is
-/// a change of the initial gap in small-strain theory, not of the geometry. The disc is a core of
-/// `resolution/2 x resolution/2` elements inside graded layers; the plate is a polar grid whose
-/// radial size begins with the arc spacing `pi R/(2 resolution)` and grows by `growth`, by up to
-/// `far_growth` at the far radius.
+/// Both contact surfaces lie on radius `R` with nodes at the same, equally spaced angles: in
+/// small-strain theory an interference changes the initial gap, not the geometry. The disc is a
+/// core of `resolution/2 x resolution/2` elements inside graded layers. The plate is a polar grid
+/// whose radial size begins with the arc spacing `pi R/(2 resolution)` and grows by `growth`,
+/// rising to `far_growth` at the far radius.
 ///
-/// Bodies, surfaces and units are those of [`DiscInPlate`]; node sets `disc.pole` and `plate.pole`
-/// are the nodes at `(0, R)`, `disc.center` is the node in the origin. Nodes on symmetry lines lie
-/// exactly on them.
+/// Bodies, surfaces and units are those of [`DiscInPlate`]. Node sets `disc.pole` and `plate.pole`
+/// are the nodes at `(0, R)`, and `disc.center` is the node at the origin. Nodes on symmetry lines
+/// lie exactly on them.
 ///
 /// # Errors
-/// Input errors name the key, its value and what to give instead.
+/// `Input`, naming the key, its value and what to give instead.
 pub fn disc_in_plate(p: &DiscInPlate) -> Result<Mesh> {
     let key = |name: &str| format!("{KEY}.{name}");
     let n = p.resolution;

@@ -1,5 +1,5 @@
-//! How large the contact of generated curved bodies becomes: as for cylinders, Hertz' theory gives
-//! the size that the mesh is made to, and nothing else.
+//! Size of the contact of generated curved bodies, to which the mesh is fitted. Hertz's theory is
+//! used for this size only, as for cylinders.
 
 use super::EllipseSize;
 use super::contact_size::{FULLY_PLASTIC, PILE_UP};
@@ -10,15 +10,15 @@ use crate::scene::{
 };
 use std::f64::consts::PI;
 
-/// Elastic contacts are meshed this much wider than Hertz's theory has them: room for what is read
-/// off next to their edge.
+/// Factor by which the mesh of an elastic contact is wider than Hertz's contact, so that results
+/// can be evaluated beside its edge.
 const ROOM: f64 = 1.15;
 
-/// The size of the contact: at first yield, and the largest of the load program.
+/// The size of the contact at first yield, and the largest size in the load program.
 ///
 /// # Errors
-/// A body without material, radii that leave no gap, or bodies without a yield stress where the
-/// half axes at first yield are not given.
+/// `Input` if a body has no material, if the radii leave no gap, or if no body has a yield stress
+/// and the half axes at first yield are not given.
 pub(crate) fn of(scene: &Scene, p: &CurvedBodies) -> Result<EllipseSize> {
     let hertz = hertz(scene, p)?;
     let yielding = yield_load(scene, p, &hertz);
@@ -69,9 +69,9 @@ fn yield_load(scene: &Scene, p: &CurvedBodies, hertz: &HertzEllipse) -> Option<f
     bodies.reduce(f64::min)
 }
 
-/// The widest contact of the load program over that at first yield: elastic half axes grow with the
-/// cube root of the load; beyond first yield the mean pressure only rises, so that the area grows
-/// no faster than the load. `None` where the loads do not say.
+/// The widest contact of the load program relative to the contact at first yield. Elastic half axes
+/// grow with the cube root of the load. Beyond first yield the mean pressure only rises, so the
+/// area grows no faster than the load. `None` if the loads do not determine the contact.
 fn reach(
     scene: &Scene,
     p: &CurvedBodies,
@@ -122,22 +122,22 @@ fn reach(
     Some(elastic.max(plastic).max(ROOM * asked))
 }
 
-/// How deep bodies are pressed together where a dent is left: the dent and the elastic sinking
-/// `P/(2 a E*)` of a fully plastic contact of radius `a` and load `3 Y pi a^2` (I. Sneddon, Int. J.
-/// Engng Sci. 3 (1965) 47), where `a^2` is at most `2 R` times the depth and the pile-up. The mean
-/// pressure at first yield is no less than `Y`.
+/// Upper bound of the depth to which the bodies are pressed together to leave a dent: the dent plus
+/// the elastic sinking `P/(2 a E*)` of a fully plastic contact of radius `a` and load `3 Y pi a^2`
+/// (I. Sneddon, Int. J. Engng Sci. 3 (1965) 47), where `a^2` is at most `2 R` times the depth and
+/// the pile-up. The mean pressure at first yield is used as an upper bound of `Y`.
 fn depth_with_dent(hertz: &HertzEllipse, at_yield: f64, dent: f64) -> f64 {
     let [a, b] = hertz.semi_axes(at_yield);
     let yield_strain = at_yield / (PI * a * b * hertz.contact_modulus);
     let slope = 0.5 * FULLY_PLASTIC * PI * yield_strain;
     let radius = hertz.radii.into_iter().fold(0.0, f64::max);
-    // d = dent + slope a and a^2 = c d.
+    // Solves d = dent + slope a and a^2 = c d for a.
     let c = 2.0 * PILE_UP * radius;
     let a = 0.5 * (c * slope + ((c * slope).powi(2) + 4.0 * c * dent).sqrt());
     dent + slope * a
 }
 
-/// Total force along z of a load on a cut of the whole.
+/// Total force along z of a load on the cut surface of the whole model.
 fn normal_force(load: &Load, p: &CurvedBodies, semi_axes: [f64; 2]) -> f64 {
     let size = p.far_size * semi_axes[0].max(semi_axes[1]);
     let area = 4.0 * size * size;

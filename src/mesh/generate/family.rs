@@ -1,45 +1,48 @@
 //! Families of meshes: the same source with larger or smaller elements.
 //!
-//! In a family every element size is multiplied by one ratio, also where elements grow with the
-//! distance: only then does the error of a value follow one power of the element size, and can be
-//! extrapolated. A growth `g` from element to element becomes `g^ratio`; a bias `B` of `n`
-//! elements, which is a growth of `B^(1/(n-1))`, becomes that of `m` elements with the same sizes
-//! along the line, `B^(n (m-1) / (m (n-1)))`. The parts of a mesh are scaled together, so that
-//! surfaces which face each other node by node go on doing so. A mesh from a file has its
-//! subdivisions.
+//! Within a family every element size is multiplied by one ratio, even where elements grow with the
+//! distance. Only then does the error of a value follow one power of the element size and can be
+//! extrapolated. A growth `g` from element to element becomes `g^ratio`. A bias `B` of `n`
+//! elements, which is a growth of `B^(1/(n-1))`, becomes the bias of `m` elements with the same
+//! sizes along the line, `B^(n (m-1) / (m (n-1)))`. The parts of a mesh are scaled together, so
+//! surfaces that face each other node by node continue to do so. The members of a mesh from a file
+//! are its subdivisions.
 
 use crate::mesh::Shape;
 use crate::scene::{Block, CurvedBodies, CylinderOnHalfPlane, DiscInPlate, MeshSource, Part};
 
-/// Most by which rounding to whole elements may distort a part of the mesh against the others.
+/// Largest relative difference in element ratio between parts of a mesh that rounding to whole
+/// elements may cause.
 const DISTORTION: f64 = 0.1;
-/// Farthest from the wanted ratio that a member in exact proportion is taken before counts are
-/// rounded.
+/// Largest factor between the wanted ratio and that of a member in exact proportion for which this
+/// member is preferred to rounded counts.
 const NEAR: f64 = 1.2;
-/// Greatest growth the generators take.
+/// Largest growth that the generators accept.
 const MOST_GROWTH: f64 = 100.0;
-/// Distance between a piece's end and a node, in elements, up to which they coincide.
+/// Distance between a piece's end and a node, in elements, up to which they count as coinciding.
 const ON_NODE: f64 = 1e-6;
-/// Largest number that element counts are made multiples of, but for the scene's own.
+/// Largest step of which element counts are made multiples; only the scene's own count may be
+/// larger.
 const LARGEST_STEP: usize = 1000;
-/// Most elements along a line that a member has: more than any machine holds.
+/// Largest number of elements along a line of a member: more than any machine can hold.
 const MOST_ELEMENTS: f64 = 1e9;
 
 /// A source of meshes that differ in their element size alone.
 pub trait Family: Sized {
-    /// The member whose elements are nearest to `ratio` times as large, and its own ratio.
+    /// The member whose elements are closest to `ratio` times as large, and the exact ratio of this
+    /// member.
     ///
     /// # Errors
-    /// Why there is none near, in words.
+    /// A message in words if no member is near the ratio.
     fn member(&self, ratio: f64) -> Result<(Self, f64), String>;
 
-    /// Resolution of the mesh, as a scene has it.
+    /// Resolution of the mesh, in the words of a scene.
     fn words(&self) -> String;
 
-    /// Shape of the elements; `None` where a file decides.
+    /// Shape of the elements; `None` if a file determines it.
     fn shape(&self) -> Option<Shape>;
 
-    /// Takes another shape, where no file decides.
+    /// Sets the shape of the elements, unless a file determines it.
     fn set_shape(&mut self, shape: Shape);
 }
 
@@ -63,7 +66,7 @@ impl Family for MeshSource {
             out.subdivisions = subdivisions as usize;
             0.5f64.powf(halvings)
         };
-        // What is drawn to a solid has elements of the same proportions along its way.
+        // A swept solid keeps its elements' proportions along the sweep.
         if let Some(extrude) = &mut out.extrude {
             extrude.elements = scaled(extrude.elements, 1, ratio);
         }
@@ -109,25 +112,25 @@ impl Family for MeshSource {
     }
 }
 
-/// Puts a member in the place of its family.
+/// Replaces a family by the member of the given ratio, and returns the exact ratio.
 fn replace<F: Family>(family: &mut F, ratio: f64) -> Result<f64, String> {
     let (member, ratio) = family.member(ratio)?;
     *family = member;
     Ok(ratio)
 }
 
-/// `n` elements scaled by a ratio, to a multiple of `step`.
+/// The number of elements when `n` elements are scaled by a ratio, rounded to a multiple of `step`.
 fn scaled(n: usize, step: usize, ratio: f64) -> usize {
     let steps = (n as f64 / (ratio * step as f64)).round();
     (steps.clamp(1.0, MOST_ELEMENTS) as usize).saturating_mul(step)
 }
 
-/// The growth of elements `ratio` times as large.
+/// The growth in a mesh whose elements are `ratio` times as large.
 fn grown(growth: f64, ratio: f64) -> f64 {
     growth.powf(ratio).min(MOST_GROWTH)
 }
 
-/// The words of a mesh that is even near the contact and grows from there on.
+/// Describes a mesh that is even near the contact and grows from there on.
 fn growing(resolution: usize, growth: f64, far_growth: Option<f64>) -> String {
     let far = far_growth.map_or(String::new(), |g| format!(", far_growth {g:.4}"));
     format!("resolution {resolution}, growth {growth:.4}{far}")
@@ -202,8 +205,8 @@ impl Family for CurvedBodies {
 }
 
 impl Family for Vec<Part> {
-    /// In exact proportion where the element counts have a common divisor that allows it, else each
-    /// rounded.
+    /// Scales in exact proportion if the element counts have a common divisor that allows it;
+    /// otherwise each count is rounded.
     fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
         if let Some(part) = self.iter().find(|part| !ends_on_nodes(part, None)) {
             return Err(format!(
@@ -249,7 +252,8 @@ impl Family for Vec<Part> {
     }
 }
 
-/// All counts times one fraction: the nearest to the ratio that is whole and can be made.
+/// Multiplies all counts by one fraction, the one nearest to the wanted ratio for which all counts
+/// are whole and the mesh can be made.
 fn proportional(parts: &[Part], ratio: f64) -> Option<(Vec<Part>, f64)> {
     let divisor = parts
         .iter()
@@ -273,7 +277,8 @@ fn proportional(parts: &[Part], ratio: f64) -> Option<(Vec<Part>, f64)> {
     Some((made(found), divisor as f64 / found as f64))
 }
 
-/// Counts rounded each for itself, equal ones alike: within the distortion.
+/// Rounds each count by itself, equal counts alike; `None` if the ratios then differ by more than
+/// [`DISTORTION`].
 fn rounded(parts: &[Part], ratio: f64) -> Option<(Vec<Part>, f64)> {
     let new = |n: usize| scaled(n, step(parts, n), ratio);
     let out = with_counts(parts, new);
@@ -295,7 +300,7 @@ fn greatest_common_divisor(a: usize, b: usize) -> usize {
     }
 }
 
-/// The element counts of a part: of a block along x and y.
+/// All element counts of a part; for a block along x and y.
 fn counts(part: &Part) -> Vec<usize> {
     let block = part.block.iter().flat_map(|b| b.elements);
     let ring = part.ring.iter().flat_map(|r| r.elements);
@@ -304,7 +309,8 @@ fn counts(part: &Part) -> Vec<usize> {
     block.chain(ring).chain(disc).chain(brick).collect()
 }
 
-/// The parts with other counts, their biases those of the same sizes along the lines.
+/// The parts with new counts; biases are changed so that sizes along the lines stay the same up to
+/// one factor.
 fn with_counts(parts: &[Part], new: impl Fn(usize) -> usize) -> Vec<Part> {
     let mut out = parts.to_vec();
     let biased = |n: usize, bias: &mut f64| {
@@ -339,8 +345,8 @@ fn with_counts(parts: &[Part], new: impl Fn(usize) -> usize) -> Vec<Part> {
     out
 }
 
-/// Whether counts that must be even are: of a disc, and those of triangles that were, whose
-/// diagonals alternate.
+/// Whether the new counts that must be even are even: all counts of a disc, and counts of triangles
+/// that were even before, because their diagonals alternate.
 fn is_alike(old: &Part, new: &Part) -> bool {
     let is_disc = old.disc.is_some();
     let alternates = |n: usize| old.element.n_corners() == 3 && n.is_multiple_of(2);
@@ -350,8 +356,8 @@ fn is_alike(old: &Part, new: &Part) -> bool {
         .all(|(n, m)| !(is_disc || alternates(n)) || m.is_multiple_of(2))
 }
 
-/// The number of which a count of `n` elements may become a multiple: the same for all that are
-/// `n`, because surfaces in contact face each other node by node.
+/// The step of which a count of `n` elements must remain a multiple. The step is common to all
+/// counts equal to `n`, because surfaces in contact face each other node by node.
 fn step(parts: &[Part], n: usize) -> usize {
     let fits = |part: &Part, step: usize| {
         let is_disc = part.disc.as_ref().is_some_and(|d| d.elements == n);
@@ -365,9 +371,9 @@ fn step(parts: &[Part], n: usize) -> usize {
         .unwrap_or(n)
 }
 
-/// Whether every piece of the sides of a block begins and ends at a node, with its own counts, or
-/// with `count.1` elements along sides of `count.0`: else it would be longer or shorter than in the
-/// scene.
+/// Whether every piece of a block's sides begins and ends at a node; otherwise it would be longer
+/// or shorter than in the scene. The block has its own counts, or `count.1` elements along the
+/// sides that have `count.0`.
 fn ends_on_nodes(part: &Part, count: Option<(usize, usize)>) -> bool {
     let Some(block) = &part.block else {
         return true;

@@ -1,7 +1,7 @@
-//! Element sizes along a line: even, biased, or even and then growing.
+//! Element sizes along a line: even, biased, or even at first and then growing.
 //!
-//! Positions come as `2 n + 1` values for `n` elements: even entries are corners, odd entries the
-//! mid-side positions half way between them.
+//! Positions are given as `2 n + 1` values for `n` elements: even entries are corners, odd entries
+//! the mid-side positions halfway between them.
 
 use crate::root;
 use crate::{Error, Result};
@@ -38,23 +38,23 @@ pub(super) fn biased(key: &str, from: f64, to: f64, n: usize, bias: f64) -> Resu
     with_midpoints(key, corners)
 }
 
-/// How elements grow with the distance `r` from a point of interest: each is `near^((r/r0)^s)`
-/// times as large as the one before, from `near` at the beginning `r0` of the growing part to `far`
-/// at its end. With `far = near` the growth is geometric.
+/// Growth of elements with the distance `r` from a point of interest: each element is
+/// `near^((r/r0)^s)` times as large as the one before. The factor rises from `near` at the
+/// beginning `r0` of the growing part to `far` at its end. With `far = near` the growth is
+/// geometric.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Growth {
     pub near: f64,
     pub far: f64,
-    /// Distance of the line's 0 from the point of interest.
+    /// Distance of the line's origin from the point of interest.
     pub origin: f64,
 }
 
-/// More growing elements along a line than any mesh within the limits has.
+/// Bound on the number of growing elements along a line: no mesh within the limits has as many.
 const MOST_ON_A_LINE: usize = 1_000_000;
 
 impl Growth {
-    /// Growth from `near` to `far` on a line; by the ratio `near` everywhere where none is given
-    /// for the far end.
+    /// Growth from `near` to `far` along a line; `near` everywhere if `far` is not given.
     pub fn new(near: f64, far: Option<f64>, origin: f64) -> Self {
         Growth {
             near,
@@ -63,8 +63,8 @@ impl Growth {
         }
     }
 
-    /// Number of elements that it takes from `start` to `length`, the first of size `first`. A
-    /// float, because a wrong input can ask for more than any integer holds.
+    /// Number of elements from `start` to `length` if the first has size `first`. A float, because
+    /// a wrong input can ask for more elements than an integer can hold.
     pub fn count(&self, first: f64, start: f64, length: f64) -> f64 {
         if self.far == self.near || length <= start {
             return grown_count(first, length - start, self.near);
@@ -90,7 +90,7 @@ impl Growth {
     }
 }
 
-/// `ln near (r/r0)^s`, the logarithm of the growth.
+/// The law `ln near (r/r0)^s`, the logarithm of the growth factor.
 struct Law {
     near: f64,
     begin: f64,
@@ -99,15 +99,15 @@ struct Law {
 }
 
 impl Law {
-    /// Size of the element that begins at `at` over that of the one before, with `share` of the
-    /// law's logarithm.
+    /// Ratio of the size of the element that begins at `at` to the size of the one before, with the
+    /// law's logarithm multiplied by `share`.
     fn ratio(&self, at: f64, share: f64) -> f64 {
         let distance = (self.origin + at) / self.begin;
         (share * self.near * distance.powf(self.power)).exp()
     }
 
-    /// Sizes of `n` elements over the first, with the share of the law that makes them fill `sum`
-    /// firsts.
+    /// Sizes of `n` elements relative to the first. The law's logarithm is multiplied by the factor
+    /// for which the sizes add up to `sum`.
     fn sizes(&self, start: f64, first: f64, n: usize, sum: f64) -> Vec<f64> {
         let sizes = |share: f64| {
             let (mut at, mut size) = (0.0f64, 1.0);
@@ -115,7 +115,7 @@ impl Law {
             for _ in 0..n {
                 out.push(size);
                 at += size;
-                // Beyond the end the law would overflow.
+                // Limited to the end of the line, beyond which the law would overflow.
                 size *= self.ratio(start + first * at.min(sum), share);
             }
             (out, at)
@@ -131,12 +131,13 @@ impl Law {
     }
 }
 
-/// Corners from 0: `n_even` elements of `size`, then elements that grow by `ratio` until they reach
-/// `until`.
+/// Corners from 0 on: `n_even` elements of `size`, then elements that grow by `ratio` until they
+/// reach `until`.
 pub(super) fn even_then_slow(size: f64, n_even: usize, until: f64, ratio: f64) -> Vec<f64> {
     let mut corners: Vec<f64> = (0..=n_even).map(|i| size * i as f64).collect();
     let (mut at, mut step) = (size * n_even as f64, size);
-    // Rounding to whole elements ends the even part up to half of one short of its length.
+    // Because of rounding to whole elements, the even part may end up to half an element short of
+    // its length.
     while at + 0.5 * size < until && corners.len() < MOST_ON_A_LINE {
         step *= ratio;
         at += step;
@@ -145,8 +146,8 @@ pub(super) fn even_then_slow(size: f64, n_even: usize, until: f64, ratio: f64) -
     corners
 }
 
-/// From 0 to `length`: `n_even` elements of `size`, then elements that grow by about `growth`, a
-/// little adjusted so that the last one ends exactly at `length`.
+/// Positions from 0 to `length`: `n_even` elements of `size`, then elements that grow by about
+/// `growth`, slightly adjusted so that the last one ends exactly at `length`.
 pub(super) fn even_then_grown(
     key: &str,
     size: f64,
@@ -159,8 +160,9 @@ pub(super) fn even_then_grown(
     then_grown(key, corners, first, length, growth)
 }
 
-/// From the last of `corners` to `length`: elements that grow by about `growth`, the first of them
-/// about as large as `first`, a little adjusted so that the last one ends exactly at `length`.
+/// Positions from 0 to `length` that continue the given `corners`: the added elements grow by about
+/// `growth`, the first of them is about `first` long, and all are slightly adjusted so that the
+/// last one ends exactly at `length`.
 pub(super) fn then_grown(
     key: &str,
     mut corners: Vec<f64>,
@@ -198,7 +200,7 @@ pub(super) fn then_grown(
     with_midpoints(key, corners)
 }
 
-/// How many elements a geometric growth adds over `length` beginning with one of size `first`.
+/// Number of elements of geometric growth over `length`, of which the first has size `first`.
 fn grown_count(first: f64, length: f64, growth: f64) -> f64 {
     if length <= 0.0 {
         return 0.0;
@@ -212,7 +214,7 @@ fn grown_count(first: f64, length: f64, growth: f64) -> f64 {
     count.round().max(1.0)
 }
 
-/// The ratio `q` with `1 + q + ... + q^(n-1) = sum`.
+/// Solves `1 + q + ... + q^(n-1) = sum` for the ratio `q`.
 fn ratio_that_fills(sum: f64, n: usize, guess: f64) -> f64 {
     if n < 2 {
         return 1.0;
@@ -225,7 +227,8 @@ fn ratio_that_fills(sum: f64, n: usize, guess: f64) -> f64 {
     root::of(|q| series(q) - sum, 0.0, high)
 }
 
-/// Puts the mid-side positions between the corners; neighbours must differ in floating point.
+/// Inserts the mid-side positions between the corners, and refuses neighbours that are equal in
+/// floating point.
 fn with_midpoints(key: &str, corners: Vec<f64>) -> Result<Vec<f64>> {
     let mut positions = Vec::with_capacity(2 * corners.len());
     for pair in corners.windows(2) {
@@ -264,7 +267,8 @@ mod tests {
         for bias in [0.2, 1.0, 7.0] {
             let x = biased("x", 1.0, 3.0, 9, bias).unwrap();
             let ratio = (x[18] - x[16]) / (x[2] - x[0]);
-            // Sizes are differences of numbers near 3: a few ulps of 3 over the smallest size.
+            // Sizes are differences of numbers near 3, so their error is a few ulps of 3 relative
+            // to the smallest size.
             assert!((ratio / bias - 1.0).abs() < 1e-12, "{ratio}");
         }
         assert_eq!(biased("x", 0.0, 1.0, 1, 5.0).unwrap(), [0.0, 0.5, 1.0]);
@@ -291,8 +295,8 @@ mod tests {
             }
             let grown = n_even.max(1)..x.len() / 2;
             let sizes: Vec<f64> = grown.map(|i| x[2 * i + 2] - x[2 * i]).collect();
-            // Rounding the count to an integer moves the length filled by at most half the last
-            // element, and with it the ratio by a fraction of itself that falls with the count.
+            // Rounding the count to an integer changes the filled length by at most half the last
+            // element, and therefore the ratio by a fraction that decreases with the count.
             let n = sizes.len() as f64;
             for pair in sizes.windows(2) {
                 prop_assert!((pair[1] / pair[0] / growth - 1.0).abs() < 1.5 / n, "{:?}", sizes);
@@ -311,8 +315,8 @@ mod tests {
                 .collect();
             let ratios: Vec<f64> = sizes.windows(2).map(|p| p[1] / p[0]).collect();
             assert!(ratios.windows(2).all(|r| r[1] > r[0]), "{ratios:?}");
-            // The whole is stretched by less than half of the last element, an eighth or so of the
-            // law's logarithm.
+            // The whole line is stretched by less than half of the last element, which is about an
+            // eighth of the law's logarithm.
             assert!(
                 (ratios[0].ln() / 1.2f64.ln() - 1.0).abs() < 0.3,
                 "{ratios:?}"

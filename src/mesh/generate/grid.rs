@@ -1,10 +1,10 @@
-//! Structured patches of elements: `cells[0] x cells[1]` quadrilateral cells, each one
+//! Structured patches of elements: `cells[0] x cells[1]` quadrilateral cells, each of which is one
 //! quadrilateral or two triangles with alternating diagonals.
 //!
 //! A patch is addressed by half steps: `(2 i, 2 j)` is a corner, `(2 i + 1, 2 j)` the mid-side
-//! between two corners, `(2 i + 1, 2 j + 1)` the middle of a cell (a node only of six-node
-//! triangles, on the diagonal). The first index runs so that (first, second) is a right-handed
-//! system.
+//! position between two corners, and `(2 i + 1, 2 j + 1)` the middle of a cell, which is a node of
+//! six-node triangles only, on the diagonal. The directions of the first and the second index form
+//! a right-handed system.
 
 use crate::mesh::{Curve, Facet, Mesh, Shape, Surface};
 use crate::{Error, Result};
@@ -18,7 +18,7 @@ pub(super) struct BodyBuilder<'m> {
     shape: Shape,
 }
 
-/// A finished patch: its nodes by half steps, its elements by cells.
+/// A finished patch: nodes by half steps, elements by cells.
 pub(super) struct Grid {
     cells: [usize; 2],
     stride: usize,
@@ -40,7 +40,7 @@ pub(super) enum Side {
     Left,
 }
 
-/// No node here: the middle of a cell without one.
+/// Marks a position without a node: the middle of a cell.
 const NONE: u32 = u32::MAX;
 
 /// An empty mesh of dimension 2.
@@ -52,7 +52,7 @@ pub(super) fn empty_mesh() -> Mesh {
 }
 
 impl<'m> BodyBuilder<'m> {
-    /// Starts a body in a mesh.
+    /// Begins a body in a mesh.
     pub(super) fn new(mesh: &'m mut Mesh, name: &str, shape: Shape) -> Self {
         mesh.bodies.push(name.to_string());
         BodyBuilder {
@@ -63,9 +63,9 @@ impl<'m> BodyBuilder<'m> {
         }
     }
 
-    /// Adds a patch. `point` gives positions by half steps; `shared` gives a node that an earlier
-    /// patch of the body already has there. With `closed` the second index runs round a circle:
-    /// its end is its beginning.
+    /// Adds a patch. `point` gives positions by half steps. `shared` gives a node that an earlier
+    /// patch of the body already has at a position. With `closed` the second index runs around a
+    /// circle, and its last line is its first.
     pub(super) fn patch(
         &mut self,
         cells: [usize; 2],
@@ -107,9 +107,9 @@ impl<'m> BodyBuilder<'m> {
         grid
     }
 
-    /// The elements of one cell.
+    /// Adds the elements of one cell.
     fn cell(&mut self, grid: &Grid, i: usize, j: usize) {
-        // Corners, mid-sides and middle of the cell, counter-clockwise from (0, 0).
+        // Corners, mid-side nodes and middle of the cell, counter-clockwise from (0, 0).
         let at = |a: usize, b: usize| grid.node(2 * i + a, 2 * j + b);
         let [a, b, c, d] = [at(0, 0), at(2, 0), at(2, 2), at(0, 2)];
         let mid = |a: usize, b: usize| {
@@ -136,7 +136,7 @@ impl<'m> BodyBuilder<'m> {
         }
     }
 
-    /// Names facets of the body: surface `BODY.piece`.
+    /// Names facets of the body as the surface `BODY.piece`.
     pub(super) fn surface(
         &mut self,
         piece: &str,
@@ -148,7 +148,7 @@ impl<'m> BodyBuilder<'m> {
         Ok(())
     }
 
-    /// Names a node of the body: node set `BODY.piece`.
+    /// Names a node of the body as the node set `BODY.piece`.
     pub(super) fn node_set(&mut self, piece: &str, node: u32) -> Result<()> {
         let name = self.free_name(piece)?;
         self.mesh.node_sets.insert(name, vec![node as usize]);
@@ -173,7 +173,7 @@ impl Grid {
         self.nodes[(j / self.stride) * columns + i / self.stride]
     }
 
-    /// All facets on a side.
+    /// All facets on a side of the patch.
     pub(super) fn side(&self, side: Side) -> Vec<Facet> {
         let n = match side {
             Side::Bottom | Side::Top => self.cells[0],
@@ -182,7 +182,7 @@ impl Grid {
         self.side_range(side, 0..n)
     }
 
-    /// The facets of some cells on a side.
+    /// The facets of a range of cells on a side of the patch.
     pub(super) fn side_range(&self, side: Side, cells: Range<usize>) -> Vec<Facet> {
         cells.map(|k| self.facet(side, k)).collect()
     }
@@ -201,7 +201,8 @@ impl Grid {
                 local: quad_facet,
             };
         }
-        // Which of the cell's two triangles, and which of its facets: see `BodyBuilder::cell`.
+        // The cell's triangle on this side, and the triangle's local facet, as laid out by
+        // `BodyBuilder::cell`.
         let (triangle, local) = match (side, (i + j).is_multiple_of(2)) {
             (Side::Bottom, _) => (0, 0),
             (Side::Right, true) => (0, 1),

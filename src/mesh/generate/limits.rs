@@ -1,17 +1,18 @@
-//! What a generator accepts: finite sizes of the right sign, and a mesh that fits in memory.
+//! Limits of a generator's input: finite sizes of the right sign, and a mesh that fits in memory.
 
 use crate::memory;
 use crate::mesh::Shape;
 use crate::number::{bytes, exact};
 use crate::{Error, Result};
 
-/// Most elements a generator makes.
+/// Largest number of elements that a generator makes.
 pub(super) const MOST_ELEMENTS: f64 = 50e6;
 
-/// Sizes and coordinates beyond this overflow when multiplied by one another.
+/// Bound of sizes and coordinates: larger values overflow when multiplied together.
 const LARGEST: f64 = 1e100;
 
-/// A size: finite, positive and neither so large nor so small that products of sizes overflow.
+/// Requires a size to be finite, positive, and neither so large nor so small that products of sizes
+/// overflow.
 pub(super) fn positive(key: &str, value: f64) -> Result<()> {
     if value > 0.0 && (1.0 / LARGEST..=LARGEST).contains(&value) {
         return Ok(());
@@ -23,7 +24,7 @@ pub(super) fn positive(key: &str, value: f64) -> Result<()> {
     )))
 }
 
-/// A coordinate or angle.
+/// Requires a coordinate or an angle to be finite and within bounds.
 pub(super) fn finite(key: &str, value: f64) -> Result<()> {
     if value.abs() <= LARGEST {
         return Ok(());
@@ -34,7 +35,7 @@ pub(super) fn finite(key: &str, value: f64) -> Result<()> {
     )))
 }
 
-/// A range `[from, to]` with `from < to`.
+/// Requires a range `[from, to]` to satisfy `from < to`.
 pub(super) fn range(key: &str, [from, to]: [f64; 2]) -> Result<()> {
     finite(key, from)?;
     finite(key, to)?;
@@ -48,7 +49,7 @@ pub(super) fn range(key: &str, [from, to]: [f64; 2]) -> Result<()> {
     )))
 }
 
-/// A number of elements.
+/// Requires a number of elements to be at least `least`.
 pub(super) fn at_least(key: &str, value: usize, least: usize) -> Result<()> {
     if value >= least {
         return Ok(());
@@ -58,7 +59,7 @@ pub(super) fn at_least(key: &str, value: usize, least: usize) -> Result<()> {
     )))
 }
 
-/// A growth ratio.
+/// Requires a growth ratio to lie between 1 and 100.
 pub(super) fn growth(key: &str, value: f64) -> Result<()> {
     if (1.0..=100.0).contains(&value) {
         return Ok(());
@@ -68,8 +69,8 @@ pub(super) fn growth(key: &str, value: f64) -> Result<()> {
     )))
 }
 
-/// A growth ratio and that at the far end: not less, and more only where there is a growth to rise
-/// from.
+/// Checks a growth ratio and the one at the far end. The far ratio must not be smaller; it may be
+/// larger only if the near ratio is above 1.
 pub(super) fn growths(key: &str, near: f64, far_key: &str, far: Option<f64>) -> Result<()> {
     growth(key, near)?;
     let Some(far) = far else { return Ok(()) };
@@ -83,7 +84,7 @@ pub(super) fn growths(key: &str, near: f64, far_key: &str, far: Option<f64>) -> 
     )))
 }
 
-/// Elements made of `cells` quadrilateral cells.
+/// Number of elements into which `cells` quadrilateral cells are divided.
 pub(super) fn elements(cells: f64, shape: Shape) -> f64 {
     if shape.n_corners() == 3 {
         2.0 * cells
@@ -92,16 +93,16 @@ pub(super) fn elements(cells: f64, shape: Shape) -> f64 {
     }
 }
 
-/// Bytes of memory that a solid mesh takes at least, for each node: the mesh and its matrix.
+/// Least memory in bytes per node of a solid mesh: the mesh and its matrix.
 const BYTES_PER_NODE: f64 = 2000.0;
 
-/// Bytes of the factor for each node and each node along the shortest side of a body, at least.
-/// Nested dissection leaves `O(n m)` entries of a grid of n nodes and m along its shortest side;
-/// of boxes with 1e5 to 1e6 freedoms they take 670 to 780 bytes (`hex8`), 950 (`hex20`).
+/// Least memory in bytes of the factor per node and per node along the shortest side of a body.
+/// Nested dissection leaves `O(n m)` entries for a grid of n nodes with m along its shortest side;
+/// for boxes with 1e5 to 1e6 freedoms these take 670 to 780 bytes (`hex8`), 950 (`hex20`).
 const BYTES_OF_FACTOR: f64 = 500.0;
 
-/// Refuses bodies of so many hexahedral cells along each axis that memory cannot hold, before
-/// anything is allocated.
+/// Refuses bodies of hexahedral cells that memory cannot hold, before anything is allocated;
+/// `bodies` holds the numbers of cells along each axis.
 pub(in crate::mesh) fn solids(key: &str, bodies: &[[f64; 3]], shape: Shape) -> Result<()> {
     let elements = bodies
         .iter()
@@ -127,7 +128,7 @@ pub(in crate::mesh) fn solids(key: &str, bodies: &[[f64; 3]], shape: Shape) -> R
     }
 }
 
-/// Refuses a mesh that would be too large, before anything is allocated.
+/// Refuses a mesh with too many elements, before anything is allocated.
 pub(super) fn total(key: &str, elements: f64) -> Result<()> {
     if elements <= MOST_ELEMENTS {
         return Ok(());

@@ -1,9 +1,8 @@
-//! Meshes made from the few lines of a scene: structured, graded, exact on circles.
+//! Mesh generators for the few lines of a scene: structured, graded, exact on circles.
 //!
-//! Every generator builds its bodies from structured patches (`grid`), so that all four element
-//! shapes come from one set of corner and mid-side positions. Mid-side nodes lie on the grid line
-//! they belong to: on circles exactly on the circle, on straight lines half way. Bodies never
-//! share nodes.
+//! Every generator builds its bodies from structured patches (`grid`), so all four plane element
+//! shapes are made from one set of corner and mid-side positions. Mid-side nodes lie on their grid
+//! line: exactly on the circle for circles, halfway for straight lines. Bodies never share nodes.
 
 mod angle;
 mod brick;
@@ -40,13 +39,13 @@ use std::path::Path;
 /// The mesh that a scene's `[mesh]` asks for.
 ///
 /// A relative `file` is looked up in `directory` (the scene file's). `contact` gives the size of
-/// the contact of a cylinder on a half plane, `ellipse` that of curved bodies; they are only called
-/// for that geometry. What is made of
-/// the mesh of a file comes after: circles ([`super::lay_on`]) and subdivisions
-/// ([`super::subdivided`]), and the way to a solid ([`super::extruded`], [`super::revolved`]).
+/// the contact of a cylinder on a half plane, `ellipse` that of curved bodies; each is called for
+/// its own geometry only. Further steps are left to the caller: circles ([`super::lay_on`]) and
+/// subdivisions ([`super::subdivided`]) of a mesh from a file, and the sweep into a solid
+/// ([`super::extruded`], [`super::revolved`]).
 ///
 /// # Errors
-/// Input errors if not exactly one source is given, and those of the source itself.
+/// `Input` unless exactly one source is given; also the errors of the source itself.
 pub(crate) fn from_source(
     source: &MeshSource,
     directory: Option<&Path>,

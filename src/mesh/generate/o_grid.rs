@@ -1,16 +1,17 @@
-//! Discs: a square-ish core with bulged sides inside a ring of layers that ends on the circle.
+//! Discs: a nearly square core with bulged sides, inside a ring of layers that ends on the circle.
 //!
 //! In the first quadrant, with `n` elements over the quarter circle, the core has `n/2 x n/2`
-//! elements. Its side at angle `t <= 45 degrees` is the mean of a square's and a circle's,
+//! elements. The side of the core at an angle `t <= 45 degrees` is the mean of a square's side and
+//! a circle,
 //!
 //! ```text
 //!   x(t) = a ((1 - b) + b cos t),   y(t) = a ((1 - b) tan t + b sin t),   a = R/2, b = 1/2,
 //! ```
 //!
-//! which makes the three angles at the core's corner about 120 degrees. The transfinite
+//! With this shape the three angles at the core's corner are about 120 degrees. The transfinite
 //! interpolation between the axes and these sides is the product `(s_i x_j, s_j x_i)` with
-//! `s = y/y(45 degrees)`: exactly symmetric, exactly zero on the axes. Spokes between core and
-//! circle are radial, at equal angles.
+//! `s = y/y(45 degrees)`: exactly symmetric, and exactly zero on the axes. Spokes between core and
+//! circle are radial, at equally spaced angles.
 
 use super::angle::{direction, directions, turned};
 use super::grading;
@@ -19,28 +20,28 @@ use super::polar::Sector;
 use crate::Result;
 use crate::mesh::Facet;
 
-/// Half side of the core over the radius.
+/// Half the side of the core divided by the radius of the disc.
 const CORE: f64 = 0.5;
-/// Share of the circle in the core's sides.
+/// Weight of the circle in the shape of the core's sides.
 const BULGE: f64 = 0.5;
-/// Arc spacing at the circle over spacing at the core's side: `(pi/2)/(2 CORE)`.
+/// Arc spacing at the circle divided by the spacing at the core's side: `(pi/2)/(2 CORE)`.
 const SPREAD: f64 = std::f64::consts::FRAC_PI_2 / (2.0 * CORE);
 
 /// A disc or a sector of 90 or 180 degrees, with its named parts.
 pub(super) struct Disc {
-    /// Facets on the circle, from the start angle on.
+    /// Facets on the circle, beginning at the start angle.
     pub outer: Vec<Facet>,
-    /// Facets on the radius at the start angle; none for a full disc.
+    /// Facets on the radius at the start angle; empty for a full disc.
     pub start: Vec<Facet>,
-    /// Facets on the radius at the end angle; none for a full disc.
+    /// Facets on the radius at the end angle; empty for a full disc.
     pub end: Vec<Facet>,
-    /// The node in the centre.
+    /// The node at the centre of the disc.
     pub center: u32,
     /// The node on the circle at the end angle.
     pub pole: u32,
 }
 
-/// Layers between core and circle, about as thick as the elements are wide there.
+/// Number of layers between core and circle, each about as thick as the elements there are wide.
 fn n_layers(per_quarter: usize) -> usize {
     let mean_size = 0.5 * (2.0 * CORE + std::f64::consts::FRAC_PI_2) / per_quarter as f64;
     (((1.0 - CORE) / mean_size).round() as usize).max(1)
@@ -69,7 +70,8 @@ pub(super) fn disc_grid(
         [cx + x, cy + y]
     };
 
-    // The core covers the quadrants of the sector; its index origin is its lower left corner.
+    // The core covers the quadrants of the sector; the origin of its indices is its lower left
+    // corner.
     let (left, below) = match quarters {
         1 => (0, 0),
         2 => (side, 0),
@@ -139,13 +141,13 @@ fn radii(core: &Grid, ring: &Grid, quarters: usize, side: usize) -> (Vec<Facet>,
     (start, end)
 }
 
-/// Positions in the core by signed half steps from the centre.
+/// Positions in the core, addressed by signed half steps from the centre.
 struct Core {
-    /// Half steps from the centre to a side.
+    /// Number of half steps from the centre to a side.
     half: isize,
-    /// `s_k`: relative height of the side's points.
+    /// Relative heights `s_k` of the points on the core's side.
     height: Vec<f64>,
-    /// `x_k`: distance of the side's points from the axis they run along.
+    /// Distances `x_k` of the points on the core's side from the axis along which they run.
     distance: Vec<f64>,
 }
 
@@ -177,7 +179,8 @@ impl Core {
         ]
     }
 
-    /// The point of the core's rim on spoke `k` (half steps counter-clockwise from the start).
+    /// Indices of the point of the core's rim on spoke `k` (half steps counter-clockwise from the
+    /// start).
     fn rim(&self, k: usize) -> [isize; 2] {
         let (k, m) = (k as isize, self.half);
         match k / m {

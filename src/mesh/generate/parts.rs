@@ -1,4 +1,4 @@
-//! Blocks, ring sectors and disc sectors, put together.
+//! Blocks, bricks, ring sectors and disc sectors, combined into one mesh.
 
 use super::angle::direction;
 use super::brick::{Brick, BrickSide};
@@ -11,12 +11,12 @@ use crate::scene::{Block, BrickPart, Disc, Part, Piece, Ring};
 use crate::{Error, Result};
 use std::collections::BTreeSet;
 
-/// Any number of bodies, each a block, a ring sector or a disc sector, with the surfaces and node
-/// sets that [`Part`] documents; a disc's centre is the node set `BODY.center`. Bodies never share
-/// nodes.
+/// Generates any number of bodies, each a block, a brick, a ring sector or a disc sector, with the
+/// surfaces and node sets that [`Part`] documents. The centre of a disc is the node set
+/// `BODY.center`. Bodies never share nodes.
 ///
 /// # Errors
-/// Input errors name the part, the key, the value and what to give instead.
+/// `Input`, naming the part, the key, the value and what to give instead.
 pub fn parts(parts: &[Part]) -> Result<Mesh> {
     if parts.is_empty() {
         return Err(Error::input(
@@ -68,7 +68,7 @@ pub fn parts(parts: &[Part]) -> Result<Mesh> {
             (Some(block), _, _) => make_block(&mut builder, block),
             (_, Some(ring), _) => make_ring(&mut builder, ring),
             (_, _, Some(disc)) => make_disc(&mut builder, disc),
-            // Refused by `predicted_cells`.
+            // A part without a shape has been refused by `predicted_cells`.
             (None, None, None) => Ok(()),
         };
         made.map_err(|e| {
@@ -148,7 +148,7 @@ fn cells(key: &str, elements: [usize; 2]) -> Result<f64> {
     Ok(elements[0] as f64 * elements[1] as f64)
 }
 
-/// The span of an angle range in degrees, up to a full circle.
+/// Checks a range of angles and returns its span in degrees, at most a full circle.
 fn span(key: &str, angle: [f64; 2]) -> Result<f64> {
     limits::range(key, angle)?;
     let span = angle[1] - angle[0];
@@ -161,7 +161,7 @@ fn span(key: &str, angle: [f64; 2]) -> Result<f64> {
     Ok(span)
 }
 
-/// Quarters that a disc covers: 1, 2 or 4.
+/// Number of quarters that a disc covers: 1, 2 or 4.
 fn quarters(disc: &Disc) -> Result<usize> {
     let span = span("disc.angle", disc.angle)?;
     [1usize, 2, 4]
@@ -188,7 +188,7 @@ fn make_brick(mesh: &mut Mesh, part: &Part, brick: &BrickPart) -> Result<()> {
     let y = grading::biased("brick.y", brick.y[0], brick.y[1], ny, brick.bias[1])?;
     let z = grading::biased("brick.z", brick.z[0], brick.z[1], nz, brick.bias[2])?;
     let point = |[i, j, k]: [usize; 3]| [x[i], y[j], z[k]];
-    // The shape of plane parts, where none is given.
+    // Quad4, the default for all parts, stands for hex8 in a brick.
     let element = match part.element {
         Shape::Quad4 => Shape::Hex8,
         given => given,
@@ -235,7 +235,7 @@ fn make_block(builder: &mut BodyBuilder, block: &Block) -> Result<()> {
     Ok(())
 }
 
-/// The cells of a side whose both ends lie in the piece, to the round-off of the positions.
+/// The cells of a side both of whose ends lie in the piece, up to the round-off of the positions.
 fn piece_cells(key: &str, piece: &Piece, along: &[f64]) -> Result<std::ops::Range<usize>> {
     if piece.name.trim().is_empty() {
         return Err(Error::input(format!("{key}: give the piece a name")));
@@ -259,7 +259,7 @@ fn piece_cells(key: &str, piece: &Piece, along: &[f64]) -> Result<std::ops::Rang
     }
 }
 
-/// The straight sides of a sector.
+/// The straight sides of a sector, at its start and its end angle.
 fn start_and_end(angle: [f64; 2]) -> [Option<Curve>; 2] {
     let [c0, s0] = direction(angle[0]);
     let [c1, s1] = direction(angle[1]);

@@ -1,4 +1,4 @@
-//! Ring sectors: a grid in radius (first index) and angle (second index).
+//! Ring sectors, as a grid in radius (first index) and angle (second index).
 
 use super::angle::directions;
 use super::grid::{BodyBuilder, Grid};
@@ -11,24 +11,24 @@ pub(super) struct Sector {
     pub start: f64,
     /// Span in degrees, counter-clockwise.
     pub span: f64,
-    /// Elements along the angle.
+    /// Number of elements along the angle.
     pub n_angle: usize,
 }
 
 impl Sector {
-    /// True for the full circle, to the round-off of angles in degrees.
+    /// Whether the sector is the full circle, up to the round-off of angles in degrees.
     pub(super) fn is_closed(&self) -> bool {
         is_full_circle(self.span)
     }
 }
 
-/// True for a span of 360 degrees, to the round-off of angles in degrees.
+/// Whether a span is 360 degrees, up to the round-off of angles in degrees.
 pub(super) fn is_full_circle(span: f64) -> bool {
     (span - 360.0).abs() <= 1e-9
 }
 
-/// The grid of a ring sector with the given radii by half steps. Every circular grid line has its
-/// mid-side nodes on the circle: thin layers of coarse arcs would overlap otherwise.
+/// Adds the grid of a ring sector with the given radii by half steps. Mid-side nodes of every
+/// circular grid line lie on the circle; otherwise thin layers of coarse arcs would overlap.
 pub(super) fn ring_grid(builder: &mut BodyBuilder, sector: &Sector, radii: &[f64]) -> Grid {
     let span = if sector.is_closed() {
         360.0

@@ -1,8 +1,8 @@
-//! A roller between two raceways: the half model (x >= 0) of its section.
+//! A roller between two raceways: the half model (x >= 0) of its cross-section.
 //!
-//! The roller has a square in its middle, from whose sides lines run to the circle, fine at the
-//! bottom and at the top where the raceways are. Lines of the rings meet those of the roller: their
-//! nodes face each other.
+//! The roller has a square core, from whose sides grid lines run to the circle. The mesh is fine at
+//! the bottom and at the top, where the raceways are. Grid lines of the rings meet those of the
+//! roller, so contact nodes face each other.
 
 use super::grading::{Growth, even, even_then_grown};
 use super::grid::{BodyBuilder, Side, empty_mesh};
@@ -14,13 +14,14 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 const KEY: &str = "roller between raceways";
 /// Ratio of neighbouring element sizes away from the contacts.
 const GROWTH: f64 = 1.15;
-/// Half side of the square over the roller's radius.
+/// Half the side of the square core divided by the roller's radius.
 const CORE: f64 = 0.5;
-/// How deep elements are even below a contact, over how far they are along it.
+/// Ratio of the depth to which elements are even below a contact to the length over which they are
+/// even along it.
 const DEPTH: f64 = 0.8;
 
-/// Measures of a roller between two raceways. The roller's centre is the origin, the inner ring
-/// below it.
+/// Dimensions of a roller between two raceways. The roller's centre is the origin; the inner ring
+/// lies below the roller.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Raceways {
     /// Radius of the roller.
@@ -33,19 +34,19 @@ pub(crate) struct Raceways {
     pub thickness: f64,
     /// Size of the elements at the contacts.
     pub size: f64,
-    /// How far from the middles of the contacts elements have it.
+    /// Distance from the middle of each contact over which elements have this size.
     pub reach: f64,
 }
 
-/// A ring: its raceway, and where it lies beyond that.
+/// A ring: its raceway, and the side of the raceway on which the ring lies.
 struct RacewayRing {
     name: &'static str,
     radius: f64,
-    /// Height of its centre.
+    /// Height of the raceway's centre.
     center: f64,
-    /// 1 where it lies outside its raceway, -1 inside.
+    /// 1 if the ring lies outside its raceway, -1 if inside.
     out: f64,
-    /// The surface that faces away from the raceway.
+    /// Name of the surface that faces away from the raceway.
     back: &'static str,
 }
 
@@ -55,11 +56,12 @@ impl Raceways {
         [-self.roller - self.inner, self.roller - self.outer]
     }
 
-    /// The mesh: bodies `roller`, `inner` and `outer`; surfaces `roller.inner`, `roller.outer`,
-    /// `inner.raceway`, `outer.raceway`, `inner.bore`, `outer.seat`, and `symmetry` of each.
+    /// Generates the mesh with bodies `roller`, `inner` and `outer`; surfaces `roller.inner`,
+    /// `roller.outer`, `inner.raceway`, `outer.raceway`, `inner.bore`, `outer.seat`, and `symmetry`
+    /// of each body.
     ///
     /// # Errors
-    /// Radii that do not go together; elements too small to be told apart.
+    /// `Input` if the radii do not go together, or if elements are too small to be told apart.
     pub fn mesh(&self, shape: Shape) -> Result<Mesh> {
         let wrong = |text: &str| Err(Error::input(format!("{KEY}: {text}")));
         if self.outer <= self.roller {
@@ -96,7 +98,7 @@ impl Raceways {
         Ok(mesh)
     }
 
-    /// Places by half steps: even up to about `until`, then growing up to `end`.
+    /// Positions by half steps, evenly spaced up to about `until`, then growing up to `end`.
     fn graded(&self, until: f64, end: f64) -> Result<Vec<f64>> {
         let n = (until.min(end) / self.size).ceil().max(1.0);
         if until + self.size >= end {
@@ -111,12 +113,12 @@ impl Raceways {
         let core = CORE * radius;
         let depths = self.graded(DEPTH * self.reach, radius - core)?;
         let (nx, nd) = (along.len() - 1, depths.len() - 1);
-        // About as long as the innermost layer is thick.
+        // Rows of elements about as long as the innermost layer is thick.
         let innermost = depths[nd] - depths[nd - 2];
         let rows = (2.0 * core / innermost).ceil().max(4.0) as usize;
         let x = |i: usize| core * along[i] / along[nx];
         let y = even(KEY, -core, core, rows)?;
-        // From the square outwards, by half steps.
+        // A point between the square core and the circle, by half steps from the square outwards.
         let line = |square: [f64; 2], circle: [f64; 2], j: usize| {
             let t = 1.0 - depths[nd - j] / depths[nd];
             [0, 1].map(|d| match j {
@@ -175,14 +177,15 @@ impl Raceways {
         let angle = |arc: &f64| (self.roller * (arc / self.roller).sin() / ring.radius).asin();
         let mut angles: Vec<f64> = along.iter().map(angle).collect();
         let facing = angles.len() - 1;
-        // Beyond what faces the roller the ring goes on by as much as it is thick.
+        // Beyond the part that faces the roller, the ring continues by a length equal to its
+        // thickness.
         let from = angles[facing];
         let end = (from + self.thickness / ring.radius).min(FRAC_PI_2);
         let more = ((end - from) / (from - angles[facing - 2])).ceil().max(1.0);
         angles.extend(&even(KEY, from, end, more as usize)?[1..]);
         let depths = self.graded(DEPTH * self.reach, self.thickness)?;
         let last = depths.len() - 1;
-        // The second index runs upwards, away from the centre.
+        // The second index runs upwards, so away from the centre.
         let depth = |j: usize| match ring.out > 0.0 {
             true => depths[j],
             false => -depths[last - j],
@@ -222,7 +225,8 @@ mod tests {
         reach: 0.1,
     };
 
-    /// Nodes of both contacts face each other on their circles, and what is meshed is all there is.
+    /// Nodes of both contacts face each other on their circles, and nothing but the section is
+    /// meshed.
     #[test]
     fn rings_face_the_roller_node_by_node() {
         for shape in [Shape::Quad4, Shape::Quad8, Shape::Tri6] {

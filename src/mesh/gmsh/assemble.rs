@@ -1,4 +1,4 @@
-//! From what the file holds to a mesh: bodies, boundary facets, node sets.
+//! Assembly of a mesh from the content of a file: bodies, boundary facets, node sets.
 
 use super::content::{Content, RawElement};
 use super::cursor::Cursor;
@@ -8,7 +8,8 @@ use crate::shape::MAX_NODES;
 use crate::{Error, Result};
 use std::collections::{BTreeMap, HashMap};
 
-/// Makes the mesh, a solid one where there are volumes; `cursor` gives line numbers to messages.
+/// Makes the mesh, a solid one if the file has volumes; `cursor` supplies line numbers for
+/// messages.
 pub(super) fn assemble(content: Content, cursor: &Cursor) -> Result<Mesh> {
     let dimensions = content.elements.iter().map(|e| e.kind.dimension());
     let dimension = dimensions.max().unwrap_or(0);
@@ -46,11 +47,11 @@ pub(super) fn assemble(content: Content, cursor: &Cursor) -> Result<Mesh> {
     Ok(mesh)
 }
 
-/// No node of a body.
+/// Marks a node that belongs to no body.
 const DROPPED: u32 = u32::MAX;
 
-/// Keeps the nodes of bodies; returns new indices. Checks that those of a plane mesh lie in a plane
-/// z = constant.
+/// Keeps the nodes of bodies and returns their new indices. Checks that the nodes of a plane mesh
+/// lie in a plane z = constant.
 fn keep_nodes(content: &Content, cursor: &Cursor, mesh: &mut Mesh) -> Result<Vec<u32>> {
     let mut kept = vec![DROPPED; content.node_labels.len()];
     for (_, nodes) in content.of_bodies(mesh.dimension as u64) {
@@ -82,7 +83,7 @@ fn keep_nodes(content: &Content, cursor: &Cursor, mesh: &mut Mesh) -> Result<Vec
         mesh.node_labels.push(label);
         mesh.coordinates.extend(&[x, y, z][..mesh.dimension]);
     }
-    // Coordinates are often written with some ten digits.
+    // The tolerance allows for coordinates written with about ten digits.
     if mesh.dimension == 2 && highest.0 > 1e-9 * extent {
         return Err(cursor.error(format!(
             "node {} lies {} outside of the plane z = {}: the mesh must be plane",
@@ -100,7 +101,7 @@ fn add_elements(content: &Content, kept: &[u32], mesh: &mut Mesh) {
     let mut tags: Vec<u64> = of_bodies().filter_map(|(e, _)| e.group).collect();
     tags.sort_unstable();
     tags.dedup();
-    // Groups of one name are one body.
+    // Physical groups with the same name form one body.
     let mut body_of: HashMap<u64, usize> = HashMap::new();
     for tag in tags {
         let name = content.group_name((dimension, tag));
@@ -126,7 +127,7 @@ fn add_elements(content: &Content, kept: &[u32], mesh: &mut Mesh) {
         }
         let body = match last {
             Some((other, body)) if other == group => body,
-            // Every element's group was entered above.
+            // The group of every element was entered above.
             _ => body_of[&group],
         };
         last = Some((group, body));
@@ -135,7 +136,7 @@ fn add_elements(content: &Content, kept: &[u32], mesh: &mut Mesh) {
     }
 }
 
-/// Twice the signed area of the polygon of the corners.
+/// Twice the signed area of the polygon formed by the corners.
 fn twice_area(mesh: &Mesh, shape: Shape, nodes: &[u32]) -> f64 {
     let n = shape.n_corners();
     let [x0, y0] = mesh.in_plane(nodes[0] as usize);
@@ -151,7 +152,7 @@ fn twice_area(mesh: &Mesh, shape: Shape, nodes: &[u32]) -> f64 {
         .sum()
 }
 
-/// Reverses the order of an element's nodes; the first corner stays.
+/// Reverses the orientation of an element; the first corner stays first.
 fn turn_round(shape: Shape, nodes: &mut [u32]) {
     let n = shape.n_corners();
     nodes[1..n].reverse();
@@ -175,7 +176,7 @@ fn add_node_sets(content: &Content, cursor: &Cursor, kept: &[u32], mesh: &mut Me
         }
         mesh.node_sets.entry(name).or_default().push(node as usize);
     }
-    // Lines of a solid mesh are nothing but their nodes.
+    // Lines of a solid mesh contribute their nodes only.
     let lines = content
         .with_nodes()
         .filter(|(e, _)| e.kind.dimension() == 1);
@@ -193,10 +194,10 @@ fn add_node_sets(content: &Content, cursor: &Cursor, kept: &[u32], mesh: &mut Me
     Ok(())
 }
 
-/// The corners of a facet, ascending; `DROPPED` where it has fewer than four.
+/// The corners of a facet in ascending order, padded with [`DROPPED`] to four.
 type FacetKey = [u32; 4];
 
-/// Facets by their corners; at most two elements share one.
+/// Facets by their corners; at most two elements share a facet.
 type Facets = HashMap<FacetKey, Vec<Facet>>;
 
 fn sorted(corners: impl Iterator<Item = u32>) -> FacetKey {
@@ -208,7 +209,8 @@ fn sorted(corners: impl Iterator<Item = u32>) -> FacetKey {
     out
 }
 
-/// The elements of the file that are facets of bodies and in a group, with their nodes.
+/// The elements of the file in physical groups whose dimension is that of facets, with their group
+/// and nodes.
 fn boundary<'c>(
     content: &'c Content,
     mesh: &Mesh,
@@ -220,10 +222,10 @@ fn boundary<'c>(
     of_boundary.filter_map(|(e, nodes)| Some((e, e.group?, nodes)))
 }
 
-/// The facets of elements that have the corners of boundary elements.
+/// The facets of mesh elements that have the same corners as boundary elements of the file.
 fn facets_on_boundary(content: &Content, kept: &[u32], mesh: &Mesh) -> Facets {
     let mut out = Facets::new();
-    // Few facets have all corners on the boundary: the marks spare the others the look-up.
+    // Few facets have all corners on the boundary: the marks avoid looking up the others.
     let mut marked = vec![false; mesh.n_nodes()];
     for (element, _, nodes) in boundary(content, mesh) {
         let corners = || {
@@ -297,8 +299,9 @@ fn add_surfaces(content: &Content, cursor: &Cursor, kept: &[u32], mesh: &mut Mes
     Ok(())
 }
 
-/// Of the facets with some corners: that of the body whose name begins the surface's, else that of
-/// the element on the left of a line, of the element that a face looks out of.
+/// Chooses among facets with the same corners. Preferred is the facet of the body whose name begins
+/// the surface's name; otherwise the facet of the element to the left of a line, or of the element
+/// from which a face points outward.
 fn choose(mesh: &Mesh, facets: &[Facet], corners: &[u32], name: &str) -> Option<Facet> {
     if facets.len() < 2 {
         return facets.first().copied();

@@ -1,4 +1,4 @@
-//! What both versions of the format hold, before it becomes a mesh.
+//! The content of a file, common to both versions of the format, before a mesh is made of it.
 
 use super::cursor::Cursor;
 use super::kind::Kind;
@@ -7,22 +7,22 @@ use crate::shape::MAX_NODES;
 use crate::{Error, ErrorKind, Result};
 use std::collections::BTreeMap;
 
-/// A physical group: dimension and tag.
+/// A physical group, given by dimension and tag.
 pub(super) type Group = (u64, u64);
 
-/// Nodes, elements and physical groups of a file. Elements refer to nodes by index; byte offsets
-/// lead messages back to the line.
+/// Nodes, elements and physical groups of a file. Elements refer to nodes by index. Byte offsets
+/// lead messages back to the line in the file.
 #[derive(Default)]
 pub(super) struct Content {
     /// Names of physical groups.
     pub names: BTreeMap<Group, String>,
-    /// Node numbers as in the file.
+    /// Node numbers as given in the file.
     pub node_labels: Vec<u64>,
     /// Coordinates, three per node.
     pub coordinates: Vec<f64>,
-    /// Node index by number.
+    /// Node indices by node number.
     pub node_index: LabelIndex,
-    /// Lines in physical groups, faces and volumes.
+    /// Lines that are in physical groups, and all faces and volumes.
     pub elements: Vec<RawElement>,
     /// Nodes of all elements, one element after the other.
     pub connectivity: Vec<u32>,
@@ -30,28 +30,28 @@ pub(super) struct Content {
     pub points: Vec<RawPoint>,
 }
 
-/// An element of a body or of the boundary; its nodes follow those of the elements before it. One
-/// that is in several groups is there for each.
+/// An element of a body or of the boundary. Nodes are stored in [`Content::connectivity`] in the
+/// order of the elements. An element in several groups is stored once for each.
 pub(super) struct RawElement {
     pub kind: Kind,
     pub label: u64,
-    /// Tag of the physical group; `None` in no group.
+    /// Tag of the physical group; `None` if the element is in no group.
     pub group: Option<u64>,
-    /// Byte offset of its line in the file.
+    /// Byte offset of the element's line in the file.
     pub at: usize,
 }
 
-/// A point of a physical group, as the file has it.
+/// A point of a physical group as given in the file.
 pub(super) struct RawPoint {
     pub node: u32,
     /// Tag of the physical point.
     pub group: u64,
-    /// Byte offset of its line in the file.
+    /// Byte offset of the point's line in the file.
     pub at: usize,
 }
 
 impl Content {
-    /// Reads `$PhysicalNames`, the same in both versions.
+    /// Reads `$PhysicalNames`, which is the same in both versions of the format.
     pub(super) fn read_names(&mut self, cursor: &mut Cursor) -> Result<()> {
         let n = cursor.count("the number of physical names")?;
         cursor.end_line()?;
@@ -64,7 +64,7 @@ impl Content {
         Ok(())
     }
 
-    /// The name of a group; its number where it has none.
+    /// The name of a group, or its number if it has no name.
     pub(super) fn group_name(&self, group: Group) -> String {
         match self.names.get(&group) {
             Some(name) => name.clone(),
@@ -72,7 +72,7 @@ impl Content {
         }
     }
 
-    /// Called when all nodes are read.
+    /// Builds the index of nodes by number, once all nodes have been read.
     pub(super) fn index_nodes(&mut self, cursor: &Cursor) -> Result<()> {
         if self.node_labels.len() >= u32::MAX as usize {
             return Err(cursor.error(format!(
@@ -85,7 +85,7 @@ impl Content {
         Ok(())
     }
 
-    /// The kind of an element type, or an error that names the type.
+    /// The kind of an element type, or an error that names the unsupported type.
     pub(super) fn kind(cursor: &Cursor, at: usize, element_type: u64) -> Result<Kind> {
         Kind::from_type(element_type).map_err(|name| {
             let place = cursor.error_at(at, format!("unsupported {name}"));
@@ -101,7 +101,8 @@ impl Content {
         })
     }
 
-    /// Reads the nodes of an element to the end of the line and keeps it in each of `groups`.
+    /// Reads the nodes of an element to the end of the line, and stores the element once for each
+    /// of `groups`.
     pub(super) fn read_element(
         &mut self,
         cursor: &mut Cursor,
@@ -147,7 +148,7 @@ impl Content {
         Ok(())
     }
 
-    /// The elements with their nodes, as indices.
+    /// All elements with their nodes, given as node indices.
     pub(super) fn with_nodes(&self) -> impl Iterator<Item = (&RawElement, &[u32])> {
         let mut rest = self.connectivity.as_slice();
         self.elements.iter().map(move |element| {
@@ -157,13 +158,13 @@ impl Content {
         })
     }
 
-    /// The elements that belong to bodies with their nodes, each with its physical group.
+    /// The elements of bodies, whose dimension is that of the mesh, with their nodes.
     pub(super) fn of_bodies(&self, dimension: u64) -> impl Iterator<Item = (&RawElement, &[u32])> {
         self.with_nodes()
             .filter(move |(element, _)| element.kind.dimension() == dimension)
     }
 
-    /// Checks that every element of a body is in one physical group.
+    /// Checks that every element of a body is in exactly one physical group.
     pub(super) fn require_one_body(&self, dimension: u64, cursor: &Cursor) -> Result<()> {
         let mut elements = self
             .of_bodies(dimension)
@@ -171,7 +172,7 @@ impl Content {
             .peekable();
         while let Some(element) = elements.next() {
             let mut groups: Vec<u64> = element.group.into_iter().collect();
-            // Copies of an element in several groups follow one another.
+            // Copies of an element in several groups follow each other.
             while let Some(copy) = elements.next_if(|next| next.at == element.at) {
                 groups.extend(copy.group);
             }
@@ -183,7 +184,7 @@ impl Content {
         Ok(())
     }
 
-    /// Why an element cannot be given to a body.
+    /// The reason why an element cannot be assigned to a body.
     fn wrong_groups(&self, dimension: u64, label: u64, groups: &[u64]) -> String {
         let what = if dimension == 3 { "volume" } else { "surface" };
         let group = if dimension == 3 { "Volume" } else { "Surface" };

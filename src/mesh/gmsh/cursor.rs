@@ -1,4 +1,4 @@
-//! Reading numbers and words straight from the bytes of a file.
+//! Reads numbers and words directly from the bytes of a file.
 
 use super::encoding::Encoding;
 use crate::{Error, Result};
@@ -7,11 +7,11 @@ use crate::{Error, Result};
 pub(super) struct Cursor<'a> {
     text: &'a [u8],
     at: usize,
-    /// The file's name, for messages.
+    /// Name of the file, for messages.
     name: &'a str,
     /// The section being read, for messages.
     pub section: &'static str,
-    /// How numbers are written.
+    /// Encoding of the numbers in the file.
     encoding: Encoding,
 }
 
@@ -26,17 +26,17 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// Numbers from here on are written so.
+    /// Sets the encoding of all numbers from here on.
     pub(super) fn set_encoding(&mut self, encoding: Encoding) {
         self.encoding = encoding;
     }
 
-    /// Whether numbers are bytes of the machine that wrote them.
+    /// Whether numbers are stored as bytes of the machine that wrote the file.
     pub(super) fn is_binary(&self) -> bool {
         self.encoding != Encoding::Text
     }
 
-    /// What is text in a binary file, too.
+    /// Reads a part that is text even in a binary file.
     pub(super) fn in_text<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         let encoding = std::mem::replace(&mut self.encoding, Encoding::Text);
         let found = read(self);
@@ -44,7 +44,7 @@ impl<'a> Cursor<'a> {
         found
     }
 
-    /// The next bytes.
+    /// Reads the next `N` bytes.
     pub(super) fn bytes<const N: usize>(&mut self, what: &str) -> Result<[u8; N]> {
         let Some(bytes) = self.text[self.at..].first_chunk::<N>() else {
             return Err(self.error(format!(
@@ -56,7 +56,8 @@ impl<'a> Cursor<'a> {
         Ok(*bytes)
     }
 
-    /// The next number as so many bytes, without a sign.
+    /// Reads the next binary number, of eight bytes if `wide` and otherwise of four, which must not
+    /// be negative.
     fn binary(&mut self, what: &str, encoding: Encoding, wide: bool) -> Result<u64> {
         let start = self.at;
         let value = match wide {
@@ -67,23 +68,24 @@ impl<'a> Cursor<'a> {
             .map_err(|_| self.error_at(start, format!("expected {what}, found {value}")))
     }
 
-    /// The byte offset, for [`Cursor::error_at`].
+    /// The current byte offset, for [`Cursor::error_at`].
     pub(super) fn at(&self) -> usize {
         self.at
     }
 
-    /// Bytes not yet read: an upper bound for everything that the rest of the file can hold.
+    /// Number of bytes not yet read: an upper bound for everything that the rest of the file can
+    /// hold.
     pub(super) fn remaining(&self) -> usize {
         self.text.len() - self.at
     }
 
-    /// An error at the current place.
+    /// An error at the current byte offset.
     pub(super) fn error(&self, message: impl std::fmt::Display) -> Error {
         self.error_at(self.at, message)
     }
 
-    /// An error at a byte offset: file and line number, of a binary file the byte, in front of the
-    /// message. The line is counted only here, so that reading does not pay for it.
+    /// An error at a byte offset: the file and the line number (for a binary file the byte) precede
+    /// the message. Lines are counted only here, so that reading does not pay for it.
     pub(super) fn error_at(&self, at: usize, message: impl std::fmt::Display) -> Error {
         if self.is_binary() {
             return Error::input(format!("{}, byte {at}: {message}", self.name));
@@ -111,18 +113,18 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// True at the end of the text.
+    /// Whether the end of the text is reached.
     pub(super) fn is_at_end(&self) -> bool {
         self.at >= self.text.len()
     }
 
-    /// True where the line has nothing more.
+    /// Whether nothing but blanks is left on the line.
     pub(super) fn is_at_line_end(&mut self) -> bool {
         self.skip_blanks();
         matches!(self.peek(), None | Some(b'\n'))
     }
 
-    /// The rest of the line, without blanks at its end; moves to the next line.
+    /// Returns the rest of the line without trailing blanks, and moves to the next line.
     pub(super) fn rest_of_line(&mut self) -> &'a [u8] {
         let rest = &self.text[self.at..];
         let length = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
@@ -130,7 +132,8 @@ impl<'a> Cursor<'a> {
         rest[..length].trim_ascii_end()
     }
 
-    /// Requires the line to end here and moves to the next; a binary file has no lines.
+    /// Requires the line to end here and moves to the next; does nothing in a binary file, which
+    /// has no lines.
     pub(super) fn end_line(&mut self) -> Result<()> {
         if self.is_binary() {
             return Ok(());
@@ -143,7 +146,7 @@ impl<'a> Cursor<'a> {
         Ok(())
     }
 
-    /// The next word of the line, shortened, for messages.
+    /// The next word of the line, shortened for use in messages.
     fn word_ahead(&self) -> String {
         const LONGEST: usize = 40;
         let rest = &self.text[self.at.min(self.text.len())..];
@@ -166,7 +169,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next word of the line.
+    /// Reads the next word of the line.
     fn word(&mut self, what: &str) -> Result<&'a [u8]> {
         self.skip_blanks();
         let rest = &self.text[self.at..];
@@ -181,8 +184,8 @@ impl<'a> Cursor<'a> {
         Ok(&rest[..length])
     }
 
-    /// The next number, without a sign; in a binary file as wide as the version has numbers of
-    /// nodes and elements.
+    /// Reads the next number without a sign. In a binary file the number is as wide as the format
+    /// version stores numbers of nodes and elements.
     pub(super) fn unsigned(&mut self, what: &str) -> Result<u64> {
         match self.encoding {
             Encoding::Text => self.digits(what),
@@ -190,7 +193,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next number, without a sign; in a binary file of four bytes.
+    /// Reads the next number without a sign; in a binary file it has four bytes.
     pub(super) fn small(&mut self, what: &str) -> Result<u64> {
         match self.encoding {
             Encoding::Text => self.digits(what),
@@ -224,7 +227,7 @@ impl<'a> Cursor<'a> {
         Ok(value)
     }
 
-    /// The next number, with or without a sign; in a binary file of four bytes.
+    /// Reads the next number, with or without a sign; in a binary file it has four bytes.
     pub(super) fn signed(&mut self, what: &str) -> Result<i64> {
         if self.is_binary() {
             let bytes = self.bytes(what)?;
@@ -250,7 +253,8 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// A count; `None` of what it counts can be there if it exceeds the bytes that are left.
+    /// Reads a count, and refuses it if it exceeds the number of bytes left, because the file then
+    /// cannot hold what is counted.
     pub(super) fn count(&mut self, what: &str) -> Result<usize> {
         let start = self.at;
         let value = self.unsigned(what)?;
@@ -267,7 +271,7 @@ impl<'a> Cursor<'a> {
         Ok(value as usize)
     }
 
-    /// The next floating point number.
+    /// Reads the next floating point number.
     pub(super) fn float(&mut self, what: &str) -> Result<f64> {
         if self.is_binary() {
             let bytes = self.bytes(what)?;
@@ -286,7 +290,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// A name in double quotes.
+    /// Reads a name in double quotes.
     pub(super) fn quoted(&mut self, what: &str) -> Result<String> {
         self.skip_blanks();
         let start = self.at;
@@ -305,7 +309,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The name of the section that begins here, as `$Name`, or `None` at the end of the file.
+    /// Reads the name of the section that begins here, as `$Name`; `None` at the end of the file.
     pub(super) fn section_start(&mut self) -> Result<Option<&'a [u8]>> {
         self.skip_lines();
         if self.is_at_end() {
@@ -318,7 +322,7 @@ impl<'a> Cursor<'a> {
         Ok(Some(name))
     }
 
-    /// Requires the end of a section.
+    /// Requires the line that ends a section.
     pub(super) fn section_end(&mut self, end: &str) -> Result<()> {
         self.skip_lines();
         let start = self.at;
@@ -329,11 +333,11 @@ impl<'a> Cursor<'a> {
         Err(self.expected(end))
     }
 
-    /// Skips a section that is of no use here.
+    /// Skips a section that is not needed.
     pub(super) fn skip_section(&mut self, start: &[u8]) -> Result<()> {
         let name = start.strip_prefix(b"$").unwrap_or(start);
         if self.is_binary() {
-            // Line ends are bytes like others.
+            // In a binary file line ends are bytes like any others.
             let end = [b"$End", name].concat();
             let mut ahead = self.text[self.at..].windows(end.len());
             if let Some(length) = ahead.position(|bytes| bytes == end) {

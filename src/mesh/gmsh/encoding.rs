@@ -1,16 +1,17 @@
-//! How a file writes numbers: as text, or as the bytes of the machine that wrote it.
+//! Encoding of numbers in a file: text, or the bytes of the machine that wrote the file.
 
 use super::cursor::Cursor;
 use crate::{Error, ErrorKind, Result};
 
-/// Text, or bytes in one of two orders.
+/// Text, or binary numbers in one of two byte orders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
-    /// Decimal digits.
+    /// Numbers written as decimal digits.
     Text,
-    /// Bytes; the numbers of nodes and elements have eight in version 4.1 and four in 2.2.
+    /// Numbers written as bytes; numbers of nodes and elements have eight bytes in version 4.1 and
+    /// four in 2.2.
     Binary {
-        /// Whether the bytes of a number stand the other way round than here.
+        /// Whether the byte order is the reverse of this machine's.
         swapped: bool,
         /// Whether numbers of nodes and elements have eight bytes.
         wide: bool,
@@ -19,10 +20,11 @@ pub(super) enum Encoding {
 
 impl Encoding {
     /// Reads what follows the version in `$MeshFormat`: whether the file is binary, the size of a
-    /// number, and of a binary file the number one.
+    /// number, and in a binary file the number one, which shows the byte order.
     ///
     /// # Errors
-    /// Numbers of other sizes than brinell reads; a number one that is none.
+    /// `Unsupported` for numbers of any size other than eight bytes; `Input` for an unknown file
+    /// type, or if the number one cannot be recognised.
     pub(super) fn read(cursor: &mut Cursor, is_version_4: bool) -> Result<Encoding> {
         let at = cursor.at();
         let file_type = cursor.unsigned("the file type")?;
@@ -67,7 +69,7 @@ impl Encoding {
         matches!(self, Encoding::Binary { wide: true, .. })
     }
 
-    /// The bytes of a number in the order of this machine.
+    /// Returns the bytes of a number in the byte order of this machine.
     pub(super) fn ordered<const N: usize>(self, mut bytes: [u8; N]) -> [u8; N] {
         if matches!(self, Encoding::Binary { swapped: true, .. }) {
             bytes.reverse();

@@ -1,5 +1,5 @@
-//! The entities of a file of version 4.1: which physical groups each is in, and which parts of a
-//! partitioned mesh a file holds.
+//! The entities of a file of version 4.1: the physical groups of each, and the parts of a
+//! partitioned mesh that the file holds.
 
 use super::cursor::Cursor;
 use crate::Result;
@@ -29,8 +29,9 @@ impl Entities {
         Ok(())
     }
 
-    /// Reads `$PartitionedEntities`: what the entities were cut into. A piece is in the groups of
-    /// its entity; the interfaces between pieces are of a lower dimension, and in none.
+    /// Reads `$PartitionedEntities`, the pieces into which the entities were cut. A piece belongs
+    /// to the groups of its entity. The interfaces between pieces have a lower dimension and belong
+    /// to no group.
     pub(super) fn read_partitioned(&mut self, cursor: &mut Cursor) -> Result<()> {
         let header = cursor.at();
         let announced = cursor.count("the number of partitions")?;
@@ -66,7 +67,7 @@ impl Entities {
     }
 }
 
-/// Numbers of points, curves, surfaces and volumes.
+/// Reads the numbers of points, curves, surfaces and volumes.
 fn read_counts(cursor: &mut Cursor) -> Result<[usize; 4]> {
     let mut counts = [0; 4];
     for (count, what) in counts.iter_mut().zip([
@@ -81,9 +82,9 @@ fn read_counts(cursor: &mut Cursor) -> Result<[usize; 4]> {
     Ok(counts)
 }
 
-/// Reads what follows the tags of an entity to its end: its physical groups.
+/// Reads the rest of an entity after its tags, and returns its physical groups.
 fn read_groups(cursor: &mut Cursor, dimension: usize) -> Result<Vec<u64>> {
-    // A point has its position, everything else a bounding box.
+    // A point has its position here, any other entity its bounding box.
     for _ in 0..if dimension == 0 { 3 } else { 6 } {
         cursor.float("a coordinate of an entity")?;
     }
@@ -95,7 +96,7 @@ fn read_groups(cursor: &mut Cursor, dimension: usize) -> Result<Vec<u64>> {
             tags.push(tag);
         }
     }
-    // The bounding entities that follow are of no use here.
+    // The bounding entities that follow are not needed.
     if !cursor.is_binary() {
         cursor.rest_of_line();
     } else if dimension > 0 {
@@ -106,25 +107,26 @@ fn read_groups(cursor: &mut Cursor, dimension: usize) -> Result<Vec<u64>> {
     Ok(tags)
 }
 
-/// The partitions whose elements a file holds.
+/// The partitions of which a file holds elements.
 #[derive(Debug, Default)]
 pub(super) struct Partitions {
     held: BTreeSet<u64>,
 }
 
 impl Partitions {
-    /// There are elements of a partition; 0 is none.
+    /// Records that the file has elements of a partition; 0 means no partition.
     pub(super) fn add(&mut self, partition: u64) {
         if partition != 0 {
             self.held.insert(partition);
         }
     }
 
-    /// Requires elements of each of at least `announced` partitions, where the mesh is partitioned;
-    /// `at` is the place for the message. Gmsh partitions no mesh into a single one.
+    /// Requires elements of each of at least `announced` partitions if the mesh is partitioned;
+    /// `at` is the place for the message. At least two partitions are required, because Gmsh never
+    /// makes a single one.
     ///
     /// # Errors
-    /// A partition without elements: the file is one of several.
+    /// `Input` if a partition has no elements: the file is then one of several.
     pub(super) fn require_all(&self, announced: u64, cursor: &Cursor, at: usize) -> Result<()> {
         let Some(&largest) = self.held.last() else {
             return Ok(());

@@ -1,24 +1,26 @@
-//! Element types of the format.
+//! Element types of the Gmsh format.
 
 use crate::mesh::Shape;
 use crate::shape::FacetReference;
 
-/// The type of a point.
+/// Number of the element type of a point.
 const POINT: u64 = 15;
 
-/// What an element of the file is to brinell.
+/// Use of an element of the file in brinell.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Kind {
-    /// A point: a node of a node set.
+    /// A point, which becomes a node of a node set.
     Point,
-    /// A line: an edge of a plane surface. With three nodes the last is the mid-side node.
+    /// A line, which is an edge of a plane surface. If it has three nodes, the last is the mid-side
+    /// node.
     Line(&'static FacetReference),
-    /// An element of a body, or a face of a solid one.
+    /// An element of a body, or a face of a solid body.
     Element(Shape),
 }
 
 impl Kind {
-    /// The kind of a type number; the name of the type where brinell has no such element.
+    /// The kind of a type number; an error with the name of the type if brinell has no such
+    /// element.
     pub(super) fn from_type(number: u64) -> Result<Kind, String> {
         if let Some(shape) = Shape::of_gmsh(number) {
             return Ok(Kind::Element(shape));
@@ -69,7 +71,7 @@ impl Kind {
         Err(format!("{name} (type {number})"))
     }
 
-    /// Number of nodes.
+    /// Number of nodes of the element.
     pub(super) fn n_nodes(self) -> usize {
         match self {
             Kind::Point => 1,
@@ -78,7 +80,7 @@ impl Kind {
         }
     }
 
-    /// Dimension of the physical groups that hold such elements.
+    /// Dimension of the physical groups that can hold such elements.
     pub(super) fn dimension(self) -> u64 {
         match self {
             Kind::Point => 0,
@@ -87,7 +89,7 @@ impl Kind {
         }
     }
 
-    /// Number of corners.
+    /// Number of corners of the element.
     pub(super) fn n_corners(self) -> usize {
         match self {
             Kind::Point => 1,
@@ -96,7 +98,7 @@ impl Kind {
         }
     }
 
-    /// The type number.
+    /// Number of the element type in Gmsh.
     pub(super) fn type_number(self) -> u64 {
         match self {
             Kind::Point => POINT,

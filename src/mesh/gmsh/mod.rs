@@ -1,12 +1,13 @@
 //! Gmsh meshes: `.msh` 2.2 and 4.1, as text and binary in both orders of bytes.
 //!
-//! In a plane mesh physical surfaces are bodies, physical curves surfaces, physical points node
-//! sets. Where there are volumes, the mesh is a solid one: physical volumes are bodies, physical
-//! surfaces surfaces, physical curves and points node sets. An unnamed group goes by its number. A
-//! physical curve on the edge between two bodies belongs to the body whose name begins its own
-//! (`shaft.contact` to `shaft`), otherwise to the element on its left. Nodes of no element of a
-//! body (centres of circles, for instance) are dropped, elements that are given clockwise are
-//! turned round. The partitions of a mesh are joined; a file that holds some of them is refused.
+//! In a plane mesh physical surfaces are bodies, physical curves are surfaces, and physical points
+//! are node sets. A mesh with volumes is a solid one: physical volumes are bodies, physical
+//! surfaces are surfaces, and physical curves and points are node sets. An unnamed group is named
+//! by its number. A physical curve on the edge between two bodies belongs to the body whose name
+//! begins the curve's name (`shaft.contact` to `shaft`), otherwise to the element on its left.
+//! Nodes that belong to no element of a body (centres of circles, for instance) are dropped, and
+//! elements given clockwise are reversed. The partitions of a mesh are joined; a file that holds
+//! only some of them is refused.
 //!
 //! # Source
 //! Gmsh reference manual, chapter "Gmsh file formats", "MSH file format" (version 4.1) and
@@ -39,7 +40,7 @@ use std::path::Path;
 /// Reads a mesh file.
 ///
 /// # Errors
-/// An I/O error if the file cannot be read, and those of [`parse`].
+/// An I/O error if the file cannot be read, and the errors of [`parse`].
 pub fn read(path: &Path) -> Result<Mesh> {
     let text = files::read("read the mesh file", path, None)?;
     parse(&text, &path.display().to_string())
@@ -48,8 +49,8 @@ pub fn read(path: &Path) -> Result<Mesh> {
 /// Reads a mesh from the bytes of a file; `name` is the file's name for messages.
 ///
 /// # Errors
-/// Input errors with file name and line number (of a binary file the byte) for anything that is not
-/// a complete, consistent file of version 2.2 or 4.1; unsupported errors for element types that
+/// Input errors with file name and line number (for a binary file the byte) for anything that is
+/// not a complete, consistent file of version 2.2 or 4.1; unsupported errors for element types that
 /// brinell does not have.
 pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
     let mut cursor = Cursor::new(text, name);
@@ -139,12 +140,12 @@ enum Version {
     V4,
 }
 
-/// Only a comment may come before the format.
+/// Whether the text begins a Gmsh file: only a comment may precede the format.
 fn is_beginning(text: &[u8]) -> bool {
     text.starts_with(b"$MeshFormat") || text.starts_with(b"$Comments")
 }
 
-/// Reads `$MeshFormat`: the version, and how the cursor reads numbers from there on.
+/// Reads `$MeshFormat`: the version, and the encoding of numbers for the cursor.
 fn read_format(cursor: &mut Cursor) -> Result<Version> {
     let at = cursor.at();
     let number = cursor.float("the version")?;

@@ -1,4 +1,4 @@
-//! Values at nodes: `$NodeData`, alike in both versions of the format.
+//! Values at nodes: the section `$NodeData`, which is the same in both versions of the format.
 
 use super::cursor::Cursor;
 use super::read_format;
@@ -8,20 +8,20 @@ use crate::files;
 use std::io::Write;
 use std::path::Path;
 
-/// Reads the values of the one section `$NodeData` of a file, by node.
+/// Reads the values of the only section `$NodeData` of a file, by node number.
 ///
 /// # Errors
-/// An I/O error if the file cannot be read, and those of [`parse`].
+/// An I/O error if the file cannot be read, and the errors of [`parse`].
 pub(crate) fn read(path: &Path) -> Result<Vec<(u64, f64)>> {
     let text = files::read("read the values of nodes", path, None)?;
     parse(&text, &path.display().to_string())
 }
 
-/// Reads them from the bytes of a file; `name` is the file's name for messages.
+/// Reads nodal values from the bytes of a file; `name` is the file's name for messages.
 ///
 /// # Errors
-/// By file name and line number: no section or several, values that are no scalars, a file that
-/// ends early.
+/// `Input` with file name and line number: no section or several, values that are not scalars, a
+/// file that ends early.
 fn parse(text: &[u8], name: &str) -> Result<Vec<(u64, f64)>> {
     let mut cursor = Cursor::new(text, name);
     let mut found = None;
@@ -52,10 +52,10 @@ fn parse(text: &[u8], name: &str) -> Result<Vec<(u64, f64)>> {
     found.ok_or_else(|| cursor.error("the file has no section $NodeData with values of nodes"))
 }
 
-/// Writes values by node as a section, one line for each.
+/// Writes values by node as a section `$NodeData`, one line for each node.
 ///
 /// # Errors
-/// Errors of `out`.
+/// The errors of `out`.
 #[cfg(feature = "cli")]
 pub(crate) fn write(name: &str, values: &[(u64, f64)], out: &mut dyn Write) -> std::io::Result<()> {
     let mut out = std::io::BufWriter::with_capacity(1 << 16, out);
@@ -68,7 +68,8 @@ pub(crate) fn write(name: &str, values: &[(u64, f64)], out: &mut dyn Write) -> s
     out.flush()
 }
 
-/// Tags of three kinds, which are text in a binary file, too, then a node and its value by line.
+/// Reads a section: tags of three kinds, which are text even in a binary file, then a node and its
+/// value per line.
 fn section(cursor: &mut Cursor) -> Result<Vec<(u64, f64)>> {
     let n = cursor.in_text(read_tags)?;
     let mut out = Vec::new();
@@ -82,7 +83,7 @@ fn section(cursor: &mut Cursor) -> Result<Vec<(u64, f64)>> {
     Ok(out)
 }
 
-/// Reads the tags; the number of values.
+/// Reads the tags and returns the number of values.
 fn read_tags(cursor: &mut Cursor) -> Result<u64> {
     for _ in 0..count(cursor, "the number of string tags")? {
         cursor.skip_lines();

@@ -1,4 +1,4 @@
-//! Nodes and elements of version 2.2.
+//! Reading of nodes and elements in version 2.2.
 
 use super::content::Content;
 use super::cursor::Cursor;
@@ -6,7 +6,7 @@ use super::entities::Partitions;
 use super::kind::Kind;
 use crate::Result;
 
-/// Reads `$Nodes`: `number x y z` per line.
+/// Reads `$Nodes`, with `number x y z` per line.
 pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<()> {
     let n = count_line(cursor, "the number of nodes")?;
     content.node_labels.reserve(n);
@@ -21,8 +21,9 @@ pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<(
     content.index_nodes(cursor)
 }
 
-/// Reads `$Elements`: `number type n_tags physical elementary ... nodes` per line. In a binary file
-/// elements of one type follow `type n_elements n_tags`, each `number physical ... nodes`.
+/// Reads `$Elements`, with `number type n_tags physical elementary ... nodes` per line. In a binary
+/// file, the elements of one type follow a header `type n_elements n_tags`, each as
+/// `number physical ... nodes`.
 pub(super) fn read_elements(content: &mut Content, cursor: &mut Cursor) -> Result<()> {
     let header = cursor.at();
     let mut partitions = Partitions::default();
@@ -61,8 +62,8 @@ pub(super) fn read_elements(content: &mut Content, cursor: &mut Cursor) -> Resul
     partitions.require_all(0, cursor, header)
 }
 
-/// Reads an element. The first tag is the physical group, the fourth the partition, which is
-/// returned, 0 where there is none.
+/// Reads an element. The first tag is the physical group. The fourth tag is the partition, which is
+/// returned; 0 if there is none.
 fn read_tags_and_nodes(
     content: &mut Content,
     cursor: &mut Cursor,
@@ -71,7 +72,7 @@ fn read_tags_and_nodes(
 ) -> Result<u64> {
     let [mut physical, mut partition] = [0; 2];
     for k in 0..n_tags {
-        // Negative for a surface that is turned round; the group is the same.
+        // The tag is negative if the orientation of the surface is reversed; the group is the same.
         let tag = cursor.signed("a tag")?.unsigned_abs();
         match k {
             0 => physical = tag,
@@ -85,7 +86,7 @@ fn read_tags_and_nodes(
     Ok(partition)
 }
 
-/// A count on a line of its own: text in a binary file, too.
+/// Reads a count on a line of its own, which is text even in a binary file.
 fn count_line(cursor: &mut Cursor, what: &str) -> Result<usize> {
     cursor.in_text(|cursor| {
         let n = cursor.count(what)?;

@@ -1,11 +1,11 @@
-//! Nodes and elements of version 4.1.
+//! Reading of nodes and elements in version 4.1.
 
 use super::content::Content;
 use super::cursor::Cursor;
 use super::entities::Entities;
 use crate::Result;
 
-/// Reads `$Nodes`: blocks of node numbers, then their coordinates.
+/// Reads `$Nodes`, which has blocks of node numbers, each followed by the coordinates.
 pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<()> {
     let header = cursor.at();
     let n_blocks = cursor.count("the number of entity blocks")?;
@@ -44,7 +44,7 @@ pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<(
     content.index_nodes(cursor)
 }
 
-/// Reads `$Elements`: blocks of elements of one entity and one type.
+/// Reads `$Elements`, which has blocks of elements of one entity and one type.
 pub(super) fn read_elements(
     content: &mut Content,
     cursor: &mut Cursor,

@@ -1,16 +1,17 @@
-//! Writing version 2.2: one line per node and element, read by every tool.
+//! Writing in version 2.2: one line per node and element, which all tools can read.
 
 use super::kind::Kind;
 use crate::mesh::Mesh;
 use std::collections::BTreeSet;
 use std::io::{Error, ErrorKind, Result, Write};
 
-/// Writes a mesh as Gmsh `.msh` 2.2 ASCII. Bodies, surfaces and node sets become physical groups;
-/// numbers are those the user knows, coordinates read back bit for bit. The exact
-/// [`Curve`](crate::mesh::Curve) of a surface has no place in the format and is lost.
+/// Writes a mesh as Gmsh `.msh` 2.2 ASCII. Bodies, surfaces and node sets become physical groups.
+/// Nodes and elements have the numbers that the user knows, and coordinates can be read back bit
+/// for bit. The exact [`Curve`](crate::mesh::Curve) of a surface has no place in the format and is
+/// lost.
 ///
 /// # Errors
-/// Errors of `out`, and `InvalidInput` for a name with a double quote or a line end, which the
+/// The errors of `out`, and `InvalidInput` for a name with a double quote or a line end, which the
 /// format cannot hold.
 pub fn write(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     let mut out = std::io::BufWriter::with_capacity(1 << 16, out);
@@ -72,14 +73,14 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
         let own = mesh.nodes(element);
         let order = mesh.shapes[element].reference().gmsh_order;
         for place in 0..own.len() {
-            // The node that stands there in the file.
+            // The element's node at this position in Gmsh's order.
             let node = order.iter().position(|&p| p == place).map_or(0, |k| own[k]);
             write!(out, " {}", mesh.node_label(node as usize))?;
         }
         writeln!(out)?;
     }
-    // Facets and points are numbered after the largest number of an element; where that leaves no
-    // room, in the gaps.
+    // Facets and points get numbers above the largest element number, or numbers that no element
+    // uses if the range above is too small.
     let needed = (n_lines + n_points) as u64;
     let mut numbers: Box<dyn Iterator<Item = u64>> = match largest.checked_add(needed) {
         Some(last) => Box::new(largest + 1..=last),

@@ -6,7 +6,7 @@ use crate::mesh::lay_on;
 use crate::mesh::{Shape, validate};
 use crate::scene::{CylinderOnHalfPlane, Part, Ring};
 
-/// A quarter ring, without the shape of its surfaces, as a file would hold it.
+/// A quarter ring without the exact shapes of its surfaces, as from a file.
 fn ring(element: Shape) -> Mesh {
     ring_of([3, 4], element)
 }
@@ -39,7 +39,7 @@ fn circle(center: [f64; 2], radius: f64) -> Curve {
     }
 }
 
-/// Area by the divergence theorem over all sides, exact for parabolic ones.
+/// Area by the divergence theorem over all sides, exact for parabolic sides.
 fn area(mesh: &Mesh) -> f64 {
     let mut sum = 0.0;
     for element in 0..mesh.n_elements() {
@@ -104,7 +104,7 @@ fn new_nodes_lie_on_the_circle_that_is_known_and_on_the_side_else() {
         };
         let mut mesh = ring(shape);
         let polygon = subdivided(mesh.clone(), 1, &[]).unwrap();
-        // Sides turn by 22.5 degrees; parabolas come nearer to the circle, not onto it.
+        // Sides turn by 22.5 degrees; parabolas come closer to the circle, but do not lie on it.
         let sag = 1.0 - (11.25f64).to_radians().cos();
         let expected = if shape.is_quadratic() { 0.0 } else { sag };
         assert!(
@@ -148,7 +148,7 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
             ["cylinder.contact", "half_plane.contact"],
             ["half_plane.contact", "cylinder.contact"],
         ] {
-            // Along the vertical, whichever surface comes second.
+            // The normal is vertical, whichever surface comes second.
             let contact = Contact {
                 first: first.into(),
                 second: second.into(),
@@ -172,7 +172,7 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
             for (r, f) in round.iter().zip(&flat) {
                 assert!((r[0] - f[0]).abs() < 1e-14, "{shape:?}: {r:?} {f:?}");
                 assert_eq!(f[1], 0.0);
-                // The exact gap of the circle.
+                // The exact gap under the circle.
                 let gap = r[0] * r[0] / (10.0 + (100.0 - r[0] * r[0]).sqrt());
                 assert!((r[1] - gap).abs() < 1e-14, "{shape:?}: {r:?}");
             }
@@ -182,13 +182,13 @@ fn nodes_that_face_each_other_have_new_ones_that_do() {
 
 #[test]
 fn without_a_circle_nodes_still_face_each_other() {
-    // The lower side of the upper block is a polygon with unequal sides; its partner is the
-    // parabola of one.
+    // The lower side of the upper block is a polygon with unequal sides, and its partner is a
+    // parabola.
     let mut mesh = ring(Shape::Tri6);
     let facing = ring(Shape::Tri6);
     let n = mesh.n_nodes();
     for node in 0..n {
-        // The same ring, twice as large, outside: its bore faces the rim.
+        // The same ring, scaled by two, lies outside: its bore faces the rim.
         let [x, y] = facing.in_plane(node);
         mesh.coordinates.extend([2.0 * x, 2.0 * y]);
     }
@@ -255,7 +255,7 @@ fn a_surface_that_is_not_on_its_circle_is_named() {
     assert!(error.contains("lies 1.000e-1 off"), "{error}");
     let error = refused("tube.inner", circle([f64::NAN, 0.0], 1.0));
     assert!(error.contains("off the circle"), "{error}");
-    // The digits that a file leaves out are given back.
+    // The digits that a file leaves out are restored.
     let mut mesh = ring(Shape::Quad4);
     mesh.coordinates
         .iter_mut()

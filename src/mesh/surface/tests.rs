@@ -1,7 +1,7 @@
 use super::*;
 use crate::mesh::{Curve, Shape};
 
-/// Two unit squares side by side, and their outer edges.
+/// Two unit squares side by side, with surfaces on their outer edges.
 fn two_squares() -> Mesh {
     let mut mesh = Mesh {
         dimension: 2,
@@ -70,14 +70,14 @@ fn a_closed_piece_beside_an_open_one_is_found() {
 #[test]
 fn averaged_normals_are_weighted_and_point_outward() {
     let mut mesh = two_squares();
-    // The right square is three times as wide.
+    // The right square becomes three times as wide.
     mesh.coordinates[4] = 4.0;
     mesh.coordinates[10] = 4.0;
     let bottom_and_right = surface(&[(0, 0), (1, 0), (1, 1)]);
     let normals = normals(&mesh, &bottom_and_right, &[0, 1, 2, 5, 3]);
     assert_eq!(normals[0], [0.0, -1.0, 0.0]);
     assert_eq!(normals[1], [0.0, -1.0, 0.0]);
-    // The shorter of two edges counts more; a corner is no circle that its end continues.
+    // The shorter of two edges has more weight; a corner is not taken for a circle to be continued.
     let length = 10f64.sqrt();
     assert!((normals[2][0] - 3.0 / length).abs() < 1e-15);
     assert!((normals[2][1] + 1.0 / length).abs() < 1e-15);
@@ -85,8 +85,8 @@ fn averaged_normals_are_weighted_and_point_outward() {
     assert_eq!(normals[4], [0.0; 3], "not on the surface");
 }
 
-/// Nodes on a circle and on a sphere, unlike facets: a body that turns about the centre changes no
-/// gap.
+/// Normals of nodes on a circle and on a sphere, with unequal facets, are those of the circle and
+/// the sphere, so a rotation of the body about the centre changes no gap.
 #[test]
 fn normals_of_round_surfaces_are_those_of_circles_and_spheres() {
     let mut random = [0.31, 0.87, 0.12, 0.66, 0.45, 0.93, 0.28, 0.74]
@@ -98,7 +98,7 @@ fn normals_of_round_surfaces_are_those_of_circles_and_spheres() {
         bodies: vec!["a".to_string()],
         ..Mesh::default()
     };
-    // A ring of eight quadrangles over 200 degrees, its inner side the surface.
+    // A ring of eight quadrilaterals over 200 degrees, whose inner side is the surface.
     let mut angle = 0.3;
     for _ in 0..=8 {
         for radius in [2.0, 3.0] {
@@ -119,7 +119,7 @@ fn normals_of_round_surfaces_are_those_of_circles_and_spheres() {
         assert!(off < 1e-14, "{node}: {off}");
     }
 
-    // A patch of three by three faces of a sphere, the lower side of hexahedra.
+    // A patch of three by three faces on a sphere, the lower side of hexahedra.
     let mut solid = Mesh {
         dimension: 3,
         bodies: vec!["a".to_string()],
@@ -188,7 +188,7 @@ fn known_curves_give_exact_normals() {
 
 #[test]
 fn a_parabolic_facet_has_its_own_normal_at_each_node() {
-    // Bottom y = x^2 - 1 over [-1, 1]: slope 2 x.
+    // The bottom is y = x^2 - 1 over [-1, 1], with slope 2 x.
     let mut mesh = Mesh {
         dimension: 2,
         coordinates: vec![-1., 0., 1., 0., 0., 3., 0., -1., 0.5, 1.5, -0.5, 1.5],
@@ -206,7 +206,7 @@ fn a_parabolic_facet_has_its_own_normal_at_each_node() {
     }
 }
 
-/// The lower face of one hexahedron and the upper one of its neighbour, beside each other.
+/// The lower face of one hexahedron and the upper face of the element next to it.
 #[test]
 fn faces_that_look_to_different_sides_are_named() {
     let mut mesh = Mesh {
@@ -214,7 +214,7 @@ fn faces_that_look_to_different_sides_are_named() {
         bodies: vec!["a".to_string()],
         ..Mesh::default()
     };
-    // Two layers of two cubes.
+    // Two layers of two cubes each.
     for k in 0..3 {
         for j in 0..2 {
             for i in 0..3 {
@@ -227,7 +227,7 @@ fn faces_that_look_to_different_sides_are_named() {
         let nodes = [below, below.map(|n| n + 6)].concat();
         mesh.push_element(Shape::Hex8, 0, &nodes);
     }
-    // Facet 0 is the lower, facet 1 the upper one: both at z = 1.
+    // Facet 0 is the lower face and facet 1 the upper one; both lie at z = 1.
     assert!(nodes(&mesh, &surface(&[(0, 1), (1, 1)])).is_ok());
     let error = nodes(&mesh, &surface(&[(0, 1), (3, 0)])).unwrap_err();
     for text in [

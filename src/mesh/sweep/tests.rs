@@ -5,7 +5,7 @@ use crate::scene::Scene;
 use crate::space::{difference, dot, length};
 use std::f64::consts::PI;
 
-/// A section: a block off the axis, a ring sector or a disc, as a scene has it.
+/// A section (a block off the axis, a ring sector or a disc), made from a scene.
 fn section(part: &str, shape: &str) -> Mesh {
     let text = format!(
         "kind = \"plane_strain\"\nmesh.parts = [{{ body = \"b\", element = \"{shape}\", {part} \
@@ -21,7 +21,7 @@ const RING: &str = "ring = { center = [5.0, 0.0], radius = [1.0, 2.0], elements 
 const DISC: &str = "disc = { radius = 2.0, elements = 4 }";
 const SHAPES: [&str; 4] = ["tri3", "tri6", "quad4", "quad8"];
 
-/// Volume by the divergence theorem over all facets, and the sum of the areas of one surface.
+/// Volume by the divergence theorem over all facets.
 fn volume(mesh: &Mesh) -> f64 {
     let mut sum = 0.0;
     for element in 0..mesh.n_elements() {
@@ -75,7 +75,7 @@ fn a_section_becomes_a_solid_of_the_right_volume() {
             "{shape}"
         );
         let quadratic = ["tri6", "quad8"].contains(&shape);
-        // A quarter ring: 3/4 pi, approached by chords or parabolas.
+        // A quarter ring has the area 3/4 pi, approximated by chords or parabolas.
         let off = volume(&flat) / (0.75 * PI) - 1.0;
         assert!(
             off.abs() < if quadratic { 1e-3 } else { 0.06 },
@@ -89,7 +89,8 @@ fn a_section_becomes_a_solid_of_the_right_volume() {
     }
 }
 
-/// Pappus: area times the way of the centroid; closed turns and those that touch the axis too.
+/// Volume by Pappus: the area times the path of the centroid; also for closed turns and sections
+/// that touch the axis.
 #[test]
 fn a_turned_section_has_the_volume_of_pappus() {
     for shape in SHAPES {
@@ -98,8 +99,8 @@ fn a_turned_section_has_the_volume_of_pappus() {
         for (angle, n) in [(90.0, 4), (30.0, 2), (360.0, 16)] {
             let solid = revolved(&plane, &of_revolution(angle, n)).unwrap();
             validate(&solid).unwrap();
-            // Of a quarter ring about the y axis 5 from its centre: area 3/4 pi, first moment
-            // 5 times that and 7/3 more.
+            // For a quarter ring about the y axis, 5 from its centre: the area is 3/4 pi, and the
+            // first moment is 5 times the area plus 7/3.
             let exact = f64::to_radians(angle) * (5.0 * 0.75 * PI + 7.0 / 3.0);
             let off = volume(&solid) / exact - 1.0;
             assert!(
@@ -119,7 +120,7 @@ fn a_turned_section_has_the_volume_of_pappus() {
             off.abs() < if quadratic { 2e-3 } else { 0.12 },
             "{shape} {off}"
         );
-        // The edges on the axis are no surface any more.
+        // The edges on the axis no longer form a surface.
         assert!(
             solid.node_sets.contains_key("b.end"),
             "{:?}",
@@ -136,8 +137,8 @@ fn a_turned_section_has_the_volume_of_pappus() {
     }
 }
 
-/// Exact shapes go along: every node of a surface lies on its shape, and the normals of the facets
-/// are near it.
+/// Exact shapes are swept too: every node of a surface lies on the shape, and the normals of the
+/// facets are near those of the shape.
 #[test]
 fn surfaces_keep_their_exact_shapes() {
     for shape in SHAPES {
@@ -185,7 +186,7 @@ fn sections_that_cannot_be_turned_are_named() {
         "quad4",
     );
     assert!(refused(&beyond).contains("beyond the axis"));
-    // The disc's triangles at the axis touch it at corners.
+    // The disc's triangles next to the axis touch it at single corners.
     let corner = refused(&section(DISC, "tri3"));
     assert!(corner.contains("at a corner"), "{corner}");
     let mut solid = section(RING, "quad4");
@@ -205,7 +206,8 @@ fn sections_that_cannot_be_turned_are_named() {
     assert!(refused(&taken).contains("`b.back`"));
 }
 
-/// Where the section lies the surface looks to where its edge looked, inside of a ring and outside.
+/// In the plane of the section a revolved surface looks to the same side as the edge it came from,
+/// inside a ring and outside.
 #[test]
 fn turned_curves_keep_the_side_that_they_look_to() {
     let circle = |center, outward| Curve::Circle {

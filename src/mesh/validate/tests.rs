@@ -1,7 +1,7 @@
 use super::*;
 use crate::mesh::Surface;
 
-/// A 2 x 2 grid of squares of side 1: nodes 0..9 row by row.
+/// A 2 x 2 grid of squares of side 1, with nodes 0..9 row by row.
 fn grid() -> Mesh {
     let mut mesh = Mesh {
         dimension: 2,
@@ -173,7 +173,7 @@ fn bad_shapes_are_named_by_the_users_number() {
         error.contains("inverted") && error.contains("-1.000e0"),
         "{error}"
     );
-    // A quadrilateral with a reentrant corner has a negative Jacobian there only.
+    // A quadrilateral with a reentrant corner has a negative Jacobian only at this corner.
     refused(
         |m| {
             m.coordinates[8] = 0.1;
@@ -197,8 +197,8 @@ fn slivers_are_refused_from_the_aspect_ratio_at_which_double_precision_ends() {
     assert!(error.message().contains("is flat"), "{error}");
 }
 
-/// Past the quarter point the Jacobian is negative at the corner; at the points of integration it
-/// is 2 x along the side, for a mid-side node at x.
+/// With a mid-side node at x along a side, the Jacobian is negative at the corner once x is beyond
+/// the quarter point; at the integration points it is 2 x along the side.
 #[test]
 fn a_mid_side_node_past_the_quarter_point_is_warned_of_until_it_folds_what_is_integrated() {
     let with_mid_side = |x: f64| {
@@ -220,7 +220,7 @@ fn a_mid_side_node_past_the_quarter_point_is_warned_of_until_it_folds_what_is_in
 
 #[test]
 fn elements_that_overlap_or_do_not_fit_are_refused() {
-    // A triangle on the inside of the edge 0-1 of element 1.
+    // A triangle on the inner side of the edge 0-1 of element 1.
     refused(
         |m| {
             m.coordinates.extend([0.5, 0.3]);
@@ -236,7 +236,7 @@ fn elements_that_overlap_or_do_not_fit_are_refused() {
         },
         &["element 5 ", "overlap"],
     );
-    // A quadratic triangle beside a linear quadrilateral.
+    // A quadratic triangle next to a linear quadrilateral.
     refused(
         |m| {
             m.coordinates
@@ -249,7 +249,7 @@ fn elements_that_overlap_or_do_not_fit_are_refused() {
             "(tri6)",
         ],
     );
-    // Two quadratic triangles, each with a node of its own in the middle of their edge.
+    // Two quadratic triangles, each with its own node in the middle of their common edge.
     refused(
         |m| {
             *m = Mesh {
@@ -294,7 +294,8 @@ fn a_hanging_node_is_found_on_edges_in_any_direction() {
         let error = validate(&mesh).unwrap_err();
         assert!(error.message().contains("node 8 hangs"), "{error}");
         assert!(error.message().contains("element 5 "), "{error}");
-        // In a body of its own it is a contact or a mistake of the scene, not of the mesh.
+        // In a body of its own, the square is in contact or is a mistake of the scene, not of the
+        // mesh.
         mesh.bodies.push("cover".to_string());
         mesh.element_body[4] = 1;
         validate(&mesh).unwrap();
@@ -310,8 +311,8 @@ fn bodies_may_share_nodes_when_bonded() {
     validate(&mesh).unwrap();
 }
 
-/// A second grid beside the first: as another body it is taken, as a part of it refused, unless a
-/// body in between joins the two.
+/// A second grid beside the first one is accepted as another body. As a part of the first body it
+/// is refused, unless a body in between joins the two.
 #[test]
 fn a_body_in_several_pieces_is_named() {
     let two = |bodies: &[&str], of: [usize; 3]| {
@@ -347,7 +348,7 @@ fn a_body_in_several_pieces_is_named() {
     validate(&joined).unwrap();
 }
 
-/// The edge between two elements, seen from both.
+/// A surface that contains the edge between two elements from both sides.
 #[test]
 fn a_surface_that_looks_both_ways_is_named() {
     refused(

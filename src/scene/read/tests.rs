@@ -1,5 +1,5 @@
-//! Reading: the message for each way to get a scene file wrong, overrides, and what a good file
-//! becomes.
+//! Reading of scene files: the message for each kind of mistake, overrides, and the result of
+//! reading a good file.
 
 mod overrides;
 

@@ -1,4 +1,4 @@
-//! Contact, supports and loads.
+//! Validation of contacts, ties, equations, supports and loads.
 
 use super::Checks;
 use crate::number::exact;
@@ -36,7 +36,8 @@ impl Checks {
         }
     }
 
-    /// A set's name cannot be looked up before there is a mesh, but it can be missing.
+    /// Requires a set's name to be present; whether the set exists cannot be checked before there
+    /// is a mesh.
     fn set_name(&mut self, key: &str, name: &str) {
         self.require(
             !name.is_empty(),
@@ -73,7 +74,7 @@ impl Checks {
         }
     }
 
-    /// A vector has as many components as the model coordinates.
+    /// Requires a vector to have as many components as the model has coordinates.
     pub(super) fn vector(&mut self, key: &str, given: Components, space: Space) {
         self.components(key, given.count(), space);
     }
@@ -101,7 +102,7 @@ impl Checks {
         );
     }
 
-    /// Only a solid has a z axis.
+    /// Refuses direction z except in a solid.
     fn is_in(&mut self, key: &str, direction: Direction, space: Space) {
         self.require(
             direction.axis() < space.dimension(),
@@ -130,7 +131,7 @@ impl Checks {
         }
         for (name, field) in contact.fields() {
             let key = format!("{key}.{name}");
-            // Of a field the nodes show it.
+            // Fields that are not uniform are checked later, at the nodes.
             if let Some(value) = field.uniform() {
                 let other = Contact::instead_of_negative(name);
                 self.require(
@@ -143,7 +144,7 @@ impl Checks {
         }
     }
 
-    /// A formula is one of the position.
+    /// Requires a formula to use the names of the position only.
     fn field(&mut self, key: &str, field: &Field, space: Space) {
         if let (Field::Formula(_), Err(wrong)) = (field, field.function(space).map(drop)) {
             self.problem(key, wrong);

@@ -1,4 +1,4 @@
-//! The mesh source: one of them, with parameters that make sense.
+//! Validation of the mesh source: exactly one is given, with sensible parameters.
 
 use super::Checks;
 use crate::analytical::HertzEllipse;
@@ -105,7 +105,7 @@ impl Checks {
         );
     }
 
-    /// What makes a solid of a plane mesh.
+    /// Checks the key that sweeps a plane mesh into a solid one.
     fn sweep(&mut self, scene: &Scene) {
         let mesh = &scene.mesh;
         let (key, elements) = match (&mesh.extrude, &mesh.revolve) {
@@ -129,7 +129,7 @@ impl Checks {
                         exact(revolve.angle)
                     ),
                 );
-                // An element may not turn by 120 degrees or more.
+                // Each element must turn by less than 120 degrees.
                 let least = if revolve.angle >= 270.0 {
                     4
                 } else {
@@ -154,7 +154,8 @@ impl Checks {
         );
     }
 
-    /// A mesh that is even near the contact and grows from there on; all in half widths.
+    /// Checks a mesh that is even near the contact and grows from there on; all lengths are in half
+    /// widths.
     fn graded(
         &mut self,
         mesh: &str,
@@ -259,7 +260,7 @@ impl Checks {
         self.element(&key("element"), parameters.element, scene.kind);
     }
 
-    /// An element of as many dimensions as the model.
+    /// Requires elements of the same dimension as the model.
     pub(super) fn element(&mut self, key: &str, element: Shape, kind: Space) {
         self.require(
             element.dimension() == kind.dimension(),
@@ -316,7 +317,8 @@ impl Checks {
         self.element(&key("element"), parameters.element, kind);
     }
 
-    /// Generated meshes have known bodies: each needs a material, and there are no others.
+    /// Requires a material for each body of a generated mesh, whose bodies are known, and no other
+    /// bodies.
     fn bodies_of_mesh(&mut self, scene: &Scene) {
         let Some(names) = generated_bodies(&scene.mesh) else {
             return;
@@ -352,7 +354,7 @@ impl Checks {
     }
 }
 
-/// Names of the bodies of a generated mesh; `None` where a file decides.
+/// Names of the bodies of a generated mesh; `None` if the mesh comes from a file.
 fn generated_bodies(mesh: &MeshSource) -> Option<Vec<&str>> {
     if let Some((_, names)) = mesh.named_pair() {
         return Some(names.iter().map(String::as_str).collect());

@@ -1,4 +1,4 @@
-//! Materials and bodies.
+//! Validation of materials and bodies.
 
 use super::{Checks, LARGEST};
 use crate::number::exact;
@@ -6,9 +6,9 @@ use crate::scene::read::closest;
 use crate::scene::{Body, Material, Plastic, Scene, beyond_yield, materials};
 use crate::space::Space;
 
-/// Moduli of tensile tests over Young's modulus, beyond which a test is not one of its material:
-/// extensometers show moduli to some per cent (ISO 6892-1:2019, annex G), rows close to yield have
-/// left the elastic line, strains in per cent are a factor of 100 off.
+/// Ratios of a tensile test's initial modulus to Young's modulus beyond which the test cannot
+/// belong to the material: extensometers show moduli to some per cent (ISO 6892-1:2019, annex G),
+/// rows close to yield have left the elastic line, strains in per cent are a factor of 100 off.
 const STIFFER: f64 = 1.2;
 const SOFTER: f64 = 0.1;
 
@@ -72,7 +72,7 @@ impl Checks {
         }
     }
 
-    /// Rows of properties by temperature, and the material at each of them.
+    /// Checks rows of properties by temperature, and the material at the temperature of each row.
     fn over_temperature(&mut self, key: &str, material: &Material) {
         let rows = &material.over_temperature;
         for (index, row) in rows.iter().enumerate() {
@@ -133,7 +133,7 @@ impl Checks {
         }
     }
 
-    /// A depth and that of the row before.
+    /// Checks a depth, which must exceed the depth of the row before.
     fn depth(&mut self, key: &str, depth: f64, before: Option<f64>) {
         self.require(
             depth >= 0.0,
@@ -153,7 +153,7 @@ impl Checks {
         }
     }
 
-    /// Rows of depth and components of a tensor.
+    /// Checks initial stresses and plastic strains: rows of a depth and the components of a tensor.
     fn initial_state(&mut self, key: &str, body: &Body, kind: Space) {
         for (name, rows) in body.brought_along() {
             let key = format!("{key}.{name}");
@@ -366,7 +366,8 @@ impl Checks {
         }
     }
 
-    /// Rows of engineering strain and stress, and the curve that they give.
+    /// Checks a tensile test in rows of engineering strain and stress, and the hardening curve that
+    /// it gives.
     fn tensile_test(&mut self, key: &str, test: &[[f64; 2]], material: &Material) {
         for (index, &[strain, stress]) in test.iter().enumerate() {
             let before = index
@@ -395,7 +396,7 @@ impl Checks {
             return;
         };
         let curve = material.hardening_curve().unwrap_or_default();
-        // A row at no strain is no point of the elastic line that the test has measured.
+        // A row at zero strain measures no point of the elastic line.
         let begins = material.yield_stress.or_else(|| Some(curve.first()?[1]));
         if !begins.is_some_and(|stress| stress > 0.0) {
             self.problem(
@@ -416,7 +417,7 @@ impl Checks {
         }
     }
 
-    /// The last row before yield: it shows the modulus best.
+    /// Compares the last row before yield, which shows the modulus best, with Young's modulus.
     fn elastic_line(&mut self, key: &str, rows: &[[f64; 2]], youngs_modulus: f64) {
         let Some(&[strain, stress]) = rows.last().filter(|row| row[0] > 0.0) else {
             return;
@@ -442,7 +443,7 @@ impl Checks {
         );
     }
 
-    /// A point of a curve of true stress against plastic strain and the one before it.
+    /// Checks that a curve of true stress over plastic strain rises from one point to the next.
     fn rising(&mut self, key: &str, pair: &[[f64; 2]]) {
         let ([strain0, stress0], [strain1, stress1]) = (pair[0], pair[1]);
         self.require(

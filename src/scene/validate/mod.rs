@@ -1,4 +1,5 @@
-//! What a scene must satisfy that its types cannot say, as far as it can be known without the mesh.
+//! Conditions on a scene that its types cannot express, as far as they can be checked without the
+//! mesh.
 
 mod boundary;
 mod geometry;
@@ -14,21 +15,21 @@ use crate::space::Space;
 use std::fmt;
 
 impl Scene {
-    /// Checks values and references. [`Scene::load`] and [`Scene::parse`] do so by themselves, with
-    /// line and column, and so does [`crate::model::ModelBuilder`]; a scene changed in code is
-    /// checked by this.
+    /// Checks values and references. [`Scene::load`], [`Scene::parse`] and
+    /// [`crate::model::ModelBuilder`] do so themselves, the first two with line and column. Call
+    /// this method for a scene that was changed in code.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Input`], one line per problem: key path, value, what to do.
+    /// [`crate::ErrorKind::Input`], one line per problem: key path, value and how to correct it.
     pub fn validate(&self) -> Result<()> {
         self.report(problems(self))
     }
 
-    /// As [`Scene::validate`] for a scene whose mesh is handed over: its `mesh` entry is not looked
-    /// at.
+    /// Checks a scene like [`Scene::validate`] if its mesh is provided separately: the entry `mesh`
+    /// is ignored.
     ///
     /// # Errors
-    /// As [`Scene::validate`].
+    /// As for [`Scene::validate`].
     pub fn validate_without_mesh(&self) -> Result<()> {
         self.report(problems_without_mesh(self))
     }
@@ -45,8 +46,8 @@ impl Scene {
         })
     }
 
-    /// Can this body yield: has its material a yield stress, and is it not said to be elastic?
-    /// False for a body that the scene does not have.
+    /// Whether this body can yield: its material has a yield stress, and the scene does not declare
+    /// the body elastic. False for a body that the scene does not have.
     pub fn can_yield(&self, body: &str) -> bool {
         let of = self.bodies.get(body).zip(self.material_of(body));
         of.is_some_and(|(body, material)| {
@@ -54,12 +55,12 @@ impl Scene {
         })
     }
 
-    /// Can any body yield?
+    /// Whether any body can yield.
     pub fn any_can_yield(&self) -> bool {
         self.bodies.keys().any(|body| self.can_yield(body))
     }
 
-    /// Does any load change with the load factor?
+    /// Whether any load changes with the load factor.
     pub fn any_load_varies(&self) -> bool {
         self.load.iter().any(|load| match &load.history {
             History::Proportional => true,
@@ -69,13 +70,13 @@ impl Scene {
     }
 }
 
-/// Sizes, stresses and slopes beyond this, or below its inverse, overflow or vanish when they are
-/// multiplied by one another.
+/// Bound of sizes, stresses and slopes: values beyond it, or below its inverse, overflow or vanish
+/// when multiplied together.
 const LARGEST: f64 = 1e100;
 
 /// Something wrong with the value at a key path.
 pub(super) struct Problem {
-    /// Key path, `contact.0.gap`.
+    /// Key path of the value, such as `contact.0.gap`.
     pub key: String,
     message: String,
 }
@@ -90,7 +91,7 @@ impl fmt::Display for Problem {
     }
 }
 
-/// What is wrong with a number of copies that make the whole.
+/// The problem with a number of copies that make the whole, if there is one.
 fn symmetry_problem(kind: Space, copies: usize) -> Option<String> {
     let (allowed, words): (&[usize], _) = match kind {
         Space::Axisymmetric => (
@@ -111,10 +112,10 @@ fn symmetry_problem(kind: Space, copies: usize) -> Option<String> {
 
 #[cfg(feature = "capi")]
 impl Space {
-    /// Whether so many copies of a model of this kind can make the whole.
+    /// Checks whether this number of copies of a model of this kind can make the whole.
     ///
     /// # Errors
-    /// `Input` naming the value and those that are possible.
+    /// `Input` naming the value and the possible values.
     pub(crate) fn check_symmetry(self, copies: usize) -> Result<()> {
         match symmetry_problem(self, copies) {
             Some(message) => Err(Error::input(format!("symmetry: {message}"))),
@@ -128,19 +129,19 @@ pub(super) fn problems(scene: &Scene) -> Vec<Problem> {
     Checks::of(scene, Checks::geometry)
 }
 
-/// All problems of a scene but those of its mesh entry.
+/// All problems of a scene except those of its entry `mesh`.
 fn problems_without_mesh(scene: &Scene) -> Vec<Problem> {
     Checks::of(scene, |_, _| {})
 }
 
-/// Can any body yield, as far as is known? A material that there is not is a problem of its own,
-/// not one of all that needs it.
+/// Whether any body can yield, as far as is known. An undefined material counts as able to yield:
+/// it is reported once, not again by every check that needs it.
 fn may_yield(scene: &Scene) -> bool {
     let mut bodies = scene.bodies.values();
     scene.any_can_yield() || bodies.any(|body| !scene.materials.contains_key(&body.material))
 }
 
-/// Collects problems.
+/// Collects the problems of a scene.
 #[derive(Default)]
 struct Checks {
     problems: Vec<Problem>,
@@ -150,7 +151,7 @@ impl Checks {
     fn of(scene: &Scene, geometry: impl Fn(&mut Checks, &Scene)) -> Vec<Problem> {
         let mut checks = Checks::default();
         checks.finite(scene);
-        // A comparison with NaN would only repeat the problem in other words.
+        // With NaN, the other checks would only repeat the problem in different words.
         if checks.problems.is_empty() {
             checks.symmetry(scene);
             checks.units(scene);
@@ -177,7 +178,7 @@ impl Checks {
         });
     }
 
-    /// Reports `message` unless `holds`.
+    /// Reports `message` at `key` unless `holds`.
     fn require(&mut self, holds: bool, key: impl Into<String>, message: impl Into<String>) {
         if !holds {
             self.problem(key, message);
@@ -192,7 +193,7 @@ impl Checks {
         );
     }
 
-    /// A stress or a modulus: positive, and of a size that can be multiplied by its like.
+    /// Requires a stress or a modulus to be positive, and of a size whose products do not overflow.
     fn stress(&mut self, key: impl Into<String>, value: f64) {
         let range = 1.0 / LARGEST..=LARGEST;
         self.require(
@@ -210,7 +211,7 @@ impl Checks {
         );
     }
 
-    /// A slope that was computed from values of `key`.
+    /// Requires a slope that was computed from values of `key` to be small enough not to overflow.
     fn slope(&mut self, key: impl Into<String>, what: &str, slope: f64) {
         self.require(
             slope.abs() <= LARGEST,
@@ -246,7 +247,7 @@ impl Checks {
         );
     }
 
-    /// Reports unless exactly one of `choices` (name, given) is given.
+    /// Reports a problem unless exactly one of `choices` (name, given) is given.
     fn exactly_one(&mut self, key: impl Into<String>, what: &str, choices: &[(&str, bool)]) {
         let names = |given_only: bool| -> String {
             let names: Vec<&str> = choices
@@ -269,8 +270,8 @@ impl Checks {
         }
     }
 
-    /// The lines of symmetry of a plane are the axes x and y, of a body of revolution there is one:
-    /// a model is the whole, a half or a quarter.
+    /// Checks `symmetry` against the planes of symmetry that the kind of model can have: two axes
+    /// in the plane, one plane for a body of revolution, three planes for a solid.
     fn symmetry(&mut self, scene: &Scene) {
         let problem = symmetry_problem(scene.kind, scene.symmetry);
         self.problems.extend(problem.map(|message| Problem {
@@ -279,7 +280,7 @@ impl Checks {
         }));
     }
 
-    /// The unit of stress is that of a force over a length squared.
+    /// Requires the unit of stress to be a force over a length squared.
     fn units(&mut self, scene: &Scene) {
         let Some(units) = &scene.units else {
             return;
@@ -296,7 +297,8 @@ impl Checks {
         }
     }
 
-    /// No number of the scene may be NaN or infinite. A file cannot bring one here, a caller can.
+    /// Requires all numbers of the scene to be finite. Numbers from a file always are, numbers set
+    /// by a caller may not be.
     fn finite(&mut self, scene: &Scene) {
         match toml::Value::try_from(scene) {
             Ok(value) => self.finite_value("", &value),

@@ -1,4 +1,4 @@
-//! Parts of a generated mesh.
+//! Validation of the parts of a generated mesh.
 
 use super::Checks;
 use crate::number::exact;
@@ -36,7 +36,7 @@ impl Checks {
                 }
             },
         );
-        // Quad4 stands for what is not given.
+        // Quad4 is the default, so for a brick it means that no element was given.
         if !(solid && part.element == Shape::Quad4) {
             self.element(&format!("{key}.element"), part.element, kind);
         }

@@ -1,4 +1,4 @@
-//! The load program, the settings and the reference values.
+//! Validation of the load program, the settings and the reference values.
 
 use super::Checks;
 use crate::number::exact;
@@ -7,13 +7,14 @@ use crate::scene::{
 };
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Each increment leaves a row of the history, and each target a state with all its contact pairs.
+/// Bounds on the size of results: each increment adds a row to the history, and each target a state
+/// with all its contact pairs.
 const MOST_STEPS: usize = 10_000_000;
 const MOST_TARGETS: usize = 10_000;
 const MOST_CYCLES: usize = 1_000_000;
 
 impl Checks {
-    /// A cycle goes from load factor to load factor and back.
+    /// Requires the targets of a cycle to be load factors, at least two of them different.
     fn cycle(&mut self, targets: &[Target]) {
         let factors: Vec<Option<f64>> = targets.iter().map(|target| target.load_factor).collect();
         for (index, _) in factors.iter().enumerate().filter(|(_, f)| f.is_none()) {
@@ -150,7 +151,7 @@ impl Checks {
         }
     }
 
-    /// What a target by a figure needs.
+    /// Checks what a target that prescribes a figure needs.
     fn target_figure(&mut self, key: &str, target: &Target, scene: &Scene) {
         let given: Vec<_> = target.figures().collect();
         for &(figure, value) in &given {
@@ -207,7 +208,8 @@ impl Checks {
         }
     }
 
-    /// What yielding leaves does not go back: a target by it must be more than those before.
+    /// Requires targets for a figure that unloading does not reduce not to decrease from one target
+    /// to the next.
     fn growing(&mut self, targets: &[Target]) {
         let mut largest: BTreeMap<(&str, Option<&str>), f64> = BTreeMap::new();
         for (index, target) in targets.iter().enumerate() {
@@ -228,7 +230,7 @@ impl Checks {
         }
     }
 
-    /// What refers to first yield needs a body that can yield and a load that brings it there.
+    /// Requires a body that can yield and a load that varies, for a key that refers to first yield.
     fn needs_yield(&mut self, key: &str, what: &str, scene: &Scene) {
         self.require(
             super::may_yield(scene),
@@ -332,7 +334,7 @@ impl Checks {
         }
     }
 
-    /// Quantities of a place have one, others have none.
+    /// Requires coordinates for a quantity at a point, and refuses them for any other quantity.
     fn place(&mut self, key: &str, reference: &Reference, scene: &Scene) {
         let path = reference.quantity.as_deref();
         let of_place = path.is_some_and(|path| PlaceQuantity::of(path, scene.kind).is_some());

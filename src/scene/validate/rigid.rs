@@ -1,4 +1,4 @@
-//! Rigid surfaces, and what acts on them.
+//! Validation of rigid surfaces and of the loads on them.
 
 use super::Checks;
 use crate::number::exact;
@@ -119,7 +119,7 @@ impl Checks {
         }
     }
 
-    /// A point that in an axisymmetric model lies on the axis of revolution.
+    /// Requires a point of an axisymmetric model to lie on the axis of revolution.
     fn on_axis(&mut self, key: &str, point: Components, space: Space) {
         self.vector(key, point, space);
         self.require(
@@ -132,7 +132,7 @@ impl Checks {
         );
     }
 
-    /// A direction that in an axisymmetric model is that of the axis of revolution.
+    /// Requires a direction in an axisymmetric model to lie along the axis of revolution.
     fn along_axis(&mut self, key: &str, given: Components, space: Space) {
         self.vector(key, given, space);
         self.is_direction(key, given);
@@ -143,7 +143,8 @@ impl Checks {
         );
     }
 
-    /// The axis of a round surface: of a solid it must be given, else it follows from the kind.
+    /// Requires the axis of a round surface in a solid; in other models the axis follows from the
+    /// kind.
     fn axis_of(&mut self, key: &str, axis: Option<[f64; 3]>, space: Space) {
         match axis {
             Some(axis) if space.is_solid() => self.is_direction(key, axis.into()),
@@ -159,7 +160,8 @@ impl Checks {
         }
     }
 
-    /// What pushes a rigid surface: forces along one direction, or one displacement.
+    /// Checks what is defined on a rigid surface: no support, tie or equation, and as loads either
+    /// forces or a single displacement.
     fn pushed(&mut self, scene: &Scene, name: &str) {
         for (index, support) in scene.support.iter().enumerate() {
             self.require(

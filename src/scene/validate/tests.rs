@@ -1,4 +1,5 @@
-//! One rule of validation per row: what is done to a good scene, and what the message must hold.
+//! Rules of validation, one per row: a change that spoils a good scene, and words that the message
+//! must contain.
 
 use crate::scene::{
     Direction, Displacement, DisplacementTarget, History, Kind, MaterialRow, PlaneForce, Plastic,
@@ -9,7 +10,7 @@ use crate::shape::Shape;
 mod effects;
 mod material;
 
-/// The paper's first example: has every kind of entry that the rules are about.
+/// The paper's first example, which has every kind of entry that the rules are about.
 fn good() -> Scene {
     let text = include_str!("../../../data/scenes/cylinder_on_half_plane.toml");
     Scene::parse(text, "good.toml").unwrap()
@@ -463,7 +464,7 @@ fn programs_settings_and_references() {
         source: Some("hand".into()),
     });
     scene.validate().unwrap();
-    // A quantity of a place has one, others have none.
+    // A quantity at a point needs coordinates, any other quantity must have none.
     let bad = |change: &dyn Fn(&mut Reference)| {
         let mut scene = scene.clone();
         change(scene.reference.last_mut().unwrap());

@@ -2,7 +2,7 @@
 
 use crate::shape::{Place, Reference, Rule, functions};
 
-/// The order of nodes that is Gmsh's own.
+/// Node order of the shapes whose nodes Gmsh numbers in the same way.
 pub(super) const IN_ORDER: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
 
 pub(in crate::shape) const TRIANGLE: [Place; 6] = [
@@ -40,7 +40,7 @@ const GAUSS_2X2: &Rule = &[
 ];
 /// Weights of the 3-point rule.
 pub(super) const W3: [f64; 3] = [5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0];
-/// First along the first coordinate.
+/// The 3 x 3 rule; the first coordinate runs fastest.
 const GAUSS_3X3: &Rule = &{
     let mut points = [([0.0; 3], 0.0); 9];
     let mut k = 0;
@@ -110,7 +110,7 @@ pub(super) static QUAD4: Reference = Reference {
     full: GAUSS_2X2,
     sampling: CENTER,
     has_mean_dilatation: true,
-    // Its Jacobian is linear along each reference coordinate.
+    // The Jacobian determinant of a bilinear element is linear along each reference coordinate.
     unit_jacobian: 0.25,
     facets: &[&[0, 1], &[1, 2], &[2, 3], &[3, 0]],
     edges: SIDES_4,

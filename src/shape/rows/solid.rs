@@ -3,10 +3,10 @@
 use super::plane::{G2, IN_ORDER, LINE3, SIXTH, W3};
 use crate::shape::{Place, Reference, Rule, functions};
 
-/// Corners of each edge of a tetrahedron, in the order of the nodes between them.
+/// Corners of each edge of a tetrahedron, in the order of the mid-side nodes.
 pub(in crate::shape) const EDGES_OF_TETRAHEDRON: [[usize; 2]; 6] =
     [[0, 1], [1, 2], [0, 2], [0, 3], [1, 3], [2, 3]];
-/// Corners of each edge of a prism, in the order of the nodes between them.
+/// Corners of each edge of a prism, in the order of the mid-side nodes.
 const EDGES_OF_PRISM: [[usize; 2]; 9] = [
     [0, 1],
     [1, 2],
@@ -18,7 +18,7 @@ const EDGES_OF_PRISM: [[usize; 2]; 9] = [
     [1, 4],
     [2, 5],
 ];
-/// Corners of each edge of a hexahedron, in the order of the nodes between them.
+/// Corners of each edge of a hexahedron, in the order of the mid-side nodes.
 const EDGES_OF_CUBE: [[usize; 2]; 12] = [
     [0, 1],
     [1, 2],
@@ -56,8 +56,8 @@ pub(in crate::shape) const PRISM: [Place; 15] = with_middles(
     EDGES_OF_PRISM,
 );
 
-/// Corners of `[-1, 1]^3` in the order of a hexahedron's nodes; the first four have the order of a
-/// square's.
+/// Corners of `[-1, 1]^3` in the order of a hexahedron's nodes; the first four are in the order of
+/// a square's nodes.
 pub const CORNERS_OF_CUBE: [Place; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
@@ -71,7 +71,7 @@ pub const CORNERS_OF_CUBE: [Place; 8] = [
 
 pub(in crate::shape) const CUBE: [Place; 20] = with_middles(CORNERS_OF_CUBE, EDGES_OF_CUBE);
 
-/// The corners, then the middle of each edge.
+/// The corners, followed by the middle of each edge.
 const fn with_middles<const C: usize, const E: usize, const N: usize>(
     corners: [Place; C],
     edges: [[usize; 2]; E],
@@ -104,7 +104,7 @@ const GAUSS_2X2X2: &Rule = &[
     ([G2, G2, G2], 1.0),
     ([-G2, G2, G2], 1.0),
 ];
-/// First along the first coordinate, then along the second.
+/// The 3 x 3 x 3 rule; the first coordinate runs fastest, then the second.
 const GAUSS_3X3X3: &Rule = &{
     let mut points = [([0.0; 3], 0.0); 27];
     let mut n = 0;
@@ -117,7 +117,7 @@ const GAUSS_3X3X3: &Rule = &{
 };
 const CENTER_OF_CUBE: &Rule = &[([0.0, 0.0, 0.0], 8.0)];
 const CENTROID_OF_TETRAHEDRON: &Rule = &[([0.25, 0.25, 0.25], 1.0 / 6.0)];
-/// Four points, exact to degree 2: `(5 -+ sqrt 5)/20`.
+/// Four-point rule, exact to degree 2, with points at `(5 -+ sqrt 5)/20`.
 const INNER_4: &Rule = {
     const NEAR: f64 = 0.138_196_601_125_010_5;
     const FAR: f64 = 1.0 - 3.0 * NEAR;
@@ -173,9 +173,10 @@ pub(super) static TET10: Reference = Reference {
     gmsh_order: &[0, 1, 2, 3, 4, 5, 6, 7, 9, 8],
 };
 
-/// Three points of a triangle at two heights. In a prism of fifteen nodes it leaves three modes
-/// without stiffness, none of which neighbours share (four prisms side by side, two on top of each
-/// other), as the reduced rule of the serendipity hexahedron leaves six.
+/// Three points of a triangle at two heights. The rule leaves a prism with fifteen nodes three
+/// modes without stiffness, and neighbouring elements share none of them (four prisms side by side,
+/// two on top of each other). Similarly the reduced rule of the serendipity hexahedron leaves six
+/// such modes.
 const INNER_3X2: &Rule = &[
     ([SIXTH, SIXTH, -G2], SIXTH),
     ([4.0 * SIXTH, SIXTH, -G2], SIXTH),

@@ -33,7 +33,7 @@ fn a_member_has_all_elements_larger_by_one_ratio() {
     assert!((p.growth.powi(2) / own.growth - 1.0).abs() < 1e-14);
 }
 
-/// Surfaces that face each other node by node go on doing so: all counts have one ratio.
+/// Surfaces that face each other node by node continue to do so, because all counts have one ratio.
 #[test]
 fn parts_are_scaled_together() {
     let text = include_str!("../../../../data/scenes/pin_in_hole.toml");
@@ -50,8 +50,7 @@ fn parts_are_scaled_together() {
     }
 }
 
-/// The sizes along a biased line are those of one function of the place, sampled with more
-/// elements.
+/// The sizes along a biased line are one function of the position, sampled with more elements.
 #[test]
 fn a_bias_samples_the_same_sizes() {
     let parts = blocks(&[
@@ -65,8 +64,8 @@ fn a_bias_samples_the_same_sizes() {
     };
     let (coarse, fine) = (of(&parts), of(&member));
     assert_eq!(ratio, 0.5);
-    // Corner nodes are every second of the positions, and every second corner of the finer mesh
-    // is one of the coarser.
+    // Corner nodes are every second position, and every second corner of the finer mesh is a corner
+    // of the coarser one.
     for (i, x) in coarse.iter().enumerate().step_by(2) {
         assert!((fine[2 * i] - x).abs() < 1e-14, "{i}");
     }
@@ -89,8 +88,8 @@ fn a_piece_of_a_block_keeps_its_length() {
     assert!(error.contains("`b`"), "{error}");
 }
 
-/// Counts without a common divisor are rounded, each for itself, as long as that hardly
-/// distorts the mesh.
+/// Counts without a common divisor are rounded one by one, provided that this hardly distorts the
+/// mesh.
 #[test]
 fn counts_are_rounded_where_they_have_to_be() {
     let parts = blocks(&["block = { x = [0.0, 1.0], y = [0.0, 1.0], elements = [31, 45] }"]);
@@ -98,7 +97,7 @@ fn counts_are_rounded_where_they_have_to_be() {
     assert_eq!(all_counts(&member), [21, 30]);
     assert_eq!(ratio, 1.5);
     let ring = blocks(&["ring = { radius = [1.0, 2.0], elements = [1, 16] }"]);
-    // The nearest is the ring itself.
+    // The nearest member is the ring itself.
     assert_eq!(ring.member(2.0).unwrap().1, 1.0);
     assert_eq!(all_counts(&ring.member(0.5).unwrap().0), [2, 32]);
 }

@@ -48,8 +48,8 @@ fn both_bodies_are_valid_and_match_in_x() {
                     "{yu} {exact}"
                 );
                 if piece == "contact" {
-                    // Relative accuracy of the small gaps near the pole, which a form that cancels
-                    // would lose.
+                    // Checks the relative accuracy of the small gaps near the pole, which a formula
+                    // with cancellation would lose.
                     let small = xu * xu / (2.0 * RADIUS);
                     assert!(yu >= small && yu <= small * (1.0 + 2.0 * (xu / RADIUS).powi(2)));
                 }
@@ -102,8 +102,8 @@ fn candidates_end_at_the_fine_width_and_are_even() {
 }
 
 /// Beyond the even part the elements of the candidates grow so slowly that a contact of any half
-/// width has `resolution` of them over it at least; within it and without a reach beyond, nothing
-/// changes.
+/// width has at least `resolution` elements over it. Within the even part, and without a reach
+/// beyond it, nothing changes.
 #[test]
 fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_them() {
     for shape in Shape::PLANE {
@@ -136,14 +136,15 @@ fn candidates_reach_as_far_as_the_contact_with_enough_elements_over_any_part_of_
         );
         for (k, &edge) in x.iter().enumerate().skip(p.resolution) {
             assert!(k >= p.resolution);
-            // The size at the edge over the distance is at most that at first yield.
+            // The ratio of the size at the edge to the distance is at most the one at first yield.
             let size = edge - x[k - 1];
             assert!(
                 size <= edge / p.resolution as f64 * (1.0 + 1e-12),
                 "{edge} {size}"
             );
         }
-        // 12 even ones, then a geometric series over the rest: logarithmic in the reach.
+        // Twelve even elements, then a geometric series over the rest: the number is logarithmic in
+        // the reach.
         let (n, r) = (
             p.resolution as f64,
             p.growth.min(1.0 + 1.0 / p.resolution as f64),
@@ -183,7 +184,7 @@ impl Profile {
         Self::circle(self.edge) + self.slope * self.edge * (1.0 - self.decay(x))
     }
 
-    /// Integral of the height from 0 to `end`, beyond the edge.
+    /// Integral of the height from 0 to `end`, for `end` beyond the edge.
     fn integral(&self, end: f64) -> f64 {
         let (r, c, s) = (RADIUS, self.edge, self.slope);
         let circle = r * c - 0.5 * (c * (r * r - c * c).sqrt() + r * r * (c / r).asin());
@@ -191,8 +192,8 @@ impl Profile {
         circle + level - s * c * c * (1.0 - self.decay(end))
     }
 
-    /// Second and fourth derivative on the piece right (`outside`) or left of the edge; both grow
-    /// with x there.
+    /// Second and fourth derivative of the height to the right (`outside`) or left of the edge; on
+    /// each piece both grow with x.
     fn derivatives(&self, x: f64, outside: bool) -> [f64; 2] {
         if outside {
             let second = -self.slope / self.edge * self.decay(x);
@@ -204,9 +205,9 @@ impl Profile {
     }
 }
 
-/// Linear sides are the trapezoidal rule for the area under the surface, parabolic sides are
-/// Simpson's. Their errors are `h^3 f^(2)/12` and `h^5 f^(4)/2880` at a point of each side: between
-/// the values at its ends.
+/// Linear sides give the trapezoidal rule for the area under the surface, parabolic sides Simpson's
+/// rule. The errors are `h^3 f^(2)/12` and `h^5 f^(4)/2880` with the derivative at a point of each
+/// side, so they lie between the values at the ends of the side.
 #[test]
 fn areas_are_those_of_the_quadrature_of_the_surface() {
     let size = 50.0 * HALF_WIDTH;
@@ -242,7 +243,7 @@ fn areas_are_those_of_the_quadrature_of_the_surface() {
             least - round_off <= under && under <= most + round_off,
             "{shape:?}: {under} is not between {least} and {most}"
         );
-        // The bounds are wider than round-off: the formulas are what is tested.
+        // The bounds are wider than round-off, so the formulas are really tested.
         assert!(most - least > round_off && least.abs() > round_off);
     }
 }
@@ -252,7 +253,7 @@ fn the_widest_candidates_are_valid() {
     let sizes = [92.0, 155.0, 2000.0];
     for (shape, far_size) in Shape::PLANE.into_iter().flat_map(|s| sizes.map(|w| (s, w))) {
         let mut p = example(shape);
-        // Up to 0.9 of the radius, where the circle's slope is 2.
+        // Candidates reach up to 0.9 of the radius, where the circle's slope is 2.
         p.fine_width = 90.0;
         p.resolution = 1;
         p.fine_depth = 2.0;
@@ -333,8 +334,8 @@ fn refusals_name_key_and_value() {
     }
 }
 
-/// A solid of some depth under its share of the force is meshed for the contact of the plane model,
-/// whole or half.
+/// An extruded cylinder of any depth, whole or half, under its share of the force gets the mesh
+/// size of the plane model's contact.
 #[test]
 fn an_extruded_cylinder_is_meshed_for_the_contact_of_the_plane_one() {
     let size = |kind: &str, mesh: &str, total: f64| {

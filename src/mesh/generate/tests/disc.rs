@@ -18,8 +18,8 @@ pub(super) fn example(resolution: usize, element: Shape) -> DiscInPlate {
     }
 }
 
-/// Area of the quarter of a polygon (or chain of parabolas) on a circle with `n` sides over 90
-/// degrees.
+/// Area of a sector of `angle` bounded by a polygon (or a chain of parabolas) with `n` sides on a
+/// circle.
 pub(super) fn sector_area(radius: f64, angle: f64, n: usize, shape: Shape) -> f64 {
     let half = 0.5 * angle / n as f64;
     let triangles = radius * radius * half.sin() * half.cos();
@@ -86,7 +86,7 @@ fn contact_nodes_coincide_and_lie_at_equal_angles() {
         let normals = surface::normals(&mesh, &mesh.surfaces["plate.contact"], &plate);
         for (normal, &node) in normals.iter().zip(&plate) {
             let [x, y] = mesh.in_plane(node);
-            // Out of the plate is into the hole.
+            // The outward normal of the plate points into the hole.
             assert!((normal[0] + x / RADIUS).abs() < 4.0 * f64::EPSILON);
             assert!((normal[1] + y / RADIUS).abs() < 4.0 * f64::EPSILON);
         }

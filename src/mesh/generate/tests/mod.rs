@@ -1,4 +1,4 @@
-//! Every generator with every element shape, and every refusal.
+//! Tests of every generator with every element shape, and of every refusal.
 
 mod cylinder;
 mod disc;
@@ -7,7 +7,7 @@ mod parts;
 use super::ContactSize;
 use crate::mesh::{Curve, Mesh, Shape, surface, validate};
 
-/// Area of a body: corners by the shoelace formula, and 2/3 of chord times sag for each parabolic
+/// Area of a body: corners by the shoelace formula, plus 2/3 of chord times sag for each parabolic
 /// side.
 pub(super) fn area(mesh: &Mesh, body: &str) -> f64 {
     let body = mesh.bodies.iter().position(|b| b == body).unwrap() as u32;
@@ -29,9 +29,9 @@ pub(super) fn area(mesh: &Mesh, body: &str) -> f64 {
     sum
 }
 
-/// What holds for every generated mesh: it is valid, no two bodies share a node, each surface is
-/// one curve of facets of one body's boundary, and its exact normals agree with those of its
-/// facets.
+/// Checks the properties of every generated mesh: it is valid, no two bodies share a node, each
+/// surface is one curve of facets on one body's boundary, and the exact normals of the surface
+/// agree with those of its facets.
 pub(super) fn check_common(mesh: &Mesh) {
     validate(mesh).unwrap();
     let mut owner = vec![None; mesh.n_nodes()];
@@ -62,13 +62,13 @@ pub(super) fn check_common(mesh: &Mesh) {
         let exact = surface::normals(mesh, surface, &nodes);
         let mut unknown = surface.clone();
         let Some(curve) = unknown.curve.take() else {
-            // Where the cylinder's surface levels off it is no simple curve.
+            // The part of the cylinder's surface that levels off is no simple curve.
             assert_eq!(name, "cylinder.outside");
             continue;
         };
         let averaged = surface::normals(mesh, &unknown, &nodes);
-        // Half the largest angle of a facet bounds the deviation at the ends, where one facet
-        // decides.
+        // At the ends, where a single facet determines the normal, half the largest angle of a
+        // facet bounds the deviation.
         let tolerance = match curve {
             Curve::Line { .. } => 1e-12,
             Curve::Circle { radius, .. } => surface

@@ -84,7 +84,7 @@ fn a_block_has_its_sides_corners_and_pieces() {
         ] {
             assert_eq!(mesh.in_plane(mesh.node_sets[name][0]), point, "{name}");
         }
-        // Elements end at -1, -0.5, 0, 0.5, 1, ...: three whole ones fit in -0.5..1.1.
+        // Elements end at -1, -0.5, 0, 0.5, 1, ...: three whole elements fit into -0.5..1.1.
         let xs: Vec<f64> = mesh
             .set_nodes("a.loaded")
             .unwrap()
@@ -146,7 +146,7 @@ fn discs_of_every_span_are_valid() {
     }
 }
 
-/// A shaft in a ring: contact nodes of both lie at the same places.
+/// A shaft in a ring: the contact nodes of both lie at the same positions.
 #[test]
 fn a_disc_matches_the_ring_around_it() {
     for shape in Shape::PLANE {
@@ -185,7 +185,7 @@ fn many_bodies_of_mixed_shapes_stay_apart() {
     }
 }
 
-/// Applies a change to an example and returns the refusal.
+/// Applies a change to a valid part and returns the message of the refusal.
 fn refusal(mut part: Part, change: impl Fn(&mut Part)) -> String {
     change(&mut part);
     let error = parts(&[block("first", Shape::Quad4), part]).unwrap_err();
@@ -295,7 +295,7 @@ fn refusals_of_the_list_of_parts() {
     );
 }
 
-/// The limit holds for all parts together, and triangles count twice.
+/// The limit applies to all parts together, and each cell counts as two triangles.
 #[test]
 fn the_number_of_elements_is_limited_before_anything_is_allocated() {
     let mut half = block("b", Shape::Tri3);

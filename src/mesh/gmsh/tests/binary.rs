@@ -1,8 +1,9 @@
-//! Binary files of both versions and orders of bytes are what the same files as text are.
+//! Binary files of both versions and both byte orders give the same mesh as the corresponding text
+//! files.
 
 use super::*;
 
-/// Bytes as another machine, or this one, writes them.
+/// Bytes as this machine, or one with the reverse byte order, writes them.
 struct Bytes {
     out: Vec<u8>,
     swapped: bool,
@@ -50,7 +51,7 @@ impl Bytes {
         self.out.extend(format!("{text}\n").bytes());
     }
 
-    /// The bounding entities of all but points, which these texts may have, too.
+    /// Writes the bounding entities too, which these texts may have for all entities except points.
     fn entities(&mut self, lines: &mut dyn Iterator<Item = &str>, partitioned: bool) {
         if partitioned {
             self.number(&mut lines.next().unwrap().split_whitespace());
@@ -111,7 +112,7 @@ impl Bytes {
         if !self.wide {
             self.line(words.next().unwrap());
             for line in lines {
-                // Each a block of its own, which Gmsh may write.
+                // Each element is written as a block of its own, which Gmsh may do.
                 let words: Vec<&str> = line.split_whitespace().collect();
                 let header = format!("{} 1 {}", words[1], words[2]);
                 let mut header = header.split_whitespace();
@@ -146,7 +147,7 @@ impl Bytes {
 
 type Words<'a> = std::str::SplitWhitespace<'a>;
 
-/// A text file as a binary one.
+/// Converts a text file into a binary one.
 pub(super) fn binary(text: &str, swapped: bool) -> Vec<u8> {
     let wide = text.contains("\n4.1 0 8");
     let mut bytes = Bytes {
@@ -222,13 +223,13 @@ fn what_is_cut_off_or_changed_is_refused_by_its_byte() {
                 place.iter().any(|p| error.message().starts_with(p)),
                 "{error}"
             );
-            // The number of elements is text in version 2.2, and compared with what is left.
+            // The number of elements is text in version 2.2, and is compared with the bytes left.
             if length > elements + 20 {
                 assert!(error.message().starts_with(place[0]), "{error}");
             }
         }
-        // Every byte turned round: read as something else, or refused, but never more memory than
-        // the file has bytes for.
+        // With every byte inverted in turn, the file is read as something else or refused, but
+        // never takes more memory than its bytes can account for.
         for k in 0..whole.len() {
             let mut damaged = whole.clone();
             damaged[k] ^= 0xff;
@@ -242,7 +243,8 @@ fn what_is_cut_off_or_changed_is_refused_by_its_byte() {
     }
 }
 
-/// A file that another program saved as text: line feeds became two bytes.
+/// A file that another program saved as text, so that each line feed became two bytes, and files
+/// with unsupported sizes or types.
 #[test]
 fn other_sizes_and_types_are_named() {
     for (format, expected) in [

@@ -1,4 +1,5 @@
-//! Damaged files never panic: they are read or refused, and what is read can be validated.
+//! Damaged files never cause a panic: they are read or refused, and a mesh that is read can be
+//! validated.
 
 use super::*;
 use proptest::prelude::*;
@@ -6,7 +7,8 @@ use proptest::prelude::*;
 fn survives(text: &[u8]) {
     match parse(text, "damaged.msh") {
         Ok(mesh) => {
-            // A mesh that was read is consistent: if anything is wrong with it, it is its content.
+            // A mesh that was read is consistent in itself: validation may find fault with its
+            // content only.
             if let Err(error) = validate(&mesh) {
                 assert!(!error.message().contains("inconsistent"), "{error}");
             }

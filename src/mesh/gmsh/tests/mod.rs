@@ -1,4 +1,4 @@
-//! Files of both versions, round trips, and every refusal.
+//! Tests with files of both versions, round trips, and every refusal.
 
 mod binary;
 mod damage;
@@ -10,8 +10,9 @@ mod solid;
 use super::*;
 use crate::mesh::{Shape, surface, validate};
 
-/// Version 2.2: a quadrilateral and two triangles in two bonded bodies, one triangle clockwise, a
-/// shared interface, the centre of a circle that no element uses, widely spread numbers.
+/// Version 2.2: a quadrilateral and two triangles in two bonded bodies, with one triangle
+/// clockwise, a shared interface, the centre of a circle that no element uses, and widely spread
+/// numbers.
 pub(super) const V2: &str = r#"$MeshFormat
 2.2 0 8
 $EndMeshFormat
@@ -45,8 +46,8 @@ $Elements
 $EndElements
 "#;
 
-/// Version 4.1, as Gmsh writes it: second order, an unnamed curve, a parametric node block,
-/// sections that are of no use here.
+/// Version 4.1, as Gmsh writes it: second order, with an unnamed curve, a parametric node block,
+/// and sections that are not needed.
 pub(super) const V4: &str = r#"$MeshFormat
 4.1 0 8
 $EndMeshFormat
@@ -113,7 +114,8 @@ fn version_2_bodies_surfaces_and_points() {
     assert_eq!(mesh.in_plane(4), [2.0, 0.0]);
     assert_eq!(mesh.node_sets["pole"], [3]);
     assert_eq!(mesh.set_nodes("bottom").unwrap(), [0, 1, 4]);
-    // The line runs with the hard body on its left, but its name says whose it is.
+    // The line has the hard body on its left, but the name of the surface assigns it to the soft
+    // body.
     let interface = &mesh.surfaces["soft.interface"];
     assert_eq!(interface.facets.len(), 1);
     assert_eq!(mesh.element_body[interface.facets[0].element], 1);
@@ -215,7 +217,7 @@ fn clockwise_elements_of_every_shape_are_turned_round() {
             points.push([0.5 * (p[0] + q[0]), 0.5 * (p[1] + q[1])]);
         }
         points.truncate(shape.n_nodes());
-        // The same polygon from corner 0 the other way round.
+        // The same polygon from corner 0, in the opposite direction.
         let mut reversed: Vec<usize> = (0..n).map(|k| (n - k) % n).collect();
         if shape.is_quadratic() {
             reversed.extend((0..n).map(|k| n + (n - 1 - k)));

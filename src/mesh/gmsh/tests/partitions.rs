@@ -1,13 +1,14 @@
-//! Partitioned meshes: the pieces of a file are joined, a file that holds some of them is refused.
+//! Partitioned meshes: the pieces in a file are joined, and a file that holds only some of them is
+//! refused.
 
 use super::refusals::refused;
 use super::*;
 use std::fmt::Write;
 
-/// Two bodies of three squares each in a row, each square a partition of its own or none, in
-/// version 4.1 as Gmsh writes it: pieces have numbers of their own, the lines between them are
-/// entities that carry the group of the body, ghost elements follow. `kept` are the partitions
-/// that a file holds.
+/// Two bodies of three squares each in a row, in version 4.1 as Gmsh writes it. Each square is a
+/// partition of its own, or none. Pieces have numbers of their own, the lines between them are
+/// entities that carry the group of the body, and ghost elements follow. `kept` lists the
+/// partitions that the file holds.
 pub(super) fn row(partitioned: bool, kept: &[usize]) -> String {
     let mut entities = String::from("$Entities\n0 2 2 0\n");
     for (tag, from) in [(1, 0), (2, 3)] {
@@ -102,7 +103,8 @@ fn pieces_of_a_mesh_are_joined_to_what_was_cut() {
         for surface in joined.surfaces.values_mut() {
             assert_eq!(surface.facets.len(), 3);
         }
-        // What lies between pieces is no boundary and no set, though it has the body's group.
+        // Lines between pieces are neither boundaries nor sets, although they carry the body's
+        // group.
         assert_eq!(joined.surfaces.len(), 2, "{:?}", joined.surfaces.keys());
         assert_eq!(joined.node_sets.len(), whole.node_sets.len());
     }
@@ -118,7 +120,7 @@ fn one_file_of_several_is_refused() {
         let words = format!("partition {missing} is not in this file");
         refused(&row(true, kept), &["line 19", &words, "-part_split"]);
     }
-    // Version 2.2 has its partitions beside each element: their number, then each.
+    // Version 2.2 lists the partitions with each element: their number, then each partition.
     let both = V2
         .replace("100 3 2 4 1 ", "100 3 4 4 1 1 1 ")
         .replace("101 2 2 5 2 ", "101 2 4 5 2 1 2 ")

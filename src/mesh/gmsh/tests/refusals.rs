@@ -9,7 +9,7 @@ pub(super) fn refused(text: &str, expected: &[&str]) -> Error {
     error
 }
 
-/// Replaces the only occurrence.
+/// Replaces the only occurrence of `old`.
 fn with(text: &str, old: &str, new: &str) -> String {
     assert_eq!(text.matches(old).count(), 1, "{old}");
     text.replace(old, new)
@@ -29,7 +29,7 @@ fn other_files_binary_files_and_other_versions() {
         let error = refused(&with(V2, old, new), &["line 2", text]);
         assert_eq!(error.kind(), ErrorKind::Unsupported);
     }
-    // Text that says it is binary.
+    // A text file that claims to be binary.
     refused(
         &with(V4, "4.1 0 8", "4.1 1 8"),
         &["line 3", "order of bytes"],
@@ -84,7 +84,7 @@ fn groups_that_are_missing_or_double() {
         &with(V2, "\"pole\"", "\"bottom\""),
         &["`bottom` is the name (or number) of both"],
     );
-    // Points and lines outside of groups are no sets.
+    // Points and lines outside of groups form no sets.
     let mesh = parsed(&with(V2, "2 1 2 2 7 20 30", "2 1 2 0 7 20 30"));
     assert!(!mesh.surfaces.contains_key("soft.interface"));
 }
@@ -241,8 +241,8 @@ fn sections_that_are_missing_double_or_out_of_order() {
     refused(&lines_only, &["no triangles or quadrilaterals"]);
 }
 
-/// A file cut off anywhere before its last section ends is refused; the message names the last
-/// line.
+/// A file cut off anywhere before the end of its last section is refused; the message names the
+/// last line.
 #[test]
 fn truncated_files() {
     for text in [V2, V4] {

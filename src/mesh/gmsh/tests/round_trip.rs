@@ -33,7 +33,7 @@ fn generated(shape: Shape) -> [Mesh; 2] {
     ]
 }
 
-/// Everything but the exact curves comes back, coordinates bit for bit.
+/// Everything except the exact curves is recovered, and coordinates are equal bit for bit.
 #[test]
 fn generated_meshes_come_back_as_they_were() {
     for shape in Shape::PLANE {
@@ -87,7 +87,7 @@ fn a_name_that_the_format_cannot_hold_is_refused() {
     }
 }
 
-/// A sink that refuses.
+/// A sink that refuses everything written to it.
 struct Full;
 
 impl std::io::Write for Full {

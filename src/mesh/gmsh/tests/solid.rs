@@ -1,10 +1,10 @@
-//! Volumes.
+//! Tests of solid meshes, with volumes.
 
 use super::*;
 use crate::mesh::Facet;
 
-/// One element of a shape with its reference nodes, the middles of edges halfway between corners,
-/// and all its facets in one surface.
+/// One element of a shape with nodes near its reference positions, mid-side nodes halfway between
+/// corners, and all its facets in one surface.
 fn one(shape: Shape) -> Mesh {
     let row = shape.reference();
     let corner = |k: usize| {
@@ -52,7 +52,7 @@ fn solid_elements_come_back_as_they_were() {
     }
 }
 
-/// The ends of the edge of each middle node in the file, as the manual of Gmsh numbers them
+/// The two corners of the edge of each mid-side node in the file, as numbered in the manual of Gmsh
 /// ("Node ordering").
 #[test]
 fn middle_nodes_stand_where_the_manual_puts_them() {
@@ -104,8 +104,8 @@ fn middle_nodes_stand_where_the_manual_puts_them() {
     }
 }
 
-/// Faces without a group, lines and points beside volumes are no bodies; a face of no element and a
-/// volume of no group are named.
+/// Faces without a group, and lines and points in addition to volumes, do not become bodies. A face
+/// of no element and a volume in no group are reported.
 #[test]
 fn what_a_solid_mesh_must_say() {
     let text = written(&one(Shape::Tet4));
@@ -113,7 +113,7 @@ fn what_a_solid_mesh_must_say() {
         assert!(text.contains(from), "{from}: {text}");
         text.replacen(from, to, 1)
     };
-    // A face that Gmsh saved though it is in no group.
+    // A face that Gmsh saved although it is in no group.
     let face = with("$EndElements", "9 2 2 0 7 1 2 3\n$EndElements");
     let more = face.replacen("$Elements\n7", "$Elements\n8", 1);
     assert_eq!(parsed(&more).surfaces, parsed(&text).surfaces);

@@ -1,11 +1,11 @@
-//! Solids cut in eight.
+//! Subdivision of solids, whose elements are divided into eight.
 
 use super::*;
 use crate::mesh::{extruded, gmsh};
 use crate::scene::{CurvedBodies, Extrusion, Meshed};
 use crate::space::length;
 
-/// A quarter of a tube, two elements long, drawn from a ring of a plane shape.
+/// A quarter of a tube, two elements long, extruded from a ring of plane elements.
 fn tube(plane: Shape) -> Mesh {
     drawn(ring(plane))
 }
@@ -18,7 +18,7 @@ fn drawn(ring: Mesh) -> Mesh {
     extruded(&ring, &extrusion).unwrap()
 }
 
-/// Blocks of a Gmsh file, with straight edges where `linear`.
+/// Blocks from a Gmsh file, with straight edges if `linear`.
 fn tetrahedra(linear: bool) -> Mesh {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/meshes/blocks_tet10.msh");
     let mesh = gmsh::read(path.as_ref()).unwrap();
@@ -54,8 +54,8 @@ fn all() -> Vec<Mesh> {
     out
 }
 
-/// A third of the flux of the place through the boundary of all elements, by a rule that is exact
-/// for quadratic facets.
+/// Volume of the mesh: a third of the flux of the position through the boundary of all elements, by
+/// a rule that is exact for quadratic facets.
 fn volume(mesh: &Mesh) -> f64 {
     let mut sum = 0.0;
     for element in 0..mesh.n_elements() {
@@ -100,7 +100,7 @@ fn bodies_and_surfaces_stay() {
                 finer.surfaces[name].facets.len(),
                 per_facet * surface.facets.len()
             );
-            // Old nodes of the surface are on it still, and its new ones between them.
+            // Old nodes of the surface still lie on it, with its new nodes between them.
             let (old, new) = (mesh.set_nodes(name), finer.set_nodes(name).unwrap());
             let kept: Vec<usize> = new.into_iter().filter(|n| *n < mesh.n_nodes()).collect();
             assert_eq!(Some(kept), old, "{shape:?} {name}");
@@ -108,7 +108,7 @@ fn bodies_and_surfaces_stay() {
     }
 }
 
-/// Children of tetrahedra do not become flatter and flatter.
+/// Children of tetrahedra do not become flatter with every subdivision.
 #[test]
 fn tetrahedra_keep_their_angles() {
     let flattest = |mesh: &Mesh| {
@@ -135,8 +135,9 @@ fn tetrahedra_keep_their_angles() {
     );
 }
 
-/// New nodes lie on both cylinders of a tube, and the volume goes to that of the tube with the
-/// order of its facets. Those between follow: the facets of the thin tube sag by its thickness.
+/// New nodes lie on both cylinders of a tube, and the volume converges to the tube's with the order
+/// of the facets. New nodes in between must follow, because the facets of the thin tube sag by its
+/// thickness.
 #[test]
 fn new_nodes_lie_on_cylinders_and_those_between_follow() {
     for (shape, outer) in [
@@ -180,7 +181,8 @@ fn new_nodes_lie_on_cylinders_and_those_between_follow() {
     }
 }
 
-/// Nodes of curved bodies whose surfaces are not known face each other, and so do their new ones.
+/// Nodes of curved bodies whose exact surfaces are not known face each other, and so do the new
+/// nodes.
 #[test]
 fn solid_faces_go_on_facing_each_other() {
     for element in [Shape::Hex8, Shape::Hex20] {

@@ -1,10 +1,10 @@
-//! Overrides by tables and lists, and such that remove a key.
+//! Overrides by tables and by lists, and overrides that remove a key.
 
 use super::load_with;
 use crate::scene::Unit;
 
-/// What is not named stays: a table given for `program` does not turn multiples of the yield load
-/// into loads.
+/// Keys that an override does not name keep their values: a table given for `program` does not turn
+/// multiples of the yield load into loads.
 #[test]
 fn an_override_by_a_table_is_merged_with_it() {
     let unit = "program.unit=yield";
@@ -26,7 +26,7 @@ fn an_override_by_a_table_is_merged_with_it() {
     assert_eq!(part.block.as_ref().unwrap().elements, [4, 4]);
     assert_eq!(part.body, "block");
     assert!(scene.warnings.is_empty(), "{:?}", scene.warnings);
-    // The place of what was given is the override, that of the rest the file.
+    // A value from an override has the override as its place, all other values a place in the file.
     let wrong = "materials={ steel = { yield_stress = -1 } }";
     let error = load_with(&[wrong]).unwrap_err();
     let expected = format!("--set {wrong}: materials.steel.yield_stress: -1 must be greater");
@@ -50,7 +50,7 @@ fn an_override_without_a_value_removes_the_key() {
     assert_eq!(scene.materials["steel"].yield_stress, None);
 }
 
-/// A list replaces the list: what all of its entries had and none has now is told.
+/// A list replaces the old list: keys that all old entries had and no new entry has are reported.
 #[test]
 fn keys_that_a_new_list_loses_are_told() {
     let lost = |text: &str| load_with(&[text]).unwrap().warnings;

@@ -1,4 +1,4 @@
-//! What is refused of effects.
+//! Refusals of effects: back stresses, yield stress by depth, cycles.
 
 use super::*;
 

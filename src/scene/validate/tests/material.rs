@@ -1,8 +1,8 @@
-//! Materials and bodies.
+//! Refusals of materials and bodies.
 
 use super::*;
 
-/// Gives the steel a tensile test in place of its law.
+/// Gives the steel a tensile test in place of its hardening law.
 fn tested(scene: &mut Scene, yield_stress: Option<f64>, test: &[[f64; 2]]) {
     let steel = scene.materials.get_mut("steel").unwrap();
     steel.plastic_modulus = None;
@@ -10,7 +10,7 @@ fn tested(scene: &mut Scene, yield_stress: Option<f64>, test: &[[f64; 2]]) {
     steel.tensile_test = Some(test.to_vec());
 }
 
-/// Gives the steel rows over temperature, and its bodies one.
+/// Gives the steel rows over temperature, and its bodies a temperature.
 fn heated(scene: &mut Scene, rows: &[MaterialRow]) {
     let steel = scene.materials.get_mut("steel").unwrap();
     steel.over_temperature = rows.to_vec();
