@@ -5,7 +5,8 @@
 mod calibration;
 #[path = "../accuracy/families.rs"]
 mod families;
-mod held_out;
+mod held_out_first;
+mod held_out_second;
 mod prices;
 mod solids;
 #[path = "../support/mod.rs"]
@@ -51,13 +52,16 @@ const SOLIDS: &str = "# Stated errors of solids beside true ones\n\n`cargo run -
                       for what other models showed.\n";
 
 const HELD_OUT: &str = "# Stated errors by default beside true ones\n\n`cargo run --release \
-                        --example claims -- default` writes this page. The default estimate \
-                        takes no more \
-                        than the run (`--estimate quick`); meshes from files are judged by the \
-                        energy norm of the recovered stress error alone. These families were \
-                        written when it was finished, are of kinds that no other family has, and \
-                        nothing was changed for what they show. True errors are the differences \
-                        from meshes three to eight times finer.\n";
+                        --example claims -- default` writes this page. The default estimate takes \
+                        no more than the run (`--estimate quick`); meshes from files and decks are \
+                        judged by the energy norm of the recovered stress error alone. The \
+                        families \"held out\" were written when the procedure was finished, are \
+                        of kinds that no other family has, and nothing was changed for what they \
+                        show. Those \"held out before\" judged it earlier, of meshes from files \
+                        with 82 % of loads and 79 % of plastic strains within the stated error: \
+                        loads that the stress decides and plastic strains near a surface have \
+                        rules of their own since. True errors are the differences from meshes two \
+                        to eight times finer.\n";
 
 fn main() {
     if std::env::args()
@@ -66,13 +70,14 @@ fn main() {
     {
         let folder = tempfile::tempdir().unwrap();
         let mut page = HELD_OUT.to_string();
-        let claims = judged(
-            "held out",
-            &held_out::families(folder.path()),
-            &mut page,
-            None,
-        );
-        by_quantity("held out", &claims, &mut page);
+        let groups = [
+            ("held out", held_out_second::families(folder.path())),
+            ("held out before", held_out_first::families(folder.path())),
+        ];
+        for (group, families) in &groups {
+            let claims = judged(group, families, &mut page, None);
+            by_quantity(group, &claims, &mut page);
+        }
         std::fs::write("data/accuracy/claims_default.md", page).unwrap();
         return;
     }
