@@ -7,8 +7,7 @@
 //! ```text
 //!     u_lead = v,     u_follow = G v + H s,     H = B_follow^-1,     G = -H B_lead
 //! ```
-//! Closed rows (`s = 0`) tie their followers to the leaders. For pairs `G` is one and `H` is a
-//! sign.
+//!
 //! Closed rows (`s = 0`) tie their followers to the leaders. For pairs `G` is one and `H` a sign.
 
 use super::Trace;
