@@ -48,8 +48,8 @@ pub(super) fn enter() -> Result<Entered> {
     Ok(Some(has_buffer))
 }
 
-/// Whether the limits of the process leave too little for the work buffers of all BLAS threads, as
-/// much again for other data of the threads, and the work itself.
+/// Whether the limits of the process leave too little for the work buffers of all BLAS threads, for
+/// as much other data of the threads, and for the work itself.
 pub fn blas_threads_are_too_many() -> bool {
     let threads = blas_threads().unwrap_or(1);
     let needed = 2.0 * BUFFER * (threads as f64 + 1.0);
