@@ -116,8 +116,8 @@ mod tests {
 
     #[test]
     fn a_tree_out_of_postorder_is_left_whole() {
-        // Nodes 0 and 2 are children of 3, node 1 is a child of 4, and 3 and 4 are children of 5: the
-        // subtree of 3 is not contiguous, since 1 is not part of it.
+        // Nodes 0 and 2 are children of 3, node 1 is a child of 4, and 3 and 4 are children of 5:
+        // the subtree of 3 is not contiguous, since 1 is not part of it.
         let forest = Forest {
             parent: &[3, 4, 3, 5, 5, usize::MAX],
             work: &[30_000; 6],
