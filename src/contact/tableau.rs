@@ -186,7 +186,7 @@ impl Tableau {
         self.way.base.copy_from_slice(&self.open);
     }
 
-    /// The history of this tableau, which [`Tableau::replay`] repeats.
+    /// History of this tableau, from which an equal tableau can be made.
     pub fn record(&self) -> &TableauRecord {
         &self.way
     }

@@ -254,7 +254,7 @@ impl ModelBuilder {
         &self.scene.program
     }
 
-    /// Sets the settings of the analysis.
+    /// Replaces the settings of the analysis.
     pub fn settings(&mut self, settings: Settings) -> &mut Self {
         self.scene.analysis = settings;
         self

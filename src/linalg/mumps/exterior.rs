@@ -340,10 +340,9 @@ impl Exterior {
     /// round-off. It counts the negative ones; for a matrix that is singular up to round-off, known
     /// solutions are not reproduced. Several solutions are reproduced by chance less often than
     /// one.
-    /// less often than one.
     ///
+    /// # Errors
     /// [`NotDefinite`] with the freedom whose error is largest.
-    /// [`NotDefinite`] by the freedom that is farthest off.
     fn require_held(&self, matrix: &Shared, is_indefinite: bool) -> Result<()> {
         let mut worst = (0, 0.0);
         for k in 1..=KNOWN {
