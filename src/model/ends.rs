@@ -193,7 +193,7 @@ impl<'m> Boundary<'m> {
         })
     }
 
-    /// Angle by which the boundary turns away at a node where the candidates end.
+    /// Angle by which the boundary turns away at a node where the contact surface ends.
     fn end_of(&self, node: usize, candidates: &BTreeSet<Facet>) -> Option<f64> {
         let facets = self.at.get(&node)?;
         let mut inside = facets.iter().filter(|facet| candidates.contains(facet));

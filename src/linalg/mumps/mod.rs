@@ -20,10 +20,10 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `world` | the ranks, what the first one asks of all |
-//! | `task`, `rank` | what is asked and answered; what a rank keeps and does |
+//! | `world` | the ranks, and requests of the first rank to all |
+//! | `task`, `rank` | requests and answers; data and work of a rank |
 //! | `shared` | the matrix as the first rank sees it |
-//! | `exterior` | order, analysis and factor of the interior |
+//! | `exterior` | ordering, analysis and factor of the interior |
 //! | `shim.c` | MPI and MUMPS themselves |
 //!
 //! # Source
