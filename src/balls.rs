@@ -1,20 +1,20 @@
-//! Which items a line comes near, or lie nearest a point: a tree of balls.
+//! Tree of balls that finds the items near a line or nearest to a point.
 //!
-//! Ball trees: S. M. Omohundro, *Five balltree construction algorithms*, ICSI TR-89-063 (1989), the
-//! one that cuts the longest axis at the median.
+//! Ball trees: S. M. Omohundro, *Five balltree construction algorithms*, ICSI TR-89-063 (1989); of
+//! the five, the algorithm that cuts the longest axis at the median.
 
 use crate::space::{Vector, difference, dot, length};
 use serde::{Deserialize, Serialize};
 
-/// Items of a leaf.
+/// Largest number of items of a leaf.
 const LEAF: usize = 4;
 
-/// Balls round items, and balls round these.
+/// Balls around items, and a tree of balls around these.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Balls {
     /// Centre and radius of each item.
     items: Vec<(Vector, f64)>,
-    /// Items, leaf by leaf.
+    /// Numbers of the items, leaf by leaf.
     order: Vec<usize>,
     /// Balls of the tree, in preorder.
     nodes: Vec<BallNode>,
@@ -24,9 +24,9 @@ pub(crate) struct Balls {
 struct BallNode {
     center: Vector,
     radius: f64,
-    /// Items below it, as places in the order.
+    /// Items below this ball, as a range in `order`.
     items: std::ops::Range<usize>,
-    /// The node that comes after all below this one.
+    /// Index of the node that follows all nodes below this one.
     next: usize,
 }
 
@@ -79,7 +79,7 @@ impl Balls {
         self.nodes[own].next = self.nodes.len();
     }
 
-    /// The items of a leaf; none of other nodes.
+    /// Items of a leaf; empty for other nodes.
     fn of_leaf(&self, node: &BallNode) -> &[usize] {
         match node.items.len() <= LEAF {
             true => &self.order[node.items.clone()],
@@ -87,14 +87,15 @@ impl Balls {
         }
     }
 
-    /// The items whose centres lie nearest a point, with their distances, ascending: `count` of
-    /// them at least, where there are so many, and all that are as near as the last.
+    /// Finds the items whose centres lie nearest to a point, with their distances, ascending: at
+    /// least `count` of them, if there are that many, and all further items at the distance of the
+    /// last one.
     pub(crate) fn nearest_few(&self, point: Vector, count: usize) -> Vec<(f64, usize)> {
         let off = |center: Vector| length(difference(point, center));
         let Some(reach) = self.reach(point, count) else {
             return Vec::new();
         };
-        // Round-off must not tell apart what is as near.
+        // Equal distances may differ by round-off.
         let reach = reach * (1.0 + 1e-9);
         let mut found = Vec::new();
         let mut at = 0;
@@ -115,8 +116,8 @@ impl Balls {
         found
     }
 
-    /// A distance within which `count` items lie, or all: the farthest in a small ball near the
-    /// point that has so many.
+    /// Distance within which `count` items lie, or all items: that of the farthest item in a small
+    /// ball near the point with at least `count` items.
     fn reach(&self, point: Vector, count: usize) -> Option<f64> {
         let off = |node: &BallNode| length(difference(point, node.center));
         let mut at = 0;
@@ -136,7 +137,8 @@ impl Balls {
         Some(offs.fold(0.0, f64::max))
     }
 
-    /// The least distance of a point from an item, which `distance` measures; none of no items.
+    /// Smallest distance of a point from an item, as measured by `distance`; infinite without
+    /// items.
     pub(crate) fn nearest(&self, point: Vector, distance: impl Fn(usize) -> f64) -> f64 {
         let (mut least, mut at) = (f64::INFINITY, 0);
         while let Some(node) = self.nodes.get(at) {
@@ -152,8 +154,8 @@ impl Balls {
         least
     }
 
-    /// The items that come nearer than `reach` to the line through a point along a unit vector,
-    /// ascending.
+    /// Finds the items that come nearer than `reach` to the line through a point along a unit
+    /// vector, ascending.
     pub(crate) fn near(&self, point: Vector, way: Vector, reach: f64) -> Vec<usize> {
         let mut found = Vec::new();
         self.visit(point, way, reach, |item| found.push(item));
@@ -161,12 +163,12 @@ impl Balls {
         found
     }
 
-    /// As [`Balls::near`], in no order; the number of balls that were looked at.
+    /// Visits items as [`Balls::near`] does, unsorted; returns the number of balls examined.
     fn visit(&self, point: Vector, way: Vector, reach: f64, mut found: impl FnMut(usize)) -> usize {
         let comes_near = |center: Vector, radius: f64| {
             let off = difference(center, point);
             let along = dot(off, way);
-            // Round-off must not lose what just touches.
+            // The factor keeps items that just touch, in spite of round-off.
             let near = (reach + radius) * (1.0 + 1e-9);
             dot(off, off) - along * along <= near * near
         };
@@ -194,7 +196,7 @@ impl Balls {
 mod tests {
     use super::*;
 
-    /// Facets of a surface of `n x n`, bent to a bowl.
+    /// Facets of a surface of `n x n` facets, bent to a bowl.
     fn bowl(n: usize) -> Vec<(Vector, f64)> {
         let at = |k: usize| {
             let [x, y] = [k % n, k / n].map(|i| (i as f64 + 0.5) / n as f64 - 0.5);
@@ -242,7 +244,7 @@ mod tests {
         assert!(Balls::new(Vec::new()).nearest_few([0.0; 3], 4).is_empty());
     }
 
-    /// 16 times as many facets: a few more balls on the way down, as many facets at its end.
+    /// With 16 times as many facets only a few more balls are examined on the way to the leaves.
     #[test]
     fn few_are_looked_at_however_many_there_are() {
         let most = |n: usize| {

@@ -1,26 +1,27 @@
-//! Members that are joined pair by pair, and the classes that result.
+//! Classes of members that are joined pair by pair (union-find).
 
-/// The classes of `0..n` (union-find; R. E. Tarjan, J. ACM 22 (1975) 215-225).
+/// Disjoint classes of `0..n` (union-find; R. E. Tarjan, J. ACM 22 (1975) 215-225).
 pub(crate) struct Classes {
-    /// A member of the same class, no larger than the member; the first of a class has itself.
+    /// For each member a member of the same class with no larger number; the first of a class has
+    /// itself.
     parent: Vec<u32>,
 }
 
 impl Classes {
-    /// Classes of which each member is alone.
+    /// Makes classes with one member each.
     pub(crate) fn new(n: usize) -> Self {
         Classes {
             parent: (0..n as u32).collect(),
         }
     }
 
-    /// Makes the classes of two members one.
+    /// Merges the classes of two members.
     pub(crate) fn join(&mut self, a: usize, b: usize) {
         let (a, b) = (self.first(a), self.first(b));
         self.parent[a.max(b)] = a.min(b) as u32;
     }
 
-    /// The first member of a member's class. Paths are halved on the way.
+    /// Finds the first member of a member's class, and halves the path to it.
     pub(crate) fn first(&mut self, mut member: usize) -> usize {
         loop {
             let above = self.parent[member] as usize;
@@ -33,7 +34,7 @@ impl Classes {
         }
     }
 
-    /// The first member of the class of each.
+    /// For each member the first member of its class.
     pub(crate) fn firsts(mut self) -> Vec<usize> {
         (0..self.parent.len()).map(|i| self.first(i)).collect()
     }

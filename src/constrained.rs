@@ -1,5 +1,5 @@
-//! A stiffness matrix with contact rows, for programs that have their own elements: condense, solve
-//! contact, follow the load from event to event.
+//! A stiffness matrix with contact rows, for programs that have their own elements: condense it,
+//! solve contact, follow the load from event to event.
 //!
 //! Given the symmetric positive (semi)definite stiffness `K`, rows `B` and gaps `delta`,
 //!
@@ -9,15 +9,15 @@
 //!
 //! A row is any linear combination of freedoms: the relative normal displacement of two nodes, or
 //! of a node and a point between others. The freedoms that occur in rows are the contact freedoms
-//! `c`; `K` is condensed on them to `C`. With the rows `s = B u_c` as coordinates (a freedom of
-//! each row follows, the others lead: `v`) `v` is eliminated, as in scenes, and
+//! `c`; `K` is condensed on them to `C`. The rows `s = B u_c` become coordinates: one freedom of
+//! each row follows, the others lead (`v`). Then `v` is eliminated, as in scenes, and
 //!
 //! ```text
 //!     r = t - T s = q + T g,    q = t - T delta
 //! ```
 //!
 //! is the problem of [`crate::contact`]. Plastic strains are loads like any others:
-//! `f + sum of B_e' D eps_p` over elements.
+//! `f + sum of B_e' D eps_p` over the elements.
 
 mod arrays;
 mod displacements;
@@ -37,7 +37,8 @@ use path::Way;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Share of the stiffness of a row's own freedoms below which a diagonal entry of `T` is round-off.
+/// Share of the stiffness of a row's own freedoms below which a diagonal entry of `T` counts as
+/// round-off.
 const CANCELLED: f64 = 1e-12;
 
 /// A sparse stiffness with contact rows, factored and condensed once.
@@ -79,14 +80,14 @@ const CANCELLED: f64 = 1e-12;
 /// ```
 pub struct ConstrainedStructure {
     condensed: Box<dyn Condensed>,
-    /// The stiffness condensed on the contact freedoms, `C`.
+    /// Stiffness condensed on the contact freedoms, `C`.
     condensed_stiffness: Arc<DMatrix<f64>>,
     stiffness: Arc<SymmetricCsc>,
     /// Infinity norm of the stiffness.
     norm: f64,
-    /// No zone; contact freedoms ascending.
+    /// Partition without a zone; contact freedoms ascending.
     partition: Partition,
-    /// `n_rows x n_contact`.
+    /// Contact rows `B` on the contact freedoms, `n_rows x n_contact`.
     rows: DMatrix<f64>,
     gaps: DVector<f64>,
     /// The structure with all rows closed.
@@ -98,11 +99,11 @@ pub struct ConstrainedStructure {
     way: Option<Way>,
 }
 
-/// Loads, gaps and forces.
+/// Load of a state with its gaps and forces.
 #[derive(Clone)]
 struct State {
     load: Vec<f64>,
-    /// The load condensed on the contact freedoms.
+    /// Load condensed on the contact freedoms.
     condensed: DVector<f64>,
     gap: Arc<Vec<f64>>,
     force: Arc<Vec<f64>>,
@@ -110,13 +111,13 @@ struct State {
 
 impl ConstrainedStructure {
     /// Factors `stiffness` (upper triangle) and condenses it on the freedoms of `rows`. Each row
-    /// lists (freedom, coefficient) of `B`; `gaps` holds `delta`, one value for each row. The state
-    /// is that without load.
+    /// lists (freedom, coefficient) of `B`; `gaps` holds `delta`, one value for each row. The
+    /// initial state is the one without load.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Input`] where sizes, freedoms or values do not fit, or where rows depend
-    /// on each other; [`crate::ErrorKind::Unheld`] naming the freedom where the structure is not
-    /// held even with all rows closed; backend limits.
+    /// [`crate::ErrorKind::Input`] if sizes, freedoms or values do not fit, or if rows depend on
+    /// each other; [`crate::ErrorKind::Unheld`], naming the freedom, if the structure is not held
+    /// even with all rows closed; backend limits.
     pub fn new(
         backend: Backend,
         stiffness: &SymmetricCsc,
@@ -126,11 +127,11 @@ impl ConstrainedStructure {
         Self::with_owned(backend, stiffness.clone(), rows, gaps)
     }
 
-    /// As [`ConstrainedStructure::new`], without the copy of the stiffness that the structure keeps
-    /// (displacements are refined with it).
+    /// Factors and condenses like [`ConstrainedStructure::new`], but takes ownership of the
+    /// stiffness instead of copying it (the structure keeps it to refine displacements).
     ///
     /// # Errors
-    /// As [`ConstrainedStructure::new`].
+    /// Errors of [`ConstrainedStructure::new`].
     pub fn with_owned(
         backend: Backend,
         stiffness: SymmetricCsc,
@@ -204,23 +205,24 @@ impl ConstrainedStructure {
         self.gaps.len()
     }
 
-    /// The contact freedoms, ascending: rows and columns of
+    /// Contact freedoms, ascending, which number the rows and columns of
     /// [`ConstrainedStructure::condensed_stiffness`].
     pub fn contact_freedoms(&self) -> &[usize] {
         &self.partition.contact
     }
 
-    /// `C = K_cc - K_ci K_ii^-1 K_ic`, `n_contact x n_contact`, symmetric, column-major.
+    /// Condensed stiffness `C = K_cc - K_ci K_ii^-1 K_ic`, `n_contact x n_contact`, symmetric,
+    /// column-major.
     pub fn condensed_stiffness(&self) -> &DMatrix<f64> {
         &self.condensed_stiffness
     }
 
-    /// Solves contact under the load `f` (all freedoms), from the statuses at hand.
+    /// Solves contact under the load `f` (all freedoms), starting from the current statuses.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Input`] where the load has the wrong length or holds a number that is
-    /// not finite; [`crate::ErrorKind::Unheld`] naming the row where the load pushes a body away
-    /// from every contact.
+    /// [`crate::ErrorKind::Input`] if the load has the wrong length or holds a number that is not
+    /// finite; [`crate::ErrorKind::Unheld`], naming the row, if the load pushes a body away from
+    /// every contact.
     pub fn solve(&mut self, load: &[f64]) -> Result<()> {
         self.check_load(load)?;
         let condensed = self.condense(load)?;
@@ -238,34 +240,34 @@ impl ConstrainedStructure {
         Ok(())
     }
 
-    /// Gaps of the rows, >= 0.
+    /// Gaps of the rows in the current state, >= 0.
     pub fn gaps(&self) -> &[f64] {
         &self.state.gap
     }
 
-    /// Forces of the rows, >= 0, compressive.
+    /// Forces of the rows in the current state, >= 0, compressive.
     pub fn forces(&self) -> &[f64] {
         &self.state.force
     }
 
-    /// [`ConstrainedStructure::gaps`] to be kept without a copy: those of this state, whatever
-    /// comes after.
+    /// Shares [`ConstrainedStructure::gaps`] without a copy. The shared values remain those of the
+    /// current state when the structure moves on.
     pub fn shared_gaps(&self) -> Arc<Vec<f64>> {
         Arc::clone(&self.state.gap)
     }
 
-    /// [`ConstrainedStructure::forces`] to be kept without a copy: those of this state, whatever
-    /// comes after.
+    /// Shares [`ConstrainedStructure::forces`] without a copy. The shared values remain those of
+    /// the current state when the structure moves on.
     pub fn shared_forces(&self) -> Arc<Vec<f64>> {
         Arc::clone(&self.state.force)
     }
 
-    /// [`ConstrainedStructure::condensed_stiffness`] to be kept without a copy.
+    /// Shares [`ConstrainedStructure::condensed_stiffness`] without a copy.
     pub fn shared_condensed_stiffness(&self) -> Arc<DMatrix<f64>> {
         Arc::clone(&self.condensed_stiffness)
     }
 
-    /// Which rows are open.
+    /// For each row, whether it is open.
     pub fn open(&self) -> &[bool] {
         self.tableau.open()
     }
@@ -278,7 +280,7 @@ impl ConstrainedStructure {
         Ok(out)
     }
 
-    /// `q` for a condensed load and `share` of the gaps.
+    /// Forces `q` of the tied rows for a condensed load and `share` of the gaps.
     fn forces_if_tied(&self, condensed: &DVector<f64>, share: f64) -> DVector<f64> {
         let mut load = condensed.clone_owned();
         let mut forces = DVector::zeros(self.n_rows());
@@ -305,8 +307,8 @@ impl ConstrainedStructure {
     }
 }
 
-/// The stiffness of each row's own freedoms in the condensed stiffness `c`, per displacement of the
-/// row; that of the stiffest freedom where they have none.
+/// Stiffness of each row's own freedoms in the condensed stiffness `c`, per displacement of the
+/// row; the stiffness of the stiffest freedom if the row's own have none.
 fn sizes(c: &DMatrix<f64>, rows: &DMatrix<f64>) -> DVector<f64> {
     let size = c.diagonal().amax();
     DVector::from_fn(rows.nrows(), |i, _| {
@@ -321,8 +323,8 @@ fn sizes(c: &DMatrix<f64>, rows: &DMatrix<f64>) -> DVector<f64> {
     })
 }
 
-/// Drops round-off from `T`: where nothing but a row holds a body, its part of `T` is zero, and the
-/// difference of equals leaves round-off.
+/// Sets round-off in `T` to zero. If nothing but a row holds a body, the row's part of `T` is zero
+/// in theory, but the difference of equal numbers leaves round-off.
 fn drop_round_off(matrix: &mut DMatrix<f64>, sizes: &DVector<f64>) {
     for i in 0..sizes.len() {
         if matrix[(i, i)] <= CANCELLED * sizes[i] {

@@ -1,13 +1,13 @@
-//! The one error type: a kind, a message with entities and numbers, and the cause behind it.
+//! Error type of the crate: a kind, a message with entities and numbers, and the cause.
 
 use crate::text::short;
 use std::error::Error as StdError;
 use std::fmt;
 
-/// Shorthand for results of this crate.
+/// Result type of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// What went wrong, coarsely: decides the exit code of the program.
+/// Kind of an error, which decides the exit code of the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ErrorKind {
@@ -22,23 +22,23 @@ pub enum ErrorKind {
     /// The analysis failed: a solve did not converge, a target was not reached, or the memory did
     /// not suffice. Exit code 5.
     Analysis,
-    /// The load passed the limit load; what was held before is in the message. Exit code 6.
+    /// The load passed the limit load; the message names the load held before. Exit code 6.
     Collapse,
     /// The run ended, but a state's quality misses its tolerance, or a demanded accuracy was not
     /// reached. Exit code 7.
     Inaccurate,
-    /// Contact reached the end of its candidates although the bodies go on there; what was computed
-    /// before is right. Exit code 8.
+    /// Contact reached the end of its surfaces although the bodies go on there; earlier results are
+    /// right. Exit code 8.
     Outgrown,
-    /// The caller or the user stopped the run. Exit code 130; the program returns 128 and the
-    /// number of the signal.
+    /// The caller or the user stopped the run. Exit code 130; the program itself returns 128 plus
+    /// the number of the signal.
     Stopped,
     /// A fault of brinell itself. Exit code 70.
     Internal,
 }
 
 impl ErrorKind {
-    /// The process exit code that the command-line program returns for this kind.
+    /// Exit code of the command-line program for this kind of error.
     pub fn exit_code(self) -> u8 {
         match self {
             ErrorKind::Input | ErrorKind::Unsupported => 2,
@@ -54,7 +54,7 @@ impl ErrorKind {
     }
 }
 
-/// An error with its kind, a message that names what is concerned, and its cause.
+/// Error with its kind, a message that names the entities concerned, and its cause.
 #[derive(Debug)]
 pub struct Error {
     kind: ErrorKind,
@@ -63,7 +63,7 @@ pub struct Error {
 }
 
 impl Error {
-    /// An error of `kind`; `message` names the entity, the value and what to do.
+    /// Makes an error of `kind`; `message` names the entity, the value and what to do.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> Self {
         Error {
             kind,
@@ -72,27 +72,28 @@ impl Error {
         }
     }
 
-    /// Bad input ([`ErrorKind::Input`]).
+    /// Makes an error of bad input ([`ErrorKind::Input`]).
     pub fn input(message: impl Into<String>) -> Self {
         Self::new(ErrorKind::Input, message)
     }
 
-    /// A failed analysis ([`ErrorKind::Analysis`]).
+    /// Makes an error of a failed analysis ([`ErrorKind::Analysis`]).
     pub fn analysis(message: impl Into<String>) -> Self {
         Self::new(ErrorKind::Analysis, message)
     }
 
-    /// A fault of brinell itself ([`ErrorKind::Internal`]).
+    /// Makes an error of a fault in brinell itself ([`ErrorKind::Internal`]).
     pub fn internal(message: impl Into<String>) -> Self {
         Self::new(ErrorKind::Internal, message)
     }
 
-    /// A failed file operation ([`ErrorKind::Io`]) on `path`, with the system's reason as cause.
+    /// Makes an error of a file operation ([`ErrorKind::Io`]) on `path`, with the system's error as
+    /// cause.
     pub fn io(what: &str, path: &std::path::Path, cause: std::io::Error) -> Self {
         Self::new(ErrorKind::Io, format!("cannot {what} {}", path.display())).because(cause)
     }
 
-    /// Adds the cause.
+    /// Adds the cause of this error.
     pub fn because(mut self, cause: impl StdError + Send + Sync + 'static) -> Self {
         self.cause = Some(Box::new(cause));
         self
@@ -104,7 +105,7 @@ impl Error {
         self
     }
 
-    /// Says its message in other words.
+    /// Rewords the message of the error.
     pub(crate) fn reworded(mut self, words: impl Fn(&str) -> String) -> Self {
         self.message = words(&self.message);
         self
@@ -115,17 +116,17 @@ impl Error {
         self.kind
     }
 
-    /// The message without its causes.
+    /// Message of the error without its causes.
     pub fn message(&self) -> &str {
         &self.message
     }
 
-    /// Causes of the error: what caused it, what caused that, and so on.
+    /// Causes of the error: its own cause, the cause of that, and so on.
     pub fn causes(&self) -> impl Iterator<Item = &(dyn StdError + 'static)> {
         std::iter::successors(self.source(), |&cause| cause.source())
     }
 
-    /// The message with its causes behind it, in one line.
+    /// Message followed by all causes, in one line.
     pub(crate) fn in_full(&self) -> String {
         self.causes().fold(self.message.clone(), |text, cause| {
             format!("{text}: {cause}")
@@ -149,7 +150,7 @@ impl StdError for Error {
 mod tests {
     use super::ErrorKind::{self, *};
 
-    /// Scripts and callers of the C library read them: they never change.
+    /// Scripts and callers of the C library rely on the exit codes, so they never change.
     #[test]
     fn every_kind_has_the_code_of_the_contract() {
         let codes: [(ErrorKind, u8); 10] = [

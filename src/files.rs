@@ -1,4 +1,4 @@
-//! Reading whole files that others wrote: kind and size are looked at first.
+//! Reads whole files from outside after checking their kind and size.
 
 use crate::error::{Error, Result};
 use crate::memory;
@@ -6,18 +6,18 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// The most that a scene may have: some hundred thousand targets.
+/// Largest size of a scene in bytes, enough for some hundred thousand targets.
 pub(crate) const LARGEST_SCENE: u64 = 64 << 20;
 
-/// Reads the file at `path`; `what` names it in messages (`read the scene`).
+/// Reads the file at `path`; `what` is the action named in messages (`read the scene`).
 ///
 /// # Errors
-/// `Io` where it cannot be read; `Input` where it is no plain file (a device or a pipe may have no
-/// end), or larger than `largest` bytes or the memory that is available.
+/// `Io` if the file cannot be read; `Input` if it is not a regular file (a device or a pipe may
+/// have no end), or if it is larger than `largest` bytes or the memory that is available.
 pub(crate) fn read(what: &str, path: &Path, largest: Option<u64>) -> Result<Vec<u8>> {
     let failed = |cause| Error::io(what, path, cause);
     let refused = |why: String| Error::input(format!("cannot {what} {}: {why}", path.display()));
-    // Opening a pipe waits for its other end: the kind is asked before.
+    // Opening a pipe waits for its other end, so the kind is checked before.
     let kind = std::fs::metadata(path).map_err(failed)?.file_type();
     if !kind.is_file() {
         let kind = if kind.is_dir() {
@@ -39,7 +39,7 @@ pub(crate) fn read(what: &str, path: &Path, largest: Option<u64>) -> Result<Vec<
         return Err(too_large(size));
     }
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0) + 1);
-    // A file that grows, or one that says it has no size (/proc), has its end here too.
+    // A limit for files that grow, or that report no size (/proc).
     file.take(most + 1)
         .read_to_end(&mut bytes)
         .map_err(failed)?;
@@ -49,16 +49,16 @@ pub(crate) fn read(what: &str, path: &Path, largest: Option<u64>) -> Result<Vec<
     Ok(bytes)
 }
 
-/// The bound, at most what memory is there.
+/// Largest size in bytes: the given bound, but at most the memory that is available.
 fn largest_file(largest: Option<u64>) -> u64 {
     let available = memory::available().map_or(u64::MAX - 1, |free| free as u64);
     largest.map_or(available, |largest| largest.min(available))
 }
 
-/// As [`read()`], as text.
+/// Reads a file as [`read()`] does, as text.
 ///
 /// # Errors
-/// As [`read()`]; `Input` where it is not UTF-8.
+/// Errors of [`read()`]; `Input` if the file is not UTF-8.
 pub(crate) fn read_text(what: &str, path: &Path, largest: Option<u64>) -> Result<String> {
     String::from_utf8(read(what, path, largest)?)
         .map_err(|_| Error::input(format!("{}: the file is not UTF-8 text", path.display())))
@@ -83,7 +83,7 @@ mod tests {
         );
         let error = read("read the scene", folder.path(), None).unwrap_err();
         assert!(error.message().contains("it is a directory"), "{error}");
-        // A hole of 2^50 bytes takes no room on the disk, and would take all memory.
+        // A sparse file of 2^50 bytes takes no room on the disk, but would take all memory.
         let file = File::create(&path).unwrap();
         if file.set_len(1 << 50).is_ok() {
             let error = read("read the mesh", &path, None).unwrap_err();

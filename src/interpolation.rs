@@ -1,7 +1,7 @@
-//! Values between the rows of a table.
+//! Linear interpolation between the rows of a table.
 
-/// The second column where the first is `at`: straight between rows, constant beyond; 0 without
-/// rows.
+/// Interpolates the second column at the value `at` of the first: linear between rows, constant
+/// beyond them; 0 without rows.
 pub(crate) fn interpolate(rows: &[[f64; 2]], at: f64) -> f64 {
     let next = rows.partition_point(|row| row[0] <= at);
     match (next.checked_sub(1).map(|i| rows[i]), rows.get(next)) {

@@ -1,12 +1,12 @@
-//! The place of a thing by the number that its file gives it.
+//! Finds the index of an item by the number that its file gives it.
 
 use std::collections::HashMap;
 
-/// Index by number: a table where numbers are dense, a map where they are not.
+/// Index of items by their numbers: a table if the numbers are dense, otherwise a map.
 pub(crate) enum LabelIndex {
-    /// Index by number; `u32::MAX` where there is none.
+    /// Index by number; `u32::MAX` for unused numbers.
     Table(Vec<u32>),
-    /// A map, for widely spread numbers.
+    /// Hash map, for widely spread numbers.
     Map(HashMap<u64, u32>),
 }
 
@@ -17,10 +17,10 @@ impl Default for LabelIndex {
 }
 
 impl LabelIndex {
-    /// The index of each of fewer than `u32::MAX` numbers.
+    /// Indexes fewer than `u32::MAX` numbers by their position.
     ///
     /// # Errors
-    /// The number that is there twice.
+    /// The first number that occurs twice.
     pub(crate) fn new(labels: &[u64]) -> Result<LabelIndex, u64> {
         let largest = labels.iter().copied().max().unwrap_or(0);
         if largest <= 8 * labels.len() as u64 + 1024 {
@@ -43,7 +43,7 @@ impl LabelIndex {
         Ok(LabelIndex::Map(map))
     }
 
-    /// The index of a number.
+    /// Index of the item with a number.
     pub(crate) fn get(&self, label: u64) -> Option<u32> {
         match self {
             LabelIndex::Table(table) => {

@@ -1,10 +1,10 @@
 //! Elastoplastic contact without friction on one sparse factorisation.
 //!
-//! brinell presses elastic-plastic bodies together and lets them go again: where they touch, how
-//! hard, where the material yields and what dent stays. It follows N. Endahl, *Finite Element
+//! brinell presses elastic-plastic bodies together and unloads them: it computes where they touch,
+//! how hard, where the material yields and what dent remains. It follows N. Endahl, *Finite Element
 //! Analysis of Elastoplastic Contact Problems Without Friction*: the elastic stiffness is factored
 //! once, everything but the contact freedoms and the zone that may yield is condensed, contact is a
-//! small dense problem, plastic strains enter as initial loads on the right-hand side.
+//! small dense problem, and plastic strains enter as initial loads on the right-hand side.
 //!
 //! ```text
 //!  scene ─▶ mesh ─▶ model ─▶ assembly ─▶ substructure ─▶ contact ─▶ analysis ─▶ results ─▶ output
@@ -14,7 +14,7 @@
 //!           sets)    loads)
 //! ```
 //!
-//! A module imports only from modules declared above it; a test holds that.
+//! A module imports only from modules declared above it; a test checks that.
 //!
 //! # Use
 //!
@@ -52,26 +52,27 @@
 //! # Features
 //!
 //! - `cholmod` (default): condense with CHOLMOD of SuiteSparse, which must be installed with its
-//!   headers (and libclang, to read them). Its supernodal module is GPL-2.0-or-later: so is what is
-//!   linked with it.
-//! - `faer`: condense with faer, in Rust alone: at full size without any library of the system
+//!   headers (and libclang, to read them). Its supernodal module is GPL-2.0-or-later, and so is any
+//!   program that is linked with it.
+//! - `faer`: condense with faer, in Rust alone, at full size without any system library
 //!   (`default-features = false, features = ["faer"]`), MIT or Apache-2.0.
 //! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with
 //!   it).
-//! - `cli` (default): the program. A library needs none of it: `default-features = false,
-//!   features = ["cholmod"]` leaves out clap, indicatif, maud and plotters.
-//! - `mumps`: MUMPS over MPI for what lies outside the zone, CHOLMOD for the rest.
+//! - `cli` (default): the program. A library does not need it:
+//!   `default-features = false, features = ["cholmod"]` leaves out clap, indicatif, maud and
+//!   plotters.
+//! - `mumps`: MUMPS over MPI for the freedoms outside the zone, CHOLMOD for the rest.
 //! - `guide`: the guide as the module `guide` of the documentation.
 //! - `report` (with `cli` and `capi`): `report.html` of a result folder, and the plots of a study.
-//! - Without features (`default-features = false`) there is the dense backend, which takes up to
-//!   6000 freedoms.
+//! - Without features (`default-features = false`) only the dense backend is available, which takes
+//!   up to 6000 freedoms.
 //!
 //! # Stability
 //!
-//! Semantic versioning, as CONTRIBUTING.md says in "Versions".
+//! Semantic versioning, as described in CONTRIBUTING.md under "Versions".
 #![warn(missing_docs)]
 
-// Blank lines keep the order of the data: rustfmt sorts neighbouring lines.
+// Blank lines keep the modules in the order of the data: rustfmt sorts adjacent lines.
 mod text;
 
 mod number;

@@ -5,8 +5,8 @@ use std::io::Write;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The allocator of the system. Where it has no more the program says how much was asked for and
-/// ends with an exit code of its own; without this Rust would abort it.
+/// The allocator of the system. If memory runs out, the program reports how much was requested and
+/// ends with an exit code of its own; without this allocator Rust would abort it.
 struct OrEnd;
 
 #[global_allocator]
@@ -42,12 +42,12 @@ fn there(block: *mut u8, bytes: usize) -> *mut u8 {
     block
 }
 
-/// Ends the process at once: what would be cleaned up first may be in use by other threads.
+/// Ends the process at once, without cleaning up what other threads may be using.
 #[cold]
 fn out_of_memory(bytes: usize) -> ! {
     static ENDING: AtomicBool = AtomicBool::new(false);
     if !ENDING.swap(true, Ordering::SeqCst) {
-        // On the stack: there is no memory for anything else.
+        // The message is built on the stack, since there is no memory for anything else.
         let mut text = [0u8; 160];
         let mut rest = &mut text[..];
         let _ = writeln!(

@@ -1,13 +1,13 @@
-//! How much memory this process may still take, and the refusal of what does not fit.
+//! Memory that this process may still take, and refusal of work that does not fit.
 
 use crate::error::{Error, Result};
 #[cfg(target_os = "linux")]
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Memory that this process may still take, in bytes: the least of what the machine has free, what
-/// its control group and its own limits (`ulimit -v`, `ulimit -d`) leave. `None` where the system
-/// does not report it.
+/// Memory that this process may still take, in bytes: the smallest of what is free on the machine,
+/// left by its control group, and left by its own limits (`ulimit -v`, `ulimit -d`). `None` if the
+/// system does not report it.
 pub fn available() -> Option<f64> {
     [of_machine(), limits()]
         .into_iter()
@@ -15,35 +15,35 @@ pub fn available() -> Option<f64> {
         .reduce(f64::min)
 }
 
-/// What the machine and its control groups leave to all processes together.
+/// Bytes that the machine and its control groups leave to all processes together.
 pub(crate) fn of_machine() -> Option<f64> {
     [machine(), group()].into_iter().flatten().reduce(f64::min)
 }
 
-/// How many processes share what is factored: the ranks of MPI, once it has begun.
+/// Number of processes that share a factorisation: the MPI ranks, once MPI has started.
 static SHARED_BY: AtomicUsize = AtomicUsize::new(1);
 
-/// States how many processes share what is factored.
+/// Sets how many processes share a factorisation.
 #[cfg(feature = "mumps")]
 pub(crate) fn share_by(processes: usize) {
     SHARED_BY.store(processes, Ordering::Relaxed);
 }
 
-/// How many processes share what is factored.
+/// Number of processes that share a factorisation.
 pub(crate) fn shared_by() -> usize {
     SHARED_BY.load(Ordering::Relaxed)
 }
 
-/// The most memory that this process has held so far, in bytes (Linux: `VmHWM`). `None` where the
-/// system does not report it.
+/// Most memory that this process has held so far, in bytes (Linux: `VmHWM`). `None` if the system
+/// does not report it.
 pub(crate) fn peak() -> Option<u64> {
     kibibytes("/proc/self/status", "VmHWM:").map(|bytes| bytes as u64)
 }
 
-/// Refuses what needs more memory than is available: better before hours of work than after them.
+/// Refuses work that needs more memory than is available, before it takes hours.
 ///
 /// # Errors
-/// `Analysis` with both numbers.
+/// `Analysis` with the memory needed and the memory available.
 pub(crate) fn require(what: &str, bytes: f64) -> Result<()> {
     match available() {
         Some(free) if bytes > free => Err(Error::analysis(format!(
@@ -57,7 +57,7 @@ pub(crate) fn require(what: &str, bytes: f64) -> Result<()> {
     }
 }
 
-/// The first line of a file of `/proc` that starts with `key`, in bytes; `None` where there is no
+/// Value in bytes of the first line of a `/proc` file that starts with `key`; `None` if there is no
 /// such file.
 fn kibibytes(file: &str, key: &str) -> Option<f64> {
     let text = std::fs::read_to_string(file).ok()?;
@@ -71,7 +71,7 @@ fn machine() -> Option<f64> {
     kibibytes("/proc/meminfo", "MemAvailable:")
 }
 
-/// What the limits of the process leave of its address space and of its data.
+/// Bytes that the limits of the process leave of its address space and of its data.
 #[cfg(target_os = "linux")]
 pub(crate) fn limits() -> Option<f64> {
     use rustix::process::{Resource, getrlimit};
@@ -87,7 +87,7 @@ pub(crate) fn limits() -> Option<f64> {
     all.into_iter().flatten().reduce(f64::min)
 }
 
-/// What the control groups around the process leave, those of version 2 and of version 1.
+/// Bytes that the control groups of the process leave, of version 2 or version 1.
 #[cfg(target_os = "linux")]
 fn group() -> Option<f64> {
     let groups = std::fs::read_to_string("/proc/self/cgroup").ok()?;
@@ -109,8 +109,8 @@ fn group() -> Option<f64> {
     groups.lines().filter_map(of_line).reduce(f64::min)
 }
 
-/// The least that a group or one of those around it leaves. Pages of files that were not used
-/// lately are given back at need.
+/// Smallest number of bytes that a group or one of its parents leaves. File pages that were not
+/// used recently count as free, since the system reclaims them.
 #[cfg(target_os = "linux")]
 fn left_in_groups(root: &str, path: &str, limit: &str, usage: &str) -> Option<f64> {
     let number = |folder: &Path, file: &str| -> Option<f64> {
@@ -169,7 +169,7 @@ mod tests {
         }
     }
 
-    /// The group inside leaves more than the one around it.
+    /// The inner group leaves more than the group around it.
     #[cfg(target_os = "linux")]
     #[test]
     fn the_narrowest_control_group_counts() {

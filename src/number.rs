@@ -1,7 +1,7 @@
-//! Numbers for readers: the one place where a number becomes text.
+//! Numbers for readers: the only place where numbers are formatted.
 
-/// A number as it was given, to the last digit, but with an exponent where that is shorter: `1e300`
-/// has no 300 zeros.
+/// Formats a number exactly as it was given, but with an exponent if that is shorter: `1e300`
+/// without 300 zeros.
 pub(crate) fn exact(value: f64) -> String {
     let plain = value.to_string();
     let scientific = format!("{value:e}");
@@ -12,10 +12,10 @@ pub(crate) fn exact(value: f64) -> String {
     }
 }
 
-/// Digits that read well without an exponent.
+/// Largest number of characters that is shown without an exponent.
 const LONGEST_PLAIN: usize = 12;
 
-/// `value` with `digits` significant digits: plain between 1e-4 and 1e7, else with an exponent.
+/// Formats `value` with `digits` significant digits: plain from 1e-4 to 1e7, else with an exponent.
 pub(crate) fn significant(value: f64, digits: usize) -> String {
     if value == 0.0 {
         return "0".to_string();
@@ -25,7 +25,7 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     }
     let digits = digits.max(1);
     let scientific = format!("{value:.*e}", digits - 1);
-    // Rust writes the exponent after rounding: 9.9999 is 1.000e1 with four digits.
+    // Rust determines the exponent after rounding: 9.9999 is 1.000e1 with four digits.
     let exponent = scientific
         .split_once('e')
         .and_then(|(_, exponent)| exponent.parse::<i32>().ok());
@@ -38,7 +38,7 @@ pub(crate) fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// As [`significant`], without zeros at the end of the fraction.
+/// Formats as [`significant`] does, without trailing zeros of the fraction.
 #[cfg(feature = "report")]
 pub(crate) fn trimmed(value: f64, digits: usize) -> String {
     let text = significant(value, digits);
@@ -51,7 +51,7 @@ pub(crate) fn trimmed(value: f64, digits: usize) -> String {
     format!("{mantissa}{exponent}")
 }
 
-/// Six significant digits, what the tables show; where there is no number, as of 0 to 0, that.
+/// Formats with six significant digits for tables; `none` if the value is not finite, as 0 / 0.
 #[cfg(feature = "report")]
 pub(crate) fn number(value: f64) -> String {
     if value.is_finite() {
@@ -61,13 +61,13 @@ pub(crate) fn number(value: f64) -> String {
     }
 }
 
-/// A number with its unit, where it has one.
+/// Appends the unit to a number, if there is a unit.
 #[cfg(feature = "report")]
 pub(crate) fn with_unit(number: &str, unit: &str) -> String {
     format!("{number} {unit}").trim_end().to_string()
 }
 
-/// A share in per cent, two digits.
+/// Formats a share in per cent with two digits.
 pub(crate) fn percent(share: f64) -> String {
     if share.is_finite() {
         format!("{} %", percentage(share))
@@ -76,12 +76,12 @@ pub(crate) fn percent(share: f64) -> String {
     }
 }
 
-/// As [`percent`], without the sign: for sentences that have it.
+/// Formats as [`percent`] does, without the sign, for sentences that contain it.
 pub(crate) fn percentage(share: f64) -> String {
     significant(100.0 * share, 2)
 }
 
-/// As [`percentage`], for tables: what is so small that nobody minds has no digits.
+/// Formats as [`percentage`] does, for tables: negligible shares are shown as `< 0.01`.
 #[cfg(feature = "report")]
 pub(crate) fn rough_percentage(share: f64) -> String {
     match share {
@@ -90,7 +90,7 @@ pub(crate) fn rough_percentage(share: f64) -> String {
     }
 }
 
-/// Bytes in the unit that fits.
+/// Formats a number of bytes in a suitable unit.
 pub(crate) fn bytes(count: f64) -> String {
     let mut value = count;
     for unit in ["B", "kB", "MB", "GB"] {
@@ -110,7 +110,7 @@ fn significant_integer(value: f64) -> String {
     }
 }
 
-/// Seconds, to the millisecond where that matters.
+/// Formats seconds, to the millisecond for short times.
 #[cfg(feature = "report")]
 pub(crate) fn seconds(value: f64) -> String {
     if value >= 100.0 {
@@ -122,7 +122,7 @@ pub(crate) fn seconds(value: f64) -> String {
     }
 }
 
-/// A time in the unit that suits it, two digits.
+/// Formats a time in a suitable unit with two digits.
 pub(crate) fn duration(seconds: f64) -> String {
     let (value, unit) = match seconds {
         s if s < 0.1 => (1e3 * s, "ms"),

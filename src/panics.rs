@@ -1,11 +1,12 @@
-//! Panics become errors where another language calls: none unwinds into it, and none is printed.
+//! Panics become errors at the interface to other languages: none unwinds into the caller or is
+//! printed.
 //!
-//! A panic of brinell is a fault of brinell; its message and place belong into the error, not onto
-//! the screen of a program that brinell is a part of. The panic hook belongs to the process,
-//! though. The one that is set here, with the first call of [`contained`], keeps silent only about
-//! panics of threads that are inside such a call, and of rayon's workers while there is one; all
-//! others go on to the hook that was there before. A program in C or Python has a copy of Rust's
-//! runtime, and so a hook, that no one else uses.
+//! A panic of brinell is a fault of brinell; its message and place belong in the error, not on the
+//! screen of a program that uses brinell. The panic hook belongs to the process, though. The hook
+//! that is set here, with the first call of [`contained`], suppresses only panics of threads that
+//! are inside such a call, and of rayon's workers during such a call; all other panics are passed
+//! on to the previous hook. A program in C or Python has its own copy of Rust's runtime, and
+//! therefore a hook that nothing else uses.
 
 use crate::error::{Error, Result};
 use std::cell::{Cell, RefCell};
@@ -14,23 +15,23 @@ use std::sync::Once;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 thread_local! {
-    /// How many calls of [`contained`] this thread is inside of.
+    /// Number of nested calls of [`contained`] in this thread.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
-    /// Where the last panic of this thread was.
+    /// Source location of the last panic of this thread.
     static PLACE: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// Calls of [`contained`] in all threads.
+/// Number of calls of [`contained`] in all threads.
 static CALLS: AtomicUsize = AtomicUsize::new(0);
 static HOOK: Once = Once::new();
 
-/// Runs `act`; its panic becomes an error of kind [`crate::ErrorKind::Internal`] and nothing is
+/// Runs `act`; a panic becomes an error of kind [`crate::ErrorKind::Internal`], and nothing is
 /// printed.
 ///
 /// # Errors
-/// Errors of `act`, and its panic.
+/// Errors of `act`, and a panic of `act`.
 pub fn contained<T>(act: impl FnOnce() -> Result<T>) -> Result<T> {
-    // The hook cannot be changed while this thread unwinds; the next call will do it.
+    // The hook cannot be changed while this thread unwinds; the next call will set it.
     if !std::thread::panicking() {
         HOOK.call_once(keep_silent_inside);
     }
@@ -46,13 +47,13 @@ pub fn contained<T>(act: impl FnOnce() -> Result<T>) -> Result<T> {
     })
 }
 
-/// Runs code of the caller (a callback) from inside [`contained`]: its panics are none of ours.
+/// Runs code of the caller (a callback) from inside [`contained`]: its panics are not contained.
 pub fn outside<T>(callback: impl FnOnce() -> T) -> T {
     let _back = Restore(DEPTH.replace(0));
     callback()
 }
 
-/// Counts a call until it is dropped, also by unwinding.
+/// Guard that counts a call until it is dropped, even by unwinding.
 struct Inside;
 
 impl Inside {
@@ -81,7 +82,7 @@ impl Drop for Restore {
 fn keep_silent_inside() {
     let before = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        // Without a value the thread is being torn down, and inside no call.
+        // Without a value the thread is being torn down, so it is not inside a call.
         let inside = DEPTH.try_with(Cell::get).unwrap_or(0) > 0;
         let for_a_call =
             rayon::current_thread_index().is_some() && CALLS.load(Ordering::SeqCst) > 0;
@@ -100,7 +101,7 @@ mod tests {
     use rayon::prelude::*;
     use std::process::Command;
 
-    /// Panics inside calls, in this thread and in workers, and one outside.
+    /// Panics inside calls, in this thread and in workers, and one outside of a call.
     #[test]
     #[ignore = "run by the test below, whose stderr is looked at"]
     fn panics_of_all_sorts() {

@@ -2,37 +2,37 @@
 //!
 //! # Source
 //! R. P. Brent, *Algorithms for Minimization Without Derivatives* (1973), chapter 4: inverse
-//! quadratic interpolation, halving where that is slow. J. Kiefer, Proc. Amer. Math. Soc. 4 (1953)
-//! 502-506: golden section.
+//! quadratic interpolation, with bisection if that is slow. J. Kiefer, Proc. Amer. Math. Soc. 4
+//! (1953) 502-506: golden section.
 
 use std::convert::Infallible;
 
-/// Most evaluations: halving to round-off takes some 60, interpolation that fails at most
-/// [`PATIENCE`] more for each.
+/// Largest number of evaluations: bisection to round-off takes some 60, interpolation that fails at
+/// most [`PATIENCE`] more for each.
 const MOST: usize = 300;
-/// Steps that may leave more than half of the bracket before it is halved.
+/// Number of steps that may leave more than half of the bracket before it is bisected.
 const PATIENCE: usize = 3;
-/// Steps of golden section that leave nothing of a bracket: the golden ratio to the 80th is below
-/// the spacing of doubles.
+/// Number of steps of golden section that reduce a bracket to nothing: the golden ratio to the 80th
+/// is below the spacing of doubles.
 const GOLDEN_STEPS: usize = 80;
 
-/// Where a search for a root ends.
+/// Accuracy at which a search for a root ends.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Accuracy {
-    /// Size of the function that counts as zero.
+    /// Absolute value of the function that counts as zero.
     pub value: f64,
-    /// Width of the bracket over the size of what it holds.
+    /// Width of the bracket relative to the size of its ends.
     pub place: f64,
 }
 
 impl Accuracy {
-    /// Until no double lies within the bracket: the same place on whatever way it is found.
+    /// Goes on until no double lies within the bracket: the same root in whatever way it is found.
     pub(crate) const ROUND_OFF: Accuracy = Accuracy {
         value: f64::NEG_INFINITY,
         place: 0.0,
     };
 
-    /// One accuracy for the value and the place.
+    /// Uses one accuracy for the value and the place.
     pub(crate) const fn both(accuracy: f64) -> Self {
         Accuracy {
             value: accuracy,
@@ -41,29 +41,30 @@ impl Accuracy {
     }
 }
 
-/// The root of `f` in `[low, high]` to round-off.
+/// Finds the root of `f` in `[low, high]` to round-off.
 ///
-/// `f` must change sign once in the interval. Where it does not, the end at which a monotone `f` is
-/// closer to that change is returned.
+/// `f` must change sign once in the interval. Otherwise the end is returned at which a monotone `f`
+/// is closer to a change of sign.
 pub(crate) fn of(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let ends = [(low, f(low)), (high, f(high))];
     between(ends, Accuracy::ROUND_OFF, f)
 }
 
-/// As [`try_between`] for a function that cannot fail.
+/// Finds a root as [`try_between`] does, for a function that cannot fail.
 pub(crate) fn between(ends: [(f64, f64); 2], accuracy: Accuracy, f: impl Fn(f64) -> f64) -> f64 {
     let Ok(root) = try_between(ends, accuracy, |x| Ok::<_, Infallible>(f(x)));
     root
 }
 
-/// The root of `f` between two places, each with the value there, of opposite signs.
+/// Finds the root of `f` between two places, each given with its value; the values have opposite
+/// signs.
 ///
-/// What it returns is the last place where it evaluated `f`, but for [`Accuracy::ROUND_OFF`]; where
-/// the signs are not opposite, the end nearer to a change of sign. A value that is not a number
-/// counts as positive.
+/// Except with [`Accuracy::ROUND_OFF`], the result is the last place at which `f` was evaluated. If
+/// the signs are not opposite, the end nearer to a change of sign is returned. NaN counts as
+/// positive.
 ///
 /// # Errors
-/// The first of the function's own.
+/// The first error that the function returns.
 pub(crate) fn try_between<E>(
     mut ends: [(f64, f64); 2],
     accuracy: Accuracy,
@@ -72,7 +73,7 @@ pub(crate) fn try_between<E>(
     if ends[1].1 < ends[0].1 {
         ends.reverse();
     }
-    // Negative at a, positive at b.
+    // The function is negative at a and positive at b.
     let [(mut a, mut fa), (mut b, mut fb)] = ends;
     if fa >= 0.0 {
         return Ok(a);
@@ -80,7 +81,7 @@ pub(crate) fn try_between<E>(
     if fb <= 0.0 {
         return Ok(b);
     }
-    // The end before last, and how many steps have not halved the bracket.
+    // The previous end, and the number of steps that have not halved the bracket.
     let (mut c, mut fc) = (b, fb);
     let mut slow = 0;
     let mut x = b;
@@ -100,7 +101,7 @@ pub(crate) fn try_between<E>(
         if slow == PATIENCE || !(x > low && x < high) {
             x = middle;
         }
-        // A step shorter than the accuracy would leave the other end where it is.
+        // A step shorter than the accuracy would never move the other end.
         let size = low.abs().max(high.abs());
         let least = 0.5 * size * accuracy.place.max(f64::EPSILON);
         x = x.max(low + least).min(high - least);
@@ -128,10 +129,10 @@ pub(crate) fn try_between<E>(
     Ok(x)
 }
 
-/// `(x, f(x))` at the greatest value of `f` on `[low, high]`: a scan of `samples` equal steps, then
-/// golden section next to the best sample.
+/// Returns `(x, f(x))` at the maximum of `f` on `[low, high]`, found by a scan of `samples` equal
+/// steps and by golden section around the best sample.
 ///
-/// The value is good to round-off, the place to its square root (a maximum is flat).
+/// The value is accurate to round-off, the place to its square root (a maximum is flat).
 pub(crate) fn maximum(f: impl Fn(f64) -> f64, low: f64, high: f64, samples: usize) -> (f64, f64) {
     let greater = |a: (f64, f64), b: (f64, f64)| if b.1 > a.1 { b } else { a };
     let at = |x: f64| (x, f(x));
@@ -166,7 +167,7 @@ mod tests {
         let falling = of(|x| 2.0 - x * x, 0.0, 2.0);
         assert!((rising - 2.0_f64.sqrt()).abs() <= 2.0 * f64::EPSILON);
         assert!((falling - rising).abs() <= 4.0 * f64::EPSILON);
-        // Small in a wide bracket.
+        // A small root in a wide bracket.
         let small = of(|x| x - 1e-9, 0.0, 1e3);
         assert!((small / 1e-9 - 1.0).abs() <= 4.0 * f64::EPSILON);
     }
@@ -197,7 +198,7 @@ mod tests {
         assert_eq!(root(&|x| x - 2.0), (1.0, 0));
         let (x, calls) = root(&|x: f64| x.exp() - 1.5);
         assert!((x - 1.5f64.ln()).abs() < 1e-14 && calls <= 7, "{x} {calls}");
-        // Halving takes 50.
+        // Bisection takes 50 calls.
         let (x, calls) = root(&|x: f64| if x < 0.31 { -1e-3 } else { 1.0 });
         assert!((x - 0.31).abs() < 1e-14 && calls <= 200, "{x} {calls}");
         let (x, _) = root(&|x: f64| if x < 0.31 { -1.0 } else { f64::NAN });

@@ -1,10 +1,10 @@
-//! The space of a model: what depends on its dimension and idealisation, as data.
+//! Space of a model: everything that depends on dimension and idealisation, as data.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// A vector in space; of a plane model the third component is zero.
+/// A vector in space; in plane models the third component is zero.
 pub type Vector = [f64; 3];
 
 /// The components of a vector as they are given: two in the plane, three in space.
@@ -17,17 +17,17 @@ pub struct Components {
 }
 
 impl Components {
-    /// The vector; z = 0 where two components are given.
+    /// The vector in space; z = 0 if two components were given.
     pub fn vector(&self) -> Vector {
         self.vector
     }
 
-    /// How many are given.
+    /// Number of components that were given.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The components, as many as are given.
+    /// Iterates over the components that were given.
     pub fn iter(&self) -> impl Iterator<Item = f64> {
         self.vector.into_iter().take(self.count)
     }
@@ -84,12 +84,12 @@ pub enum Space {
     Solid,
 }
 
-/// A motion of a body that does not deform it.
+/// A rigid motion of a body, which does not deform it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RigidMotion {
-    /// Translation along the axis of this number.
+    /// Translation along the axis with this number.
     Along(usize),
-    /// Rotation about the axis of this number.
+    /// Rotation about the axis with this number.
     About(usize),
 }
 
@@ -102,7 +102,7 @@ impl Space {
         Space::Solid,
     ];
 
-    /// Kinds of two dimensions.
+    /// Kinds of space with two dimensions.
     pub const PLANE: [Space; 3] = [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric];
 
     /// The name in scenes and results: `plane_strain`, `plane_stress`, `axisymmetric`, `solid`.
@@ -130,7 +130,7 @@ impl Space {
         self == Space::Solid
     }
 
-    /// Names of the coordinates.
+    /// Names of the coordinates, in their order.
     pub fn axes(self) -> &'static [&'static str] {
         match self {
             Space::PlaneStrain | Space::PlaneStress => &["x", "y"],
@@ -148,8 +148,8 @@ impl Space {
         }
     }
 
-    /// What a length or area in the coordinates stands for at a first coordinate: thickness 1, or
-    /// the circumference `2 pi r`.
+    /// Factor from a length or area in the coordinates to the integral: thickness 1, or the
+    /// circumference `2 pi r` at the given first coordinate.
     #[inline]
     pub fn measure(self, first: f64) -> f64 {
         if self.is_axisymmetric() {
@@ -159,7 +159,7 @@ impl Space {
         }
     }
 
-    /// The rigid motions that the idealisation leaves a body.
+    /// Rigid motions that are possible in the idealisation.
     pub(crate) fn rigid_motions(self) -> &'static [RigidMotion] {
         use RigidMotion::{About, Along};
         match self {
@@ -171,8 +171,8 @@ impl Space {
 }
 
 impl RigidMotion {
-    /// The displacement at an `arm` from the point that stays in place: a unit along the axis, or
-    /// the arm's turned by a unit.
+    /// Displacement at a distance `arm` from the fixed point: a unit vector along the axis, or that
+    /// of a unit rotation.
     pub fn displacement(self, arm: Vector) -> Vector {
         match self {
             RigidMotion::Along(axis) => unit(axis),
@@ -181,14 +181,14 @@ impl RigidMotion {
     }
 }
 
-/// The unit vector along an axis.
+/// Unit vector along an axis.
 pub fn unit(axis: usize) -> Vector {
     let mut out = [0.0; 3];
     out[axis] = 1.0;
     out
 }
 
-/// A vector of the plane in space.
+/// Extends a vector of the plane to space.
 pub fn in_space([x, y]: [f64; 2]) -> Vector {
     [x, y, 0.0]
 }
@@ -201,14 +201,14 @@ pub fn dot(a: Vector, b: Vector) -> f64 {
 /// Length `|a|` of a vector.
 pub fn length(a: Vector) -> f64 {
     let square = dot(a, a);
-    // Squares that lose digits, or are too large or no numbers.
+    // The square loses digits, is too large, or is NaN.
     if !(1e-280..1e280).contains(&square) {
         return a[0].hypot(a[1]).hypot(a[2]);
     }
     square.sqrt()
 }
 
-/// A vector of length 1; zero where there is no direction.
+/// Scales a vector to length 1; returns zero for the zero vector.
 pub fn direction(a: Vector) -> Vector {
     let length = length(a);
     if length > 0.0 {
@@ -228,7 +228,7 @@ pub fn along(a: Vector, t: f64, b: Vector) -> Vector {
     [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
 }
 
-/// The first components of a vector: `(x, y)` or `(x, y, z)`.
+/// Formats the first components of a vector: `(x, y)` or `(x, y, z)`.
 pub(crate) fn in_words(vector: Vector, dimension: usize) -> String {
     let words: Vec<String> = vector.iter().take(dimension).map(f64::to_string).collect();
     format!("({})", words.join(", "))
@@ -260,7 +260,7 @@ mod tests {
         assert_eq!(Space::PlaneStrain.measure(0.5), 1.0);
     }
 
-    /// A rigid motion changes no distance to first order, and stays where the model lives.
+    /// A rigid motion changes no distance to first order, and stays in the plane of a plane model.
     #[test]
     fn rigid_motions_do_not_stretch() {
         for space in Space::ALL {

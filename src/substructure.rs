@@ -1,8 +1,8 @@
-//! The structure as contact and plasticity see it: the only door from sparse to dense.
+//! The condensed structure for contact and plasticity: the only step from sparse to dense matrices.
 //!
 //! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. Contact
-//! rows `s = B u_c <= delta` act on the contact freedoms; on the normal displacements `(u^1, u^2)`
-//! of nodes that face each other they suggest `v = u^1` and the relative displacement
+//! rows `s = B u_c <= delta` act on the contact freedoms. For the normal displacements `(u^1, u^2)`
+//! of nodes that face each other the unknowns are `v = u^1` and the relative displacement
 //! `s = u^2 - u^1 <= delta`, the paper's u_c^1 and (2.4). In these
 //!
 //! ```text
@@ -12,8 +12,8 @@
 //! ```
 //!
 //! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`,
-//! `q = t - T delta`. Rows of any kind, and bodies of which one is much the stiffer: see `rows`.
-//! Rigid motions of floating bodies are treated apart: see `tied`.
+//! `q = t - T delta`. General rows, and bodies of which one is much stiffer, are handled in `rows`,
+//! rigid motions of floating bodies in `tied`.
 
 mod groups;
 mod rigid_slips;
@@ -42,12 +42,12 @@ use nalgebra::DMatrix;
 use sharing::{Condensation, HeldFactor};
 use singular::name_freedom;
 
-/// The condensed structure.
+/// The condensed structure, with the contact matrix of its pairs.
 pub struct Substructure {
-    /// Which freedoms are zone and contact.
+    /// Zone and contact freedoms of the model.
     pub partition: Partition,
     condensed: HeldFactor,
-    /// Whether the factor was made for it.
+    /// Whether the factor was made for this structure, rather than taken over from an earlier run.
     is_new: bool,
     n_pairs: usize,
     tied: Option<Groups>,
@@ -78,7 +78,7 @@ impl Substructure {
         partition.zone = zone;
         let n = model.pairs.len();
         let (tied, contact_matrix) = if n > 0 {
-            // What the factor left of the memory.
+            // The check is repeated with the memory that the factor left.
             cost.require()?;
             let (tied, matrix) = tie(model, &partition, condensed.contact_stiffness())?;
             (Some(tied), matrix)
@@ -95,8 +95,9 @@ impl Substructure {
         })
     }
 
-    /// Changes the zone: freedoms that were factored as zone are chosen among (the backend may keep
-    /// more of them), for others the structure is condensed anew. Returns whether it was.
+    /// Changes the zone. Within the factored zone freedoms are only selected (the backend may keep
+    /// more of them); for other freedoms the structure is condensed anew. Returns whether it was
+    /// condensed.
     ///
     /// # Errors
     /// Errors of [`Substructure::new`].
@@ -116,8 +117,8 @@ impl Substructure {
         Ok(true)
     }
 
-    /// Gives the factor's memory back before another comes: two at once would be the peak of
-    /// memory. One freedom of stiffness 1 takes its place.
+    /// Frees the memory of the factor before another one is made: two at once would double the peak
+    /// of memory. A factor of one freedom of stiffness 1 takes its place.
     fn release(&mut self) -> Result<()> {
         let one = linalg::SymmetricCsc::new_csc((1, 1), vec![0, 1], vec![0], vec![1.0]);
         let partition = Partition {
@@ -129,40 +130,41 @@ impl Substructure {
         Ok(())
     }
 
-    /// Number of factorisations that the substructure took: none where it took over the factor of
-    /// an earlier run.
+    /// Number of factorisations that this substructure took: zero if it took over the factor of an
+    /// earlier run.
     pub fn factorizations(&self) -> usize {
         usize::from(self.is_new)
     }
 
-    /// The matrix T of the contact problem, all pairs closed.
+    /// Returns a tableau of the contact matrix `T` with all pairs closed.
     pub fn tableau(&self) -> Tableau {
         Tableau::new(self.contact_matrix.clone())
     }
 
-    /// The matrix T of the contact problem.
+    /// The contact matrix `T` of the pairs, all pairs closed.
     pub(crate) fn pair_matrix(&self) -> &PairMatrix {
         &self.contact_matrix
     }
 
-    /// Makes forces on the pairs do the work on rigid motions of floating bodies that is known of
-    /// each.
+    /// Corrects forces on the pairs so that their work on each rigid motion of floating bodies is
+    /// the known `work`.
     pub(crate) fn balance(&self, forces: &mut [f64], work: &[Work]) {
         if let Some(groups) = &self.tied {
             groups.balance(forces, |motion| work[motion]);
         }
     }
 
-    /// Makes forces balance themselves on each floating body, as those of plastic strains do: they
-    /// do no work on a rigid body mode.
+    /// Corrects forces so that they are in equilibrium on each floating body, as the forces of
+    /// plastic strains are: they do no work on a rigid body mode.
     pub(crate) fn balance_in_bodies(&self, forces: &mut [f64]) {
         if let Some(groups) = &self.tied {
             groups.balance(forces, |_| Work::default());
         }
     }
 
-    /// The pairs of each group asked for that rigid motions of floating bodies move, and the
-    /// displacements of these pairs that they give (`pairs x motions`, orthonormal).
+    /// For each group that `asked_for` selects and that rigid motions of floating bodies move: the
+    /// pairs of the group, and their displacements in the rigid motions (`pairs x motions`,
+    /// orthonormal).
     pub(crate) fn rigid_slips(
         &self,
         asked_for: impl Fn(&[usize]) -> bool,
@@ -185,10 +187,10 @@ impl Substructure {
         }
     }
 
-    /// The relative displacement `delta - gap` of the pairs without what rigid motions of floating
-    /// bodies contribute to it, and the amplitude of each of these motions. Gaps that a body falls
-    /// through are taken off before the difference is formed: small deformations of the bodies keep
-    /// their digits.
+    /// Splits the relative displacement `delta - gap` of the pairs into the part without rigid
+    /// motions of floating bodies and the amplitude of each rigid motion. The rigid motions are
+    /// split off before the difference is formed: however large the gaps through which a body
+    /// falls, small deformations of the bodies keep their digits.
     pub(crate) fn split_slip(&self, delta: &[f64], gap: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let Some(tied) = &self.tied else {
             return (Vec::new(), Vec::new());
@@ -199,12 +201,12 @@ impl Substructure {
         (rest.as_slice().to_vec(), motions.as_slice().to_vec())
     }
 
-    /// A zero vector on zone and contact freedoms.
+    /// Returns a zero vector on zone and contact freedoms.
     pub fn zeros(&self) -> Trailing {
         Trailing::zeros(self.partition.zone.len(), self.partition.contact.len())
     }
 
-    /// What the factorisation cost.
+    /// Operations and memory of the factorisation.
     pub fn cost(&self) -> linalg::Prediction {
         self.condensed.cost()
     }
@@ -219,7 +221,7 @@ impl Substructure {
         1.0 / self.condensed.weakest_pivot().ratio
     }
 
-    /// What of a load on all freedoms stays the same for whichever zone is chosen.
+    /// Reduces a load on all freedoms to what does not depend on the choice of the zone.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -227,10 +229,10 @@ impl Substructure {
         self.condensed.reduce_load(load)
     }
 
-    /// Static condensation of a reduced load.
+    /// Condenses a reduced load statically onto zone and contact freedoms.
     ///
     /// # Errors
-    /// None for a load that this structure reduced.
+    /// None for a load that this structure has reduced.
     pub fn condense(&self, reduced: &[f64]) -> Result<Trailing> {
         let mut out = self.zeros();
         self.condensed
@@ -238,9 +240,9 @@ impl Substructure {
         Ok(out)
     }
 
-    /// Eliminates zone and tied contact freedoms: on entry a load; on return `load` holds what
-    /// [`Substructure::recover`] needs and `forces` (`n_pairs`) the forces `t` that the pairs would
-    /// carry if tied without gap.
+    /// Eliminates zone and tied contact freedoms. On entry `load` is a load; on return it holds the
+    /// values that [`Substructure::recover`] needs, and `forces` (`n_pairs`) holds the forces `t`
+    /// that the pairs would carry if tied without a gap.
     pub fn eliminate(&self, load: &mut Trailing, forces: &mut [f64]) {
         self.condensed
             .eliminate_zone(&mut load.zone, &mut load.contact);
@@ -250,12 +252,12 @@ impl Substructure {
     }
 
     /// Recovers the displacements for relative displacements `slip = delta - g` of the pairs
-    /// (paper's u^2 - u^1).
+    /// (paper's u^2 - u^1). On entry `load` holds the values that [`Substructure::eliminate`] left.
     pub fn recover(&self, load: &mut Trailing, slip: &[f64]) {
         self.recover_part(&ZonePart::default(), load, slip);
     }
 
-    /// [`Substructure::recover`] where only the displacements in a part of the zone are asked for.
+    /// Recovers displacements as [`Substructure::recover`] does, but only in a part of the zone.
     pub fn recover_part(&self, part: &ZonePart, load: &mut Trailing, slip: &[f64]) {
         if let Some(tied) = &self.tied {
             tied.recover(&mut load.contact, slip);
@@ -264,13 +266,13 @@ impl Substructure {
             .recover_part(part, &mut load.zone, &load.contact);
     }
 
-    /// The part of the zone with the marked freedoms.
+    /// The part of the zone that consists of the marked freedoms.
     pub fn part_of_zone(&self, marked: &[bool]) -> ZonePart {
         self.condensed.part_of_zone(marked)
     }
 
-    /// The structure with another stiffness in the zone; `None` where the backend has no factor of
-    /// it.
+    /// Returns the structure with a stiffness that can be reduced in the zone; `None` if the
+    /// backend cannot factor such a structure.
     pub(crate) fn softened(&self) -> Option<Softened> {
         Some(Softened::new(self.condensed.changed()?, self.n_pairs))
     }
@@ -285,8 +287,8 @@ impl Substructure {
         linalg::condition(&*self.condensed, &system.stiffness, &self.partition, &shift)
     }
 
-    /// All freedoms, for a reduced load and the displacements of zone and contact freedoms. Costs
-    /// about half a full solve.
+    /// Recovers the displacements of all freedoms from a reduced load and the displacements of zone
+    /// and contact freedoms. Costs about half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -294,12 +296,12 @@ impl Substructure {
         self.condensed.recover_all(reduced, &u.zone, &u.contact)
     }
 
-    /// All freedoms without the rigid motions of floating bodies, and the amplitude of each of
-    /// these motions: strains of the first are free of the cancellation that those of the sum
-    /// suffer. `load` is on all freedoms and includes initial loads and contact forces; `reduced`
-    /// are the external loads, `condensed` these and the initial loads on zone and contact
-    /// freedoms; `slip` and `motions` are those of [`Substructure::split_slip`]. `beside` as in
-    /// [`linalg::recover_refined`].
+    /// Recovers the displacements of all freedoms without the rigid motions of floating bodies, and
+    /// the amplitude of each rigid motion: strains of the former are free of the cancellation that
+    /// strains of the sum suffer. `load` is on all freedoms and includes initial loads and contact
+    /// forces; `reduced` are the external loads; `condensed` are the external and the initial loads
+    /// on zone and contact freedoms; `slip` and `motions` are those of
+    /// [`Substructure::split_slip`]. `beside` is as in [`linalg::recover_refined`].
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -331,21 +333,21 @@ impl Substructure {
         Ok((recovered, motions))
     }
 
-    /// Multiplications that putting leaders and followers of the contact rows together took: two
-    /// products with the weights by which leaders carry followers.
+    /// Number of multiplications that combining leaders and followers of the contact rows took, in
+    /// two products with the weights by which leaders carry followers.
     pub fn tying_multiplications(&self) -> usize {
         self.tied.as_ref().map_or(0, Groups::multiplications)
     }
 
-    /// Bytes held by the dense contact matrices: `T`, what of it is swept in the tableau, and
-    /// factor and coupling of the tied structure.
+    /// Bytes held by the dense contact matrices: `T`, its swept copy in the tableau, and factor and
+    /// coupling of the tied structure.
     pub fn contact_bytes(&self) -> u64 {
         let tied = self.tied.as_ref().map_or(0, Groups::n_entries);
         (size_of::<f64>() * (2 * self.contact_matrix.n_entries() + tied)) as u64
     }
 }
 
-/// The tied structure of a condensed stiffness, and its contact matrix.
+/// Builds the tied structure of a condensed stiffness and its contact matrix.
 fn tie(
     model: &Model,
     partition: &Partition,
@@ -360,25 +362,26 @@ fn tie(
     Groups::new(stiffness, &model.floating.motions, contact)
 }
 
-/// What the dense part of contact costs, known from the model alone: a group of `p` rows and `m`
-/// leaders that bodies join takes `m^3 / 3 + m^2 p + m p^2` operations once, for no matrix of the
-/// method has zeros there.
+/// Cost of the dense part of contact, known from the model alone. A group of `p` rows and `m`
+/// leaders that bodies join takes `m^3 / 3 + m^2 p + m p^2` operations once, because no matrix of
+/// the method has zeros there.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct ContactCost {
     /// Number of contact pairs.
     pub pairs: usize,
-    /// Groups of pairs that share no body.
+    /// Number of groups of pairs that share no body.
     pub groups: usize,
-    /// Pairs of the largest group.
+    /// Number of pairs of the largest group.
     pub largest_group: usize,
-    /// Floating point operations: factor, coupling and contact matrix of the tied pairs.
+    /// Floating point operations of the factor, the coupling and the contact matrix of the tied
+    /// pairs.
     pub flops: f64,
-    /// Bytes at the peak: factor, coupling and its transpose, contact matrix.
+    /// Bytes at the peak, for the factor, the coupling and its transpose, and the contact matrix.
     pub memory_bytes: f64,
 }
 
 impl ContactCost {
-    /// The cost of a model's contact.
+    /// Predicts the cost of a model's contact.
     pub fn of(model: &Model) -> Self {
         let (rows, part) = (&model.rows.entries, &model.floating.part_of_contact);
         let mut sizes: Vec<usize> = Vec::new();
@@ -410,10 +413,10 @@ impl ContactCost {
         }
     }
 
-    /// Refuses what does not fit into the memory that is left.
+    /// Refuses a model whose contact matrices do not fit into the memory that is left.
     ///
     /// # Errors
-    /// `Analysis` with what is needed and what there is.
+    /// `Analysis` with the memory that is needed and the memory that is left.
     fn require(&self) -> Result<()> {
         let what = format!(
             "contact of {} pairs, {} of them joined by bodies (dense matrices: fewer pairs are \
@@ -425,7 +428,8 @@ impl ContactCost {
 }
 
 /// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero
-/// elsewhere. A rigid surface has no stiffness: what it touches says what is much.
+/// elsewhere. A rigid surface has no stiffness of its own and gets the largest diagonal entry of
+/// all contact freedoms.
 fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
     let own = |freedom: &usize| system.stiffness.diagonal(*freedom);
     let floats = &model.floating.of_contact;

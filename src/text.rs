@@ -1,11 +1,11 @@
-//! Text of others (titles, names, paths, what a file holds), made fit to be shown.
+//! Makes foreign text (titles, names, paths, contents of files) fit to be shown.
 
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// `text` with each character that a terminal, an SVG or a page would obey or hide instead of
-/// showing it written out, as `\u{1b}`: control characters but line breaks and tabs, changes of the
-/// direction of writing, what has no width, and what XML forbids. Numbers are [`short`].
+/// Escapes each character of `text` that a terminal, an SVG or a page would obey or hide, as
+/// `\u{1b}`: control characters except line breaks and tabs, changes of writing direction,
+/// characters of no width, and characters that XML forbids. Long numbers are shortened ([`short`]).
 #[cfg(feature = "report")]
 pub(crate) fn shown(text: &str) -> Cow<'_, str> {
     match written_out(text, is_obeyed, escape) {
@@ -14,12 +14,12 @@ pub(crate) fn shown(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// As [`shown`] for a name or a title, which is one line: line breaks and tabs are written out too.
+/// Escapes as [`shown`] does, for a name or title of one line: line breaks and tabs as well.
 pub(crate) fn shown_in_line(text: &str) -> Cow<'_, str> {
     written_out(text, |c| is_obeyed(c) || matches!(c, '\n' | '\t'), escape)
 }
 
-/// As [`shown`] for JSON, whose own form this is: what reads it gets the character back.
+/// Escapes as [`shown`] does, in the notation of JSON, so that its reader gets the character back.
 #[cfg(feature = "cli")]
 pub(crate) fn shown_json(text: &str) -> Cow<'_, str> {
     written_out(text, is_obeyed, |c, out| {
@@ -29,9 +29,9 @@ pub(crate) fn shown_json(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// `text` with each number that was written out to its last of many digits, as others than brinell
-/// do in their messages, in the form of [`crate::number::exact`]. What only looks like such a
-/// number (a file's name) stays: its digits are not those of a floating-point number.
+/// Shortens numbers in `text` that were written with very many digits, as messages of other
+/// libraries do, to the form of [`crate::number::exact`]. Text that only resembles such a number (a
+/// file name) stays: its digits are not those of a floating-point number.
 pub(crate) fn short(text: &str) -> Cow<'_, str> {
     let belongs = |b: u8| b.is_ascii_alphanumeric() || b == b'.' || b == b'_';
     let mut out = String::new();
@@ -39,7 +39,7 @@ pub(crate) fn short(text: &str) -> Cow<'_, str> {
     for word in text.as_bytes().chunk_by(|a, b| belongs(*a) == belongs(*b)) {
         let range = from..from + word.len();
         from = range.end;
-        // The dot behind may end the sentence.
+        // A trailing dot may end the sentence.
         let digits = text[range.clone()].trim_end_matches('.');
         if let Some(shorter) = shortened(digits) {
             out.push_str(&text[copied..range.start]);
@@ -54,7 +54,7 @@ pub(crate) fn short(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// A number of many digits with an exponent, if that is what `digits` is.
+/// Converts a number of many digits to exponent form; `None` if `digits` is not such a number.
 fn shortened(digits: &str) -> Option<String> {
     let is_digit = |b: u8| b.is_ascii_digit() || b == b'.';
     if digits.len() <= MOST_DIGITS || !digits.bytes().all(is_digit) {
@@ -71,13 +71,13 @@ fn shortened(digits: &str) -> Option<String> {
     (written || whole_part(digits) == value.to_string()).then(|| format!("{value:e}"))
 }
 
-/// The digits before a fraction of zero.
+/// Digits of a number before a fraction of zero.
 fn whole_part(digits: &str) -> &str {
     digits.strip_suffix(".0").unwrap_or(digits)
 }
 
-/// Characters of the longest number between 1e-4 and 1e16 with all its digits: longer ones are
-/// zeros or digits that no floating-point number has.
+/// Number of characters of the longest number between 1e-4 and 1e16 with all its digits. Longer
+/// numbers contain zeros or digits that no floating-point number has.
 const MOST_DIGITS: usize = 22;
 
 fn escape(c: char, out: &mut String) {
@@ -103,8 +103,8 @@ fn written_out(
     Cow::Owned(out)
 }
 
-/// Whether a character is obeyed or hidden and not shown: what the standard library does not count
-/// as printable, but spaces of all widths (none is not a width).
+/// Whether a character is obeyed or hidden instead of shown: all characters that the standard
+/// library does not count as printable, except spaces with a width.
 fn is_obeyed(c: char) -> bool {
     if c.is_ascii() {
         return c.is_ascii_control() && c != '\n' && c != '\t';
@@ -112,7 +112,7 @@ fn is_obeyed(c: char) -> bool {
     match c {
         '\u{2028}' | '\u{2029}' => true,
         space if space.is_whitespace() && !space.is_control() => false,
-        // Accents that combine with what stands before them are printable where something does.
+        // Combining accents are printable if a character stands before them.
         _ => {
             let mut text = String::from("a");
             text.push(c);
@@ -137,7 +137,7 @@ mod tests {
             ("no\u{200b}width\u{2060}", "no\\u{200b}width\\u{2060}"),
             ("soft\u{ad}hyphen\u{e0041}", "soft\\u{ad}hyphen\\u{e0041}"),
             ("\u{2028}\u{85}", "\\u{2028}\\u{85}"),
-            // Letters, accents, spaces and pictures of all kinds.
+            // Letters, accents, spaces and pictographs of all kinds.
             (
                 "e\u{301} \u{a0}\u{202f}\u{3000}\u{1f600} \u{4e2d}",
                 "e\u{301} \u{a0}\u{202f}\u{3000}\u{1f600} \u{4e2d}",
@@ -153,7 +153,7 @@ mod tests {
         assert!(matches!(shown_in_line("größe Ω"), Cow::Borrowed(_)));
     }
 
-    /// As `toml` and `{}` write them, in the midst of sentences.
+    /// Numbers as `toml` and `{}` write them, within sentences.
     #[test]
     fn numbers_of_many_digits_are_shortened_wherever_they_stand() {
         for (value, exponent) in [

@@ -1,5 +1,5 @@
-//! The elements whose stiffness is assembled: those of a model, or a part of them that stands by
-//! itself.
+//! Elements whose stiffness is assembled: all elements of a model, or a self-contained part of
+//! them.
 
 use super::pattern::Incidence;
 use crate::element::{packed, with_kernel};
@@ -11,22 +11,22 @@ use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-/// Elements, and those of one freedom that springs are after them.
+/// Elements of the continuum, followed by springs as elements with one freedom each.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Elements<'a> {
     continuum: Cow<'a, Continuum>,
-    /// Sums of elements whose displacements are not simply the slots of their nodes.
+    /// Elements whose displacements are weighted sums of other slots than those of their nodes.
     sums: BTreeMap<usize, Sums>,
     springs: Vec<f64>,
     /// Number of freedoms.
     n: usize,
     offsets: Vec<usize>,
-    /// What the elements act on, -1 where held.
+    /// Freedoms of each element, -1 where a displacement is held.
     freedoms: Vec<i64>,
 }
 
 impl<'a> Elements<'a> {
-    /// All of a model.
+    /// Collects all elements of a model, without springs.
     pub(super) fn of(model: &'a Model) -> Self {
         Self::new(
             model,
@@ -35,7 +35,8 @@ impl<'a> Elements<'a> {
         )
     }
 
-    /// The elements of `model` whose numbers are given, by themselves; without springs.
+    /// Collects the elements of `model` with the given numbers as a part of its own, without
+    /// springs.
     fn new(
         model: &Model,
         continuum: Cow<'a, Continuum>,
@@ -74,7 +75,7 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// Adds springs: freedom and stiffness.
+    /// Adds springs, given as pairs of freedom and stiffness.
     pub(super) fn with_springs(mut self, springs: impl Iterator<Item = (usize, f64)>) -> Self {
         for (freedom, stiffness) in springs {
             self.springs.push(stiffness);
@@ -84,13 +85,14 @@ impl<'a> Elements<'a> {
         self
     }
 
-    /// Some elements of a model, ascending, on their own nodes; freedoms as the model numbers them.
+    /// Collects some elements of a model, ascending, on their own nodes; freedoms keep their
+    /// numbers.
     pub(super) fn some_of(model: &Model, elements: &[usize]) -> Elements<'static> {
         let (part, _) = model.continuum.part(elements);
         Elements::new(model, Cow::Owned(part), elements.iter().copied())
     }
 
-    /// Numbers the freedoms anew, in the same order and without gaps: which ones they are.
+    /// Renumbers the freedoms in the same order without gaps, and returns their former numbers.
     #[cfg(feature = "mumps")]
     pub(super) fn renumber(&mut self) -> Vec<u32> {
         let free = self.freedoms.iter().filter(|f| **f >= 0);
@@ -104,22 +106,22 @@ impl<'a> Elements<'a> {
         numbers
     }
 
-    /// Number of freedoms.
+    /// Number of freedoms on which the elements act.
     pub(super) fn n_freedoms(&self) -> usize {
         self.n
     }
 
-    /// Number of elements, springs among them.
+    /// Number of elements, including springs.
     pub(super) fn len(&self) -> usize {
         self.offsets.len() - 1
     }
 
-    /// Freedoms of an element, -1 where held.
+    /// Freedoms of an element, -1 where a displacement is held.
     pub(super) fn freedoms(&self, element: usize) -> &[i64] {
         &self.freedoms[self.offsets[element]..self.offsets[element + 1]]
     }
 
-    /// The upper triangle of their stiffness; of freedoms that are not `wanted` no column.
+    /// Assembles the upper triangle of the stiffness; columns of freedoms not `wanted` stay empty.
     ///
     /// Every column is owned by one thread and gathers its elements' contributions in ascending
     /// element order, so the result has the same bits for any number of threads.
@@ -155,7 +157,7 @@ impl<'a> Elements<'a> {
         SymmetricCsc::new_csc((self.n, self.n), pointers, rows, values)
     }
 
-    /// Whether each freedom is held by the same elements as the one before.
+    /// For each freedom, whether the same elements hold it as hold the freedom before.
     #[cfg(feature = "mumps")]
     pub(super) fn continued(&self) -> Vec<bool> {
         let incidence = Incidence::new(self);
@@ -165,8 +167,8 @@ impl<'a> Elements<'a> {
     }
 }
 
-/// The stiffness matrices of elements on what they act on ([`Model::slots_of`]), packed lower
-/// triangles.
+/// Stiffness matrices of elements on the slots on which the elements act ([`Model::slots_of`]), as
+/// packed lower triangles.
 pub(super) struct Matrices {
     offsets: Vec<usize>,
     values: Vec<f64>,
@@ -210,7 +212,7 @@ impl Matrices {
         Matrices { offsets, values }
     }
 
-    /// The stiffness matrix of an element.
+    /// Packed stiffness matrix of an element.
     pub(super) fn of(&self, element: usize) -> &[f64] {
         &self.values[self.offsets[element]..self.offsets[element + 1]]
     }

@@ -1,4 +1,4 @@
-//! The elastic stiffness and the load vectors on the free freedoms.
+//! Assembly of the elastic stiffness and the load vectors on the free freedoms.
 
 mod elements;
 mod pattern;
@@ -14,24 +14,24 @@ use elements::{Elements, Matrices};
 /// The assembled system `K u = sum_l h_l P_l + contact forces + initial loads`.
 #[derive(Debug, Clone)]
 pub struct System {
-    /// The elastic stiffness, `n x n`.
+    /// Elastic stiffness, `n x n`.
     pub stiffness: Symmetric,
     /// Infinity norm of the stiffness.
     pub norm: f64,
-    /// Load vector at factor 1 of each list of loads that change alike ([`Model::alike`]; `n`
-    /// each); those of prescribed displacements are `-K_fp u_p`.
+    /// Load vector at factor 1 for each list of loads that change alike ([`Model::alike`]; `n`
+    /// values each). The load vector of prescribed displacements is `-K_fp u_p`.
     pub loads: Vec<Vec<f64>>,
-    /// Where the leading load prescribes displacements `v`: `v' (K_pp u_p - f_p)` of each list of
-    /// loads at factor 1, the work on them of what holds all prescribed freedoms while no free one
-    /// moves.
+    /// Work on the displacements `v` that the leading load prescribes, for each list of loads at
+    /// factor 1: `v' (K_pp u_p - f_p)`. It is the work of the supports of all prescribed freedoms
+    /// while no free freedom moves. Zero if the leading load prescribes no displacement.
     pub on_leading: Vec<f64>,
 }
 
-/// Assembles stiffness and loads as `backend` takes them: MUMPS a part of the stiffness on each
-/// rank, the others all of it here.
+/// Assembles stiffness and loads in the form that `backend` takes: a part of the stiffness on each
+/// rank for MUMPS, the whole stiffness here for all other backends.
 ///
 /// # Errors
-/// Errors of the ranks; none of a valid model on one.
+/// Errors of the ranks; none for a valid model on one rank.
 pub fn assemble(model: &Model, backend: Backend) -> Result<System> {
     let stiffness: Symmetric = match backend {
         #[cfg(feature = "mumps")]
@@ -68,7 +68,7 @@ fn loads(model: &Model) -> (Vec<Vec<f64>>, Vec<f64>) {
     (loads, on_leading)
 }
 
-/// Adds `-K_fp u_p` of each load's prescribed displacements, and returns [`System::on_leading`].
+/// Adds `-K_fp u_p` of each load's prescribed displacements and returns [`System::on_leading`].
 fn add_prescribed(model: &Model, loads: &mut [Vec<f64>]) -> Vec<f64> {
     let is_prescribed = |slot: &Slot| matches!(slot, Slot::Prescribed(_));
     let elements: Vec<usize> = (0..model.mesh.n_elements())

@@ -1,14 +1,14 @@
-//! Which elements touch which freedom, and the sparsity pattern that follows.
+//! Incidence of elements and freedoms, and the sparsity pattern that follows from it.
 
 use super::elements::Elements;
 use rayon::prelude::*;
 
-/// Columns of the pattern that a thread takes at a time.
+/// Number of columns of the pattern that a thread takes at a time.
 const BLOCK: usize = 4096;
-/// Rows of a column that room is made for: those of bilinear elements.
+/// Number of rows for which each column gets room at first: that of bilinear elements.
 const ROWS_EXPECTED: usize = 10;
 
-/// Elements that hold each freedom.
+/// For each freedom the elements that hold it.
 #[derive(Debug, Clone)]
 pub(super) struct Incidence {
     starts: Vec<usize>,
@@ -39,21 +39,21 @@ impl Incidence {
         Incidence { starts, entries }
     }
 
-    /// Elements (with the local number) that hold a freedom, ascending.
+    /// Elements that hold a freedom, ascending, each with the local number of the freedom.
     pub(super) fn elements(&self, freedom: usize) -> &[(u32, u16)] {
         &self.entries[self.starts[freedom]..self.starts[freedom + 1]]
     }
 
-    /// Column pointers and sorted rows of the upper triangle; columns that are not `wanted` are
-    /// empty.
+    /// Returns column pointers and sorted rows of the upper triangle; columns that are not `wanted`
+    /// are empty.
     pub(super) fn pattern(
         &self,
         elements: &Elements,
         wanted: impl Fn(usize) -> bool + Sync,
     ) -> (Vec<i64>, Vec<i64>) {
         let n = self.starts.len() - 1;
-        // Blocks of columns: their number, not the number of threads, decides what is computed
-        // together.
+        // The columns are split into blocks of fixed size, so that the number of threads does not
+        // decide what is computed together.
         let blocks: Vec<(Vec<u32>, Vec<i64>)> = (0..n.div_ceil(BLOCK))
             .into_par_iter()
             .map(|block| {

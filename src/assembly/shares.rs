@@ -1,8 +1,8 @@
-//! The stiffness in parts, one for each rank: which elements a rank assembles, and how.
+//! The stiffness in parts, one for each MPI rank: choice of a rank's elements, and their assembly.
 //!
 //! A rank owns the freedoms of the nodes in its part of space ([`Mesh::shared_among`]) and
-//! assembles their columns, from all elements that hold one of them: the columns of all ranks
-//! together are the stiffness as one would assemble it, to the last bit.
+//! assembles their columns from all elements that hold one of them. The columns of all ranks
+//! together equal the stiffness assembled on a single rank, to the last bit.
 //!
 //! [`Mesh::shared_among`]: crate::mesh::Mesh::shared_among
 
@@ -12,28 +12,28 @@ use crate::linalg::mumps::{Columns, Part, Shared, World};
 use crate::model::{Model, Slot};
 use serde::{Deserialize, Serialize};
 
-/// What a rank is sent.
+/// Elements and freedoms that are sent to a rank.
 #[derive(Serialize, Deserialize)]
 struct Share<'a> {
     elements: Elements<'a>,
-    /// Whether each freedom is the rank's own.
+    /// Whether each freedom is owned by the rank.
     owned: Vec<bool>,
 }
 
-/// Assembles the stiffness of a model on all ranks.
+/// Assembles the stiffness of a model, shared among all ranks.
 ///
 /// # Errors
-/// Errors of the ranks.
+/// Errors reported by the ranks.
 pub fn assemble(model: &Model) -> Result<Shared> {
     let mut shares = RankShares::new(model, World::join()?.size);
     Shared::new(model.freedoms.n, |rank| shares.take(rank), columns)
 }
 
-/// The shares of all ranks, made one by one.
+/// Shares of all ranks, made one by one.
 struct RankShares<'a> {
     model: &'a Model,
     owner_of_node: Vec<u32>,
-    /// Elements that each rank assembles.
+    /// Numbers of the elements that each rank assembles.
     elements: Vec<Vec<usize>>,
 }
 
@@ -63,7 +63,7 @@ impl<'a> RankShares<'a> {
         self.owner_of_node[node as usize] as usize
     }
 
-    /// The share of a rank, once.
+    /// Takes out the share of a rank, which can be done once.
     fn take(&mut self, rank: usize) -> Result<Part> {
         let model = self.model;
         let list = std::mem::take(&mut self.elements[rank]);
@@ -83,10 +83,10 @@ impl<'a> RankShares<'a> {
     }
 }
 
-/// The columns that a rank assembles of its share.
+/// Assembles the columns that a rank owns from the share sent to it.
 ///
 /// # Errors
-/// `Internal` where the share cannot be read.
+/// `Internal` if the share cannot be read.
 pub fn columns(share: &[u8]) -> Result<Columns> {
     let Share { elements, owned } = postcard::from_bytes(share)
         .map_err(|cause| Error::internal("a part of the elements from bytes").because(cause))?;
@@ -103,7 +103,8 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// Plane, axisymmetric, solid; turned axes, prescribed displacements, springs.
+    /// Plane, axisymmetric and solid scenes, with rotated axes, prescribed displacements and
+    /// springs.
     const SCENES: [(&str, &[&str]); 6] = [
         (
             "disc_in_plate",
@@ -134,7 +135,7 @@ mod tests {
         ),
     ];
 
-    /// The columns of all ranks are those of the whole, bit for bit, each once.
+    /// Each column of the whole matrix is assembled by exactly one rank, bit for bit.
     #[test]
     fn the_columns_of_all_ranks_are_those_of_one() {
         for (name, changes) in SCENES {

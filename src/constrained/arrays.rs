@@ -1,24 +1,25 @@
-//! Compressed arrays of other programs, checked.
+//! Compressed arrays from other programs, checked and converted.
 
 use crate::error::{Error, Result};
 use crate::index::Index;
 use crate::linalg::SymmetricCsc;
 use std::ops::Range;
 
-/// Which entries of a symmetric matrix are given.
+/// Triangle of a symmetric matrix whose entries are given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Triangle {
-    /// Both triangles; the upper one is read.
+    /// Entries of both triangles; only the upper triangle is read.
     #[default]
     Both,
-    /// The upper triangle: row <= column.
+    /// Entries of the upper triangle: row <= column.
     Upper,
-    /// The lower triangle: row >= column.
+    /// Entries of the lower triangle: row >= column.
     Lower,
 }
 
-/// A symmetric `n x n` matrix from its entries compressed by column: `n + 1` starts of the columns
-/// in `rows` and `values`. Repeated entries are added; rows need not be sorted.
+/// Builds a symmetric `n x n` matrix from entries that are compressed by column. `starts` holds
+/// `n + 1` positions in `rows` and `values` at which the columns start. Repeated entries are added;
+/// rows need not be sorted.
 ///
 /// ```
 /// use brinell::constrained::{ConstrainedStructure, Triangle, rows_from_csr, stiffness_from_csc};
@@ -39,13 +40,13 @@ pub enum Triangle {
 /// # }
 /// ```
 ///
-/// The arrays are read where they lie, indices of any width; what comes back is all that is
-/// allocated: the upper triangle with 64-bit indices, 16 bytes for each of its entries, as the
-/// factorisation takes it.
+/// The arrays may have indices of any width and are not copied. Only the result is allocated: the
+/// upper triangle with 64-bit indices, 16 bytes for each entry, in the form that the factorisation
+/// takes.
 ///
 /// # Errors
-/// Lengths that do not fit, begins that fall, a row that is not in `0..n`, an entry outside of the
-/// triangle or not finite: by its place and value.
+/// Lengths that do not fit, starts that decrease, a row that is not in `0..n`, an entry that is
+/// outside the triangle or not finite; the message names place and value.
 pub fn stiffness_from_csc<S: Index, I: Index>(
     n: usize,
     starts: &[S],
@@ -54,7 +55,7 @@ pub fn stiffness_from_csc<S: Index, I: Index>(
     triangle: Triangle,
 ) -> Result<SymmetricCsc> {
     check_starts(starts, n, rows.len(), values.len(), "column")?;
-    // Where the columns of the upper triangle begin, and with one pass less where each goes on.
+    // Starts of the columns of the upper triangle, shifted by one; the fill below advances them.
     let mut columns = vec![0i64; n + 1];
     for column in 0..n {
         for k in range(starts, column) {
@@ -85,17 +86,17 @@ pub fn stiffness_from_csc<S: Index, I: Index>(
             }
         }
     }
-    // Each begin has moved to the next one's place.
+    // The fill has advanced each start to the start of the next column.
     columns.rotate_right(1);
     columns[0] = 0;
     sort_and_add(&mut columns, &mut kept_rows, &mut kept);
     Ok(SymmetricCsc::new_csc((n, n), columns, kept_rows, kept))
 }
 
-/// Row and column in the upper triangle of an entry that counts.
+/// Returns row and column of an entry in the upper triangle; `None` if the entry is not read.
 ///
 /// # Errors
-/// An entry outside of the triangle that is given.
+/// An entry outside the given triangle.
 fn in_upper(triangle: Triangle, row: usize, column: usize) -> Result<Option<[usize; 2]>> {
     let name = match triangle {
         Triangle::Both | Triangle::Upper if row <= column => return Ok(Some([row, column])),
@@ -109,8 +110,8 @@ fn in_upper(triangle: Triangle, row: usize, column: usize) -> Result<Option<[usi
     )))
 }
 
-/// Sorts the rows of each column that needs it and adds repeated entries, in the order in which
-/// they were given.
+/// Sorts the rows of each unsorted column and adds repeated entries, in the order in which they
+/// were given.
 fn sort_and_add(columns: &mut [i64], rows: &mut Vec<i64>, values: &mut Vec<f64>) {
     let mut end = 0;
     let mut begin = 0;
@@ -139,11 +140,12 @@ fn sort_and_add(columns: &mut [i64], rows: &mut Vec<i64>, values: &mut Vec<f64>)
     values.truncate(end);
 }
 
-/// Contact rows on `n` freedoms from their coefficients compressed by row: starts of the rows in
-/// `freedoms` and `coefficients`, one more than there are rows.
+/// Builds contact rows on `n` freedoms from coefficients that are compressed by row. `starts` holds
+/// the positions in `freedoms` and `coefficients` at which the rows start, and the end of the last
+/// row.
 ///
 /// # Errors
-/// Lengths that do not fit, begins that fall, a freedom that is not in `0..n`.
+/// Lengths that do not fit, starts that decrease, a freedom that is not in `0..n`.
 pub fn rows_from_csr<S: Index, I: Index>(
     n: usize,
     starts: &[S],
@@ -164,13 +166,13 @@ pub fn rows_from_csr<S: Index, I: Index>(
         .collect()
 }
 
-/// Entries of a column (row); the starts have been checked.
+/// Range of the entries of a column (or row); the starts have been checked.
 fn range<I: Index>(starts: &[I], column: usize) -> Range<usize> {
     let place = |at: usize| starts[at].try_into().unwrap_or(0);
     place(column)..place(column + 1)
 }
 
-/// Begins that rise from 0 to the number of entries.
+/// Checks that starts rise from 0 to the number of entries.
 fn check_starts<I: Index>(
     starts: &[I],
     n: usize,
@@ -206,7 +208,7 @@ fn index(value: impl Index, below: usize, what: &str) -> Result<usize> {
     (value.below(below)).ok_or_else(|| Error::input(format!("{what} {value} is not in 0..{below}")))
 }
 
-/// Rows and gaps that fit each other and the freedoms.
+/// Checks that rows and gaps fit each other and the freedoms.
 pub(super) fn check(n: usize, rows: &[Vec<(usize, f64)>], gaps: &[f64]) -> Result<()> {
     if rows.len() != gaps.len() {
         return Err(Error::input(format!(

@@ -1,4 +1,5 @@
-//! Displacements of the state at hand, of a badly conditioned structure to the last digits.
+//! Displacements of the current state, accurate to the last digits even for a badly conditioned
+//! structure.
 
 use super::{ConstrainedStructure, sizes};
 use crate::error::{Error, ErrorKind, Result};
@@ -7,11 +8,11 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 use std::sync::Arc;
 
 impl ConstrainedStructure {
-    /// Displacements of all freedoms (`n`) in the state at hand. Returns
+    /// Computes the displacements of all freedoms (`n`) in the current state. Returns
     /// `|K u - f + B' r| / (|K| |u| + |f|)`. Costs one full solve.
     ///
     /// # Errors
-    /// [`ErrorKind::Input`] where `out` has the wrong length; failure of the backend's solve.
+    /// [`ErrorKind::Input`] if `out` has the wrong length; failure of the backend's solve.
     pub fn displacements(&self, out: &mut [f64]) -> Result<f64> {
         if out.len() != self.partition.n {
             return Err(Error::input(format!(
@@ -41,7 +42,7 @@ impl ConstrainedStructure {
         Ok(found.backward_error)
     }
 
-    /// `f - B' r` on all freedoms.
+    /// Load on all freedoms with the contact forces, `f - B' r`.
     fn load_with_contact(&self) -> Vec<f64> {
         let pushed = self.rows.tr_mul(&DVector::from_column_slice(self.forces()));
         let mut load = self.state.load.clone();
@@ -51,21 +52,21 @@ impl ConstrainedStructure {
         load
     }
 
-    /// As [`ConstrainedStructure::displacements`] with the residual in twice the working precision
-    /// ([`linalg::refine`]): for a stiffness whose entries are exact and whose condition is bad.
-    /// Right to the last digits for the gaps and forces at hand, where the plain solution is off by
-    /// round-off times the condition. Returns what the refinement did. Costs a full solve for each
-    /// step and a factor of the condensed stiffness.
+    /// Computes displacements like [`ConstrainedStructure::displacements`], with the residual in
+    /// twice the working precision ([`linalg::refine`]): for a badly conditioned stiffness whose
+    /// entries are exact. The result is right to the last digits for the current gaps and forces,
+    /// whereas the plain solution is off by round-off times the condition. Returns the record of
+    /// the refinement. Costs a full solve for each step and a factor of the condensed stiffness.
     ///
     /// # Errors
-    /// As [`ConstrainedStructure::displacements`]; [`ErrorKind::Unheld`] where the closed rows do
-    /// not hold the structure.
+    /// Errors of [`ConstrainedStructure::displacements`]; [`ErrorKind::Unheld`] if the closed rows
+    /// do not hold the structure.
     pub fn refined_displacements(&self, out: &mut [f64]) -> Result<Refinement> {
         self.displacements(out)?;
         let contact = &self.partition.contact;
         let load = self.load_with_contact();
-        // (K + B' S B) u = f - B' r + B' S delta with the closed rows, whose gap is zero without
-        // round-off: definite also where K alone is not.
+        // (K + B' S B) u = f - B' r + B' S delta with the closed rows, whose gap is exactly zero:
+        // the matrix is definite even if K alone is not.
         let open = self.tableau.open();
         let sizes = sizes(&self.condensed_stiffness, &self.rows);
         let spring = DVector::from_fn(open.len(), |i, _| if open[i] { 0.0 } else { sizes[i] });

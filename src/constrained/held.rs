@@ -1,11 +1,11 @@
-//! Whether a structure is held: by its own stiffness, or with its contact rows closed.
+//! Checks whether a structure is held by its own stiffness or with its contact rows closed.
 
 use crate::contact::Unbounded;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{self, Backend, Condensed, NotDefinite, Partition, SymmetricCsc};
 
-/// Condenses; where the matrix alone is not definite once more with its own diagonal added on the
-/// contact freedoms and taken off again.
+/// Condenses the stiffness. If the matrix alone is not definite, its own diagonal is added on the
+/// contact freedoms first and subtracted again after condensation.
 pub(super) fn condense(
     backend: Backend,
     stiffness: &SymmetricCsc,
@@ -45,7 +45,7 @@ fn named(error: Error, freedom: impl Fn(&Error) -> Option<usize>) -> Error {
     }
 }
 
-/// What stops the contact from being solved.
+/// Error of a contact problem in which the load pushes a part away from every contact.
 pub(super) fn pushed_away(cause: Unbounded) -> Error {
     Error::new(
         ErrorKind::Unheld,

@@ -1,4 +1,4 @@
-//! A structure on its way along a load path, from one change of contact to the next.
+//! Load path of a structure, from one change of contact to the next.
 
 use super::held::pushed_away;
 use super::{ConstrainedStructure, State};
@@ -7,38 +7,38 @@ use crate::error::{Error, Result};
 use nalgebra::DVector;
 use std::sync::Arc;
 
-/// A piece of the load path.
+/// A piece of the load path, with the state at its start.
 pub(super) struct Way {
     path: Path,
     start: State,
     rate: Vec<f64>,
     condensed_rate: DVector<f64>,
-    /// Whether the path stands at an event whose statuses are still to be settled.
+    /// Whether the path stands at an event whose statuses have not been settled yet.
     at_event: bool,
 }
 
-/// Where [`ConstrainedStructure::step`] stopped.
+/// State at which [`ConstrainedStructure::step`] stopped.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Event {
     /// Position on the piece: the load is `start + t rate`.
     pub t: f64,
-    /// The changes of contact there; empty at the end of the piece.
+    /// Changes of contact at `t`; empty at the end of the piece.
     pub changes: Vec<Change>,
 }
 
 impl ConstrainedStructure {
-    /// Starts a piece of the load path: from the state at hand the load goes on as `f + t rate`,
+    /// Starts a piece of the load path: from the current state on the load is `f + t rate`, with
     /// `t` from 0.
     ///
     /// # Errors
-    /// As [`ConstrainedStructure::solve`].
+    /// Errors of [`ConstrainedStructure::solve`].
     pub fn start(&mut self, rate: &[f64]) -> Result<()> {
         self.check_load(rate)?;
         let condensed_rate = self.condense(rate)?;
         let begin = self.forces_if_tied(&self.state.condensed, 1.0);
         let change = self.forces_if_tied(&condensed_rate, 0.0);
         let scale = self.gaps.iter().fold(0.0f64, |m, g| m.max(g.abs()));
-        // `q` is what is left of the load's part and that of the gaps.
+        // `q` is the sum of a part from the load and a part from the gaps, which may cancel.
         let terms = (&*self.contact_matrix * &self.gaps).amax() + begin.amax();
         let path = Path::new(
             &mut self.tableau,
@@ -63,8 +63,8 @@ impl ConstrainedStructure {
     /// Goes on to `t = end` or to the next change of contact, whichever comes first.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Input`] where no piece was started or `end` lies behind;
-    /// [`crate::ErrorKind::Unheld`] naming the row where the load pushes a body away from every
+    /// [`crate::ErrorKind::Input`] if no piece was started or `end` is before the current `t`;
+    /// [`crate::ErrorKind::Unheld`], naming the row, if the load pushes a body away from every
     /// contact.
     pub fn step(&mut self, end: f64) -> Result<Event> {
         let Some(way) = &mut self.way else {
@@ -105,7 +105,7 @@ impl ConstrainedStructure {
     }
 }
 
-/// Puts new values in the place of those that nobody else keeps.
+/// Replaces the values in place if nobody else holds them, otherwise allocates new ones.
 fn replace(kept: &mut Arc<Vec<f64>>, values: &[f64]) {
     match Arc::get_mut(kept) {
         Some(own) => own.copy_from_slice(values),

@@ -3,8 +3,8 @@ use crate::ErrorKind;
 use crate::contact::Change;
 use crate::linalg::tests::backends;
 
-/// Upper triangle of a chain of unit springs between `n` freedoms, those of `held` tied to the
-/// ground by another.
+/// Upper triangle of a chain of unit springs between `n` freedoms; a further unit spring ties each
+/// freedom in `held` to the ground.
 fn chain(n: usize, held: &[usize]) -> SymmetricCsc {
     let mut triplets = sprs::TriMatI::<f64, i64>::new((n, n));
     for i in 0..n {
@@ -27,15 +27,15 @@ fn close(a: f64, b: f64) {
     );
 }
 
-/// A bar of three springs held at one end, a wall at the other at distance 1: it is touched at load
-/// 1/3 per... the end moves by 3 f under an end load f.
+/// A bar of three unit springs, held at one end, with a wall at distance 1 from the other end. The
+/// end moves by 3 f under an end load f, so it touches the wall at the load 1/3.
 #[test]
 fn a_bar_touches_a_wall_at_the_load_that_closes_its_gap() {
     for backend in backends() {
         let k = chain(3, &[0]);
         let mut bar = ConstrainedStructure::new(backend, &k, &[vec![(2, 1.0)]], &[1.0]).unwrap();
         close(bar.gaps()[0], 1.0);
-        // C of the end alone: three springs in a row.
+        // The condensed stiffness of the end is that of three springs in a row.
         close(bar.condensed_stiffness()[(0, 0)], 1.0 / 3.0);
         close(bar.contact_matrix[(0, 0)], 1.0 / 3.0);
         bar.start(&[0.0, 0.0, 1.0]).unwrap();
@@ -44,7 +44,7 @@ fn a_bar_touches_a_wall_at_the_load_that_closes_its_gap() {
         assert_eq!(event.changes, [Change::Closes(0)]);
         let event = bar.step(2.0).unwrap();
         assert!(event.changes.is_empty());
-        // What the gap did not take is the wall's force.
+        // The wall carries the load beyond the one that closes the gap.
         close(bar.forces()[0], 2.0 - 1.0 / 3.0);
         let mut u = [0.0; 3];
         let backward_error = bar.displacements(&mut u).unwrap();
@@ -52,14 +52,14 @@ fn a_bar_touches_a_wall_at_the_load_that_closes_its_gap() {
             close(*u, expected);
         }
         assert!(backward_error < 1e-14);
-        // The same at once.
+        // A direct solution gives the same force.
         bar.solve(&[0.0, 0.0, 2.0]).unwrap();
         close(bar.forces()[0], 2.0 - 1.0 / 3.0);
         assert_eq!(bar.open(), [false]);
     }
 }
 
-/// Two bars of which the second is held by contact alone: K is singular.
+/// Two bars, the second of which is held by contact alone: K is singular.
 #[test]
 fn a_body_held_by_contact_alone_is_pushed_but_not_pulled() {
     for backend in backends() {
@@ -88,7 +88,7 @@ fn a_body_held_by_contact_alone_is_pushed_but_not_pulled() {
     }
 }
 
-/// Rows with weights (a node between two others) against the optimality conditions, whatever the
+/// Rows with weights (a node between two others) fulfil the optimality conditions, whatever the
 /// load.
 #[test]
 fn random_structures_fulfil_all_conditions() {
@@ -139,7 +139,7 @@ fn random_structures_fulfil_all_conditions() {
                 }
             }
             assert!(residual.iter().all(|v| v.abs() < 1e-12), "{residual:?}");
-            // The end of the path is the solution for the end's load.
+            // The end of the path equals the direct solution for the load at the end.
             structure.solve(&load).unwrap();
             for (a, b) in along.iter().zip(structure.forces()) {
                 close(*a, *b);
@@ -148,8 +148,8 @@ fn random_structures_fulfil_all_conditions() {
     }
 }
 
-/// Two chains of springs, the one stiffer by `ratio`, end on end: `1/T = 3/k_1 + 3/k_2`. Whichever
-/// is listed first, `T` is no stiffer than the softer one, to its last digits.
+/// Two chains of springs end to end, the second stiffer by `ratio`: `1/T = 3/k_1 + 3/k_2`.
+/// Whichever is listed first, `T` is no stiffer than the softer chain, to the last digits.
 #[test]
 fn the_softer_side_follows_whatever_the_ratio() {
     for backend in backends() {
@@ -177,13 +177,13 @@ fn the_softer_side_follows_whatever_the_ratio() {
     }
 }
 
-/// Rows that share freedoms, so that no follower is in one row only: with all of them closed the
-/// chain hangs on them, and their forces are those of equilibrium.
+/// Rows that share freedoms, so that no follower is in one row only. With all rows closed the chain
+/// hangs on them, and their forces are those of equilibrium.
 #[test]
 fn rows_may_share_freedoms() {
     for backend in backends() {
         let k = chain(4, &[0]);
-        // Each freedom against the next but one, and the last against a wall.
+        // Rows that combine freedoms 0, 2 and 3 with different weights.
         let rows = [
             vec![(0, 1.0), (2, -0.5), (3, 0.25)],
             vec![(0, -1.0), (2, 2.0), (3, 1.0)],
@@ -205,7 +205,7 @@ fn rows_may_share_freedoms() {
         for (r, f) in residual.iter().zip(load) {
             close(*r, f);
         }
-        // T is the stiffness that the rows see: (B K^-1 B')^-1.
+        // T is the stiffness against displacements of the rows: (B K^-1 B')^-1.
         let mut inverse = DMatrix::zeros(4, 4);
         for j in 0..4 {
             let mut column = ConstrainedStructure::new(backend, &k, &[], &[]).unwrap();
@@ -263,9 +263,9 @@ fn what_does_not_fit_is_refused_by_name() {
     assert!(bar.displacements(&mut [0.0]).is_err());
 }
 
-/// A clamped beam by differences, `1 -4 6 -4 1`: whole numbers, a condition of 1e10. The
-/// displacements under a load that is exact for whole numbers come out as these, where the plain
-/// solution has lost half its digits.
+/// A clamped beam by finite differences, `1 -4 6 -4 1`: whole numbers, a condition of 1e10. The
+/// load is exact for whole-number displacements, and the refined solution reproduces them exactly.
+/// The plain solution loses half the digits.
 #[test]
 fn refined_displacements_are_right_to_the_last_digit() {
     let n = 500;
@@ -301,7 +301,7 @@ fn refined_displacements_are_right_to_the_last_digit() {
     }
 }
 
-/// Where a row is closed the displacements meet it, refined or not.
+/// Displacements fulfil the condition of a closed row, with or without refinement.
 #[test]
 fn refined_displacements_meet_a_closed_row() {
     for backend in backends() {
@@ -334,7 +334,7 @@ fn a_matrix_is_the_same_in_every_layout() {
         &[2.0, -1.0, 2.0, -1.0, 1.0],
         Triangle::Upper,
     );
-    // Backwards, the last entry in two halves.
+    // Rows in descending order, the last entry split into two halves.
     let lower = stiffness_from_csc(
         3,
         &[0i32, 2, 4, 6],

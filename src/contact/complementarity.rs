@@ -1,12 +1,13 @@
-//! Statuses for a given load: the total form of contact.
+//! Contact statuses for a given load, from any starting statuses (the total form of contact).
 //!
-//! Block pivoting flips every pair that violates its condition; that is fast but may cycle, so it
-//! is given up when the number of violations has not fallen for a while. Then the symmetric
-//! principal pivoting method of Dantzig and Cottle takes over: the energy `1/2 g'Tg + q'g` falls
-//! strictly from one set of open pairs to the next, no set can return, and there are finitely many.
-//! Where round-off says otherwise (a body that rests on nothing but round-off is handed from pair
-//! to pair by falls of 1e-30), a pair that would be opened twice from the same set stays closed
-//! from then on: no more than n times.
+//! Block pivoting flips every pair that violates its condition. Block pivoting is fast but may
+//! cycle, so it is given up when the number of violations has not fallen for a while. Then the
+//! symmetric principal pivoting method of Dantzig and Cottle takes over: the energy
+//! `1/2 g'Tg + q'g` falls strictly from one set of open pairs to the next, so no set can return,
+//! and there are finitely many sets. Round-off can break this argument (a body that rests on
+//! nothing but round-off is handed from pair to pair while the energy falls by 1e-30). Therefore a
+//! pair that would be opened twice from the same set of open pairs stays closed from then on, which
+//! happens at most n times.
 //!
 //! # Source
 //! Cottle, Pang, Stone (1992), section 4.2; J. J. Júdice, F. M. Pires (1994),
@@ -15,35 +16,35 @@
 use super::Tableau;
 use std::collections::BTreeSet;
 
-/// How a solution was found: evidence that the solve terminated by construction.
+/// Record of how a solution was found, as evidence that the solve terminated by construction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Certificate {
-    /// Rounds of block pivoting.
+    /// Number of rounds of block pivoting.
     pub rounds: usize,
-    /// Single pivots of the fallback; 0 where block pivoting settled.
+    /// Number of single pivots of the fallback; 0 if block pivoting found the solution.
     pub fallback_pivots: usize,
-    /// Status changes against the start.
+    /// Number of pairs whose status differs from their status at the start.
     pub changes: usize,
 }
 
-/// The problem has no solution: the forces push some pairs apart for ever.
+/// Error of a contact problem without a solution: the forces push some pairs apart for ever.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Unbounded {
-    /// The pair whose opening nothing stops.
+    /// A pair whose opening nothing stops.
     pub pair: usize,
 }
 
-/// Share of the largest violation from which on a pair violates its condition as much. The first of
-/// these pairs is taken: which of equals is the largest is for round-off to say.
+/// Share of the largest violation above which another violation counts as equally large. Of equally
+/// large violations the first is taken, since round-off decides which of them is the largest.
 const ALIKE: f64 = 1.0 - 1e-9;
-/// Rounds without progress after which block pivoting is given up.
+/// Number of rounds without progress after which block pivoting is given up.
 const PATIENCE: usize = 8;
 
-/// Finds statuses with `r = q + T g`, `g >= 0`, `r >= 0`, `g . r = 0`; starts from the statuses in
-/// the tableau and leaves the solution's there.
+/// Finds statuses, gaps and forces with `r = q + T g`, `g >= 0`, `r >= 0`, `g . r = 0`. The search
+/// starts from the statuses in the tableau and leaves the statuses of the solution there.
 ///
 /// # Errors
-/// [`Unbounded`] where no solution exists (`T` singular and `q` works on its null space).
+/// [`Unbounded`] if no solution exists (`T` singular and `q` does work on its null space).
 pub fn solve(
     tableau: &mut Tableau,
     q: &[f64],
@@ -98,7 +99,8 @@ fn block_pivoting(
         } else {
             patience -= 1;
         }
-        // Closing first keeps the opened set as small, hence as definite, as it can be.
+        // Pairs are closed first, so that the set of open pairs is as small, hence as definite, as
+        // possible.
         let (closing, opening): (Vec<usize>, Vec<usize>) =
             violated.into_iter().partition(|&k| tableau.open()[k]);
         for k in closing {
@@ -122,8 +124,8 @@ fn principal_pivoting(
     let n = tableau.len();
     tableau.reset(&vec![false; n]);
     gap.fill(0.0);
-    // Pairs whose tension is round-off: opening them could repeat a set without lowering the
-    // energy.
+    // Pairs whose tension is only round-off. Opening such a pair could repeat a set of open pairs
+    // without lowering the energy.
     let mut settled = vec![false; n];
     let mut entered: BTreeSet<(usize, Vec<bool>)> = BTreeSet::new();
     let mut column: Vec<(usize, f64)> = Vec::new();
@@ -186,7 +188,7 @@ fn principal_pivoting(
     }
 }
 
-/// Takes off what round-off left on the wrong side of zero.
+/// Sets to zero the gaps and forces that round-off left negative.
 fn clip(gap: &mut [f64], force: &mut [f64]) {
     for v in gap.iter_mut().chain(force) {
         *v = v.max(0.0);

@@ -1,16 +1,18 @@
-//! Bodies that no contact force holds yet: where the first bit of load takes them.
+//! Positions to which the first bit of load moves bodies that no contact force holds yet.
 //!
-//! As the load goes to zero deformation vanishes before the gaps do. What is left of
-//! `r = q + T g` is the work of the load on the rigid motions of the bodies that contact alone can
-//! hold, whose displacements of the pairs are the columns of `S` (`T S = 0`):
+//! As the load goes to zero, the deformation vanishes before the gaps do. What remains of
+//! `r = q + T g` is the work of the load on the rigid motions of the bodies that are held by
+//! contact alone. The displacements of the pairs in these motions are the columns of `S`
+//! (`T S = 0`):
 //!
 //! ```text
 //!     minimise q' S x    with  g + S x >= 0
 //! ```
 //!
-//! A linear program in as many unknowns as there are motions. No load is needed to find it, so no
-//! load can be too small compared with the round-off of `T g`. A motion that the load does not
-//! drive (a roller between two plates, sideways) has no place of least work: it stays where it is.
+//! This is a linear program in as many unknowns as there are motions. It does not contain the size
+//! of the load, so no load can be too small compared with the round-off of `T g`. A motion that the
+//! load does not drive (a roller between two plates, sideways) has no place of least work: the body
+//! stays where it is.
 //!
 //! # Source
 //! The gradient projection method: J. Nocedal, S. J. Wright, *Numerical Optimization*, 2nd ed.,
@@ -20,15 +22,15 @@ use super::Unbounded;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
-/// Share of the terms of a sum that is its round-off.
+/// Share of the terms of a sum below which the sum counts as round-off.
 const ROUND_OFF: f64 = 1e-11;
 /// Moves the pairs of a group by rigid motions, whose displacements are the columns of `slips`
-/// (orthonormal), to where the load rate `q`, a sum of `terms`, takes them. What the load does not
-/// drive stays where it is: returned are the motions that no pair stops on this way (`motions x
-/// free ones`, orthonormal).
+/// (orthonormal), to where the load rate `q`, a sum of `terms`, takes them. A motion that the load
+/// does not drive leaves the pairs where they are. Returns the motions that no pair stops on this
+/// way, as the orthonormal columns of a matrix (`motions x free motions`).
 ///
 /// # Errors
-/// [`Unbounded`] where no pair stops a motion that the load drives.
+/// [`Unbounded`] if no pair stops a motion that the load drives.
 pub(crate) fn come_to_rest(
     slips: &DMatrix<f64>,
     [q, terms]: [&DVector<f64>; 2],
@@ -46,7 +48,7 @@ pub(crate) fn come_to_rest(
         let held_pull = held.tr_mul(&pull);
         let way = &pull - &held * &held_pull;
         if way.norm() <= small {
-            // Pairs that would have to pull are let go, unless that leads in a circle.
+            // Pairs that would have to pull are released, unless this leads in a circle.
             let pulling = qr.r().solve_upper_triangular(&held_pull).and_then(|force| {
                 let of_pairs = touching.iter().zip(force.iter()).enumerate();
                 let pulling = of_pairs.filter(|(_, (k, f))| *f * slips.row(**k).norm() > small);
@@ -60,7 +62,7 @@ pub(crate) fn come_to_rest(
                 None => return Ok(complement(&held)),
             }
         }
-        // Those that touch stay where they are, whatever round-off says.
+        // Touching pairs stay in touch, whatever round-off says.
         let mut moves = slips * &way;
         touching.iter().for_each(|&k| moves[k] = 0.0);
         let (step, k) =
@@ -74,8 +76,8 @@ pub(crate) fn come_to_rest(
     }
 }
 
-/// The pair that closes first along the way, and the share of the way until then; of equals the
-/// least.
+/// Returns the share of the way until the first pair closes, and that pair; of several pairs that
+/// close at once, the first.
 fn next(
     slips: &DMatrix<f64>,
     way: &DVector<f64>,
@@ -88,13 +90,13 @@ fn next(
     steps.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// An orthonormal basis of what is orthogonal to the orthonormal columns of `held`.
+/// Returns an orthonormal basis of the orthogonal complement of the orthonormal columns of `held`.
 fn complement(held: &DMatrix<f64>) -> DMatrix<f64> {
     let m = held.nrows();
     let mut left = DMatrix::identity(m, m) - held * held.transpose();
     let mut basis = DMatrix::zeros(m, m - held.ncols());
     for mut column in basis.column_iter_mut() {
-        // `left` is a projection: the column of its largest diagonal entry is its longest.
+        // `left` is a projection: its longest column belongs to its largest diagonal entry.
         let most = left.diagonal().imax();
         let longest = left.column(most).normalize();
         left -= &longest * longest.transpose();
@@ -109,7 +111,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A body in a notch of two walls, driven into it, onto one wall, not at all, and out of it.
+    /// A body in a notch between two walls: driven into the notch, onto one wall, not at all, and
+    /// out of it.
     #[test]
     fn a_body_moves_until_the_load_is_held() {
         let slips = DMatrix::from_row_slice(3, 2, &[0.6, 0.8, 0.8, -0.6, 0.0, 0.0]);
@@ -123,7 +126,7 @@ mod tests {
         let at = |gap: [f64; 3]| DVector::from_row_slice(&gap);
         let into = rest([1.0, 2.0, 0.0]);
         assert_eq!(into, Ok((at([0.0, 0.0, 1.0]), 0)));
-        // Nothing drives it along the first wall.
+        // Nothing drives the body along the first wall.
         let onto_one = rest([1.0, 0.0, 0.0]);
         assert_eq!(onto_one, Ok((at([0.0, 0.2, 1.0]), 1)));
         assert_eq!(rest([0.0; 3]), Ok((from.clone(), 2)));
@@ -133,8 +136,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(5000))]
 
-        /// The pairs that touch carry the load without pulling, which shows that no place has less
-        /// work; where none holds it, the contact problem has no solution either.
+        /// The touching pairs carry the load without pulling, which shows that no other place has
+        /// less work. If no pairs hold the load, the contact problem has no solution either.
         #[test]
         fn the_load_is_held_where_it_can_be(n in 2usize..12, m in 1usize..5,
                 entries in proptest::collection::vec(-1.0f64..1.0, 48),
@@ -153,7 +156,7 @@ mod tests {
             let (mut g, mut r) = (vec![0.0; n], vec![0.0; n]);
             let solved = solve(&mut Tableau::new(t.clone()), q.as_slice(), &mut g, &mut r);
             if found.is_err() {
-                // Gaps without end are none: T is singular to round-off.
+                // Enormous gaps are no solution: T is singular up to round-off.
                 prop_assert!(solved.is_err() || g.iter().any(|g| *g > 1e6), "{:?}", g);
             } else {
                 prop_assert!(gap.min() >= 0.0);

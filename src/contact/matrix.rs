@@ -1,35 +1,36 @@
-//! The matrix of the contact problem by groups of pairs.
+//! Matrix of the contact problem, stored by groups of pairs.
 //!
-//! Pairs of bodies that nothing joins do not feel one another: of a thousand separate joints the
-//! matrix has a thousand small blocks, and so has whatever its pivots make of it. Memory and work
-//! are those of the blocks.
+//! Pairs of bodies that nothing joins do not influence one another: for a thousand separate joints
+//! the matrix has a thousand small blocks, and principal pivots keep this structure. Memory and
+//! work are therefore those of the blocks, not of the whole matrix.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Rows that a thread takes at a time.
+/// Number of rows that a thread takes at a time.
 const ROWS: usize = 512;
 
-/// A symmetric matrix, a row and a column for each pair, as its diagonal blocks. Cheap to clone.
+/// A symmetric matrix with a row and a column for each pair, stored as its diagonal blocks. Cloning
+/// is cheap.
 #[derive(Debug, Clone)]
 pub struct PairMatrix {
     blocks: Arc<[PairBlock]>,
-    /// Block and place in it of each pair.
+    /// For each pair the number of its block and its place in the block.
     place: Arc<[(usize, usize)]>,
 }
 
-/// What the pairs of a group do to one another.
+/// Block of the contact matrix: stiffness that couples the pairs of one group.
 #[derive(Debug, Clone)]
 pub struct PairBlock {
-    /// The pairs, ascending.
+    /// Numbers of the pairs of this block, ascending.
     pub pairs: Vec<usize>,
-    /// `pairs.len() x pairs.len()`, symmetric.
+    /// Entries of the block, `pairs.len() x pairs.len()`, symmetric.
     pub matrix: Arc<DMatrix<f64>>,
 }
 
 impl PairMatrix {
-    /// A matrix of blocks that hold each of the pairs `0..n` once.
+    /// Builds a matrix from blocks that together hold each of the pairs `0..n` once.
     pub fn new(blocks: Vec<PairBlock>) -> Self {
         let n = blocks.iter().map(|block| block.pairs.len()).sum();
         let mut place = vec![(0, 0); n];
@@ -49,7 +50,7 @@ impl PairMatrix {
         self.place.len()
     }
 
-    /// True where there is no pair.
+    /// True if there is no pair.
     pub fn is_empty(&self) -> bool {
         self.place.is_empty()
     }
@@ -59,7 +60,7 @@ impl PairMatrix {
         &self.blocks
     }
 
-    /// Block of a pair, and its place there.
+    /// Returns the number of the block of a pair and the place of the pair in it.
     pub fn place(&self, pair: usize) -> (usize, usize) {
         self.place[pair]
     }
@@ -70,7 +71,7 @@ impl PairMatrix {
         self.blocks[block].matrix[(k, k)]
     }
 
-    /// Column of a pair: the pairs of its group, ascending, and the entries.
+    /// Column of a pair: the pairs of its group, ascending, each with its entry.
     pub fn column(&self, pair: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let (block, k) = self.place[pair];
         let block = &self.blocks[block];
@@ -78,7 +79,7 @@ impl PairMatrix {
         block.pairs.iter().copied().zip(entries.iter().copied())
     }
 
-    /// `y += A x`, where few entries of `x` may be other than zero.
+    /// Adds the product with a vector: `y += A x`, fast if most entries of `x` are zero.
     pub(crate) fn add_product(&self, x: &[f64], y: &mut [f64]) {
         let blocks = self.blocks.iter();
         add_products(
@@ -88,7 +89,7 @@ impl PairMatrix {
         );
     }
 
-    /// The whole matrix, zeros between the blocks.
+    /// The whole matrix as a dense one, with zeros between the blocks.
     pub fn dense(&self) -> DMatrix<f64> {
         let n = self.len();
         let mut whole = DMatrix::zeros(n, n);
@@ -100,7 +101,7 @@ impl PairMatrix {
         whole
     }
 
-    /// Number of entries that are stored.
+    /// Number of entries that are stored in the blocks.
     pub fn n_entries(&self) -> usize {
         self.blocks.iter().map(|block| block.matrix.len()).sum()
     }
@@ -119,7 +120,7 @@ impl From<Arc<DMatrix<f64>>> for PairMatrix {
     }
 }
 
-/// `y += A x` for the blocks of `A` with the pairs of each.
+/// Adds `y += A x` for a matrix `A` that is given by its blocks, each with its pairs.
 pub(super) fn add_products<'a>(
     blocks: impl Iterator<Item = (&'a [usize], &'a DMatrix<f64>)>,
     x: &[f64],
@@ -145,7 +146,7 @@ pub(super) fn add_products<'a>(
     }
 }
 
-/// `y += A x`, where few entries of `x` may be other than zero.
+/// Adds `y += A x` for one dense block, fast if most entries of `x` are zero.
 fn add_product(a: &DMatrix<f64>, x: &[f64], y: &mut [f64]) {
     let add = |(block, y): (usize, &mut [f64])| {
         for (j, &x) in x.iter().enumerate().filter(|(_, x)| **x != 0.0) {

@@ -9,16 +9,16 @@
 //!
 //! `T` (`n_pairs x n_pairs`, symmetric, positive semidefinite) is the stiffness of the structure
 //! against opening the pairs; `q` holds the forces the pairs would carry if all were closed. This
-//! module knows neither meshes nor bodies. Groups of pairs that do not feel one another are blocks
-//! of `T` ([`PairMatrix`]).
+//! module knows neither meshes nor bodies. Groups of pairs that do not influence one another are
+//! blocks of `T` ([`PairMatrix`]).
 //!
-//! * [`Tableau`]: the matrix with a set of pairs opened, updated by principal pivots in O(n^2), n
-//!   the pairs of the group;
+//! * [`Tableau`]: the matrix with a set of pairs opened, updated by principal pivots in O(n^2),
+//!   where n is the number of pairs of the group;
 //! * [`solve`]: statuses for a given `q` (paper 3.7 to 3.10), finite for every semidefinite `T`;
 //! * [`Path`]: statuses for `q` moving along a line, from one change of contact to the next (paper
 //!   4.10 to 4.23);
-//! * `loose`: where bodies that nothing holds yet are taken by the first bit of load;
-//! * `springs`: what it does not drive stays where it is.
+//! * `loose`: positions to which the first bit of load moves bodies that nothing holds yet;
+//! * `springs`: weak springs that hold bodies in the directions that no load drives.
 
 mod complementarity;
 pub(crate) mod loose;

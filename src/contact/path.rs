@@ -1,9 +1,9 @@
 //! Contact along a load path: from one change of status to the next.
 //!
-//! For `q(t) = q_0 + t q_1` and fixed statuses gaps and forces are linear in `t`, so the next
-//! change is computed, not searched. Pairs at the border of both conditions (gap and force zero)
-//! are settled together by the complementarity problem of their rates, so ties open or close
-//! together and nothing chatters.
+//! For `q(t) = q_0 + t q_1` and fixed statuses, gaps and forces are linear in `t`, so the next
+//! change is computed, not searched for. Pairs at the border of both conditions (gap and force
+//! zero) are settled together by the complementarity problem of their rates: pairs that tie open or
+//! close together, and nothing chatters.
 //!
 //! # Source
 //! Paper, section 4.1, with (4.17) read as `Delta alpha / psi`; parametric principal pivoting:
@@ -16,12 +16,12 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A change of contact.
+/// A change of the contact status of one pair.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Change {
-    /// The pair of this number closes.
+    /// The pair with this number closes.
     Closes(usize),
-    /// The pair of this number opens.
+    /// The pair with this number opens.
     Opens(usize),
 }
 
@@ -30,37 +30,38 @@ pub enum Change {
 pub enum PathEnd {
     /// The end of the piece was reached without a change.
     Target,
-    /// The pairs are at the border of their condition; they are settled when the path goes on.
+    /// These pairs have reached the border of their condition; their new statuses are found when
+    /// the path goes on.
     Event(Vec<Change>),
 }
 
-/// Gaps below this share of the largest, forces below this share of the largest, count as zero when
-/// ties are collected.
+/// Share of the largest gap below which a gap counts as zero, and of the largest force below which
+/// a force does, when pairs that change status at once are collected.
 const TIE: f64 = 1e-10;
-/// Share of the terms of a force's rate that is their round-off: eps times the pairs and the
-/// condition of the tied structure that they come from.
+/// Share of the terms of a force's rate that is round-off: eps times the number of pairs and the
+/// condition of the tied structure from which the terms come.
 const ROUND_OFF: f64 = 1e-11;
-/// Events over which gaps, forces and their rates are carried along at least, each for the cost of
-/// a column; then they are solved for anew, so that round-off does not add up.
+/// Least number of events over which gaps, forces and their rates are carried along, each event for
+/// the cost of a column. After that they are solved for anew, so that round-off does not add up.
 const CARRIED: usize = 16;
-/// Events may be carried along over a share of the pairs, one to this number: a solution is a sum
-/// of that many terms itself.
+/// Number of pairs for each event that may be carried along without a new solution: a solution is
+/// itself a sum of as many terms as there are pairs.
 const PAIRS_PER_CARRIED: usize = 32;
-/// Number of events carried before any rates are known.
+/// Value of [`Path`]'s event counter before any rates are known.
 const NEVER: usize = usize::MAX;
-/// Share of a tie by which a pair may be beyond its condition at the end of a piece: round-off of
-/// an event that is due there.
+/// Share of the tolerance of a tie by which a pair may violate its condition at the end of a piece:
+/// the round-off of an event that is due there.
 const AT_END: f64 = 1e-2;
-/// Share of its force at the start by which a pair among the last ones that hold a body may be
-/// beyond its condition at the end of a piece.
+/// Share of its force at the start by which a pair may be in tension at the end of a piece if it is
+/// among the last pairs that hold a body.
 const LAST: f64 = 1e-7;
 
-/// Gaps and forces on a piece of the load path.
+/// Gaps and forces along one piece of the load path.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Path {
     start: Vec<f64>,
     rate: Vec<f64>,
-    /// Position on the piece.
+    /// Position on the piece, 0 at its start.
     pub t: f64,
     /// Gap of each pair.
     pub gap: Vec<f64>,
@@ -71,20 +72,21 @@ pub struct Path {
     gap_scale: f64,
     terms: f64,
     force_scale: f64,
-    /// Events since gaps, forces and rates were last solved for; [`NEVER`] before.
+    /// Number of events since gaps, forces and rates were last solved for; [`NEVER`] before the
+    /// first solution.
     carried: usize,
-    /// Pairs that changed status when the rates were last settled.
+    /// Number of pairs that changed status when the rates were last settled.
     pub changes: usize,
 }
 
 impl Path {
-    /// Starts at `t = 0` with `q(t) = start + t rate` and the gaps and forces that hold there
-    /// (statuses are those in the tableau). `gap_scale` is the size of gaps that matter (such as
-    /// the largest initial gap), `terms` that of the terms of which `start` is a sum: they may
+    /// Starts at `t = 0` with `q(t) = start + t rate` and the gaps and forces there, for the
+    /// statuses in the tableau. `gap_scale` is the size of gaps that matter (such as the largest
+    /// initial gap). `terms` is the size of the terms of which `start` is a sum: the terms may
     /// cancel, their round-off does not.
     ///
     /// # Errors
-    /// [`Unbounded`] where the load pushes pairs apart for ever.
+    /// [`Unbounded`] if the load pushes pairs apart for ever.
     pub fn new(
         tableau: &mut Tableau,
         start: Vec<f64>,
@@ -113,9 +115,9 @@ impl Path {
         Ok(path)
     }
 
-    /// Gap and force that count as zero: `share` of those that make a tie, at least their
-    /// round-off. That is a share of what they are the sum of: all forces may have been zero so
-    /// far.
+    /// Returns the gap and the force that count as zero: `share` of the tolerances for ties, but at
+    /// least the round-off. The round-off follows from the terms of the sums, since all forces may
+    /// have been zero so far.
     fn zero(&self, tableau: &Tableau, share: f64) -> (f64, f64) {
         let q: Vec<f64> = self
             .start
@@ -139,7 +141,7 @@ impl Path {
         self.carried >= CARRIED.max(self.gap.len() / PAIRS_PER_CARRIED)
     }
 
-    /// Settles the statuses of pairs at the border by the complementarity problem of the rates,
+    /// Finds the statuses of the pairs at the border from the complementarity problem of the rates,
     /// then computes all rates.
     fn settle(&mut self, tableau: &mut Tableau) -> Result<(), Unbounded> {
         let n = tableau.len();
@@ -163,8 +165,8 @@ impl Path {
                 self.force[k] = 0.0;
             }
             let m = border.len();
-            // A rate that is nothing but the round-off of what it is a sum of has no sign to
-            // follow: a body on which nothing acts would be driven off by it.
+            // A rate that is only the round-off of the terms of its sum has no meaningful sign. If
+            // the sign were followed, a body on which nothing acts would drift away.
             let terms = |k: usize| {
                 let column = tableau.matrix().column(k);
                 let of_gaps = column.map(|(j, t)| (t * self.gap_rate[j]).abs());
@@ -193,8 +195,8 @@ impl Path {
         if anew {
             tableau.solve(&self.rate, &mut self.gap_rate, &mut self.force_rate);
         }
-        // At the border a rate that leads beyond it is round-off, the complementarity problem has
-        // seen to that: taken at its word the path would stand still for ever.
+        // A negative rate at the border is round-off, since the complementarity problem excludes
+        // it. If it were followed, the path would stand still for ever.
         for &k in &border {
             self.gap_rate[k] = self.gap_rate[k].max(0.0);
             self.force_rate[k] = self.force_rate[k].max(0.0);
@@ -214,7 +216,7 @@ impl Path {
         let mut step = room;
         let mut first = None;
         let (end_gap, end_force) = self.zero(tableau, AT_END);
-        // Whether the group of a pair carries nothing at the end any more.
+        // Whether the group of a pair carries no force at the end of the piece any more.
         let comes_loose = |path: &Path, k: usize| {
             let (block, _) = tableau.matrix().place(k);
             let pairs = &tableau.matrix().blocks()[block].pairs;
@@ -228,8 +230,8 @@ impl Path {
                 let at_end = if tableau.open()[k] {
                     end_gap
                 } else if tableau.would_free(k) || comes_loose(self, k) {
-                    // The last pairs that hold a body cannot open: unloaded to nothing their forces
-                    // vanish near the end.
+                    // The last pairs that hold a body cannot open: when the body is unloaded
+                    // completely, their forces vanish near the end.
                     LAST * value
                 } else {
                     end_force
@@ -254,8 +256,8 @@ impl Path {
             }
         }
         if let Some(k) = first {
-            // This pair is at its border by construction. Round-off that says otherwise would let
-            // the path stand still.
+            // This pair is at its border by construction. Round-off in its value would otherwise
+            // make the path stand still.
             let value = if tableau.open()[k] {
                 &mut self.gap[k]
             } else {
@@ -279,10 +281,10 @@ impl Path {
         PathEnd::Event(changes)
     }
 
-    /// Goes on after an event with the statuses that hold beyond it.
+    /// Goes on after an event with the statuses that hold after it.
     ///
     /// # Errors
-    /// [`Unbounded`] where the load pushes pairs apart for ever.
+    /// [`Unbounded`] if the load pushes pairs apart for ever.
     pub fn turn(&mut self, tableau: &mut Tableau) -> Result<(), Unbounded> {
         self.settle(tableau)
     }
@@ -295,7 +297,7 @@ impl Path {
         }
     }
 
-    /// Goes to `t` with the current statuses, which must hold there.
+    /// Computes gaps and forces at `t` for the current statuses, which must hold there.
     pub(crate) fn state_at(&mut self, tableau: &mut Tableau, t: f64) {
         self.t = t;
         let q: Vec<f64> = self
@@ -311,7 +313,7 @@ impl Path {
     }
 }
 
-/// The swept matrix among some of the pairs.
+/// Returns the entries of the swept matrix that couple the given pairs.
 fn among(tableau: &Tableau, pairs: &[usize]) -> PairMatrix {
     let mut groups: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (i, &k) in pairs.iter().enumerate() {

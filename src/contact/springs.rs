@@ -12,26 +12,28 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Stiffness of a spring as a share of what the pairs that it moves have. What round-off drives,
-/// 1e-13 of the load, moves by 1e-5 of the deformation; and next to what holds a motion by so
-/// little as round surfaces of few elements do, 1e-5, it is still nothing.
+/// Stiffness of a spring as a share of the stiffness of the pairs that move with it. Round-off of
+/// 1e-13 of the load then moves the body by only 1e-5 of the deformation. Even where contact
+/// resists a motion with only 1e-5 of the stiffness, as round surfaces of few elements do, the
+/// spring is negligible.
 const WEAK: f64 = 1e-8;
 
-/// Weak springs, on the pairs of a group, that keep the motions which nothing holds and nothing
-/// drives where they are, so that each pair may open: `T` becomes `T + F F'`, and the forces `q`
-/// get `-F F' g_0` with the gaps `g_0` at which the springs are without force.
+/// Weak springs on the pairs of a group. They act on the motions that nothing holds and nothing
+/// drives, keep the bodies where they are and so let every pair open. `T` becomes `T + F F'`, and
+/// `-F F' g_0` is added to the forces `q`, where `g_0` are the gaps at which the springs carry no
+/// force.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Springs {
     pairs: Vec<usize>,
-    /// The columns of `F`, one for each motion.
+    /// Columns of `F`, one for each motion.
     directions: Vec<Vec<f64>>,
-    /// Amplitudes `F' g_0` at which the springs are without force.
+    /// Amplitudes `F' g_0` at which the springs carry no force.
     at_rest: Vec<f64>,
 }
 
 impl Springs {
-    /// Springs on the motions whose displacements of the pairs are the columns of `motions`
-    /// (orthonormal), without force at these gaps.
+    /// Builds springs on the motions whose displacements of the pairs are the columns of `motions`
+    /// (orthonormal); the springs carry no force at the gaps `gap`.
     pub(crate) fn new(
         matrix: &PairMatrix,
         pairs: &[usize],
@@ -53,12 +55,13 @@ impl Springs {
         springs
     }
 
-    /// The pairs of the group.
+    /// Numbers of the pairs on which the springs act.
     pub(crate) fn pairs(&self) -> &[usize] {
         &self.pairs
     }
 
-    /// Whether these springs may act on pairs of a group of the matrix.
+    /// Whether the springs match the matrix: their pairs exist and lie in one group, the sizes
+    /// agree.
     pub(crate) fn fit(&self, matrix: &PairMatrix) -> bool {
         let of_pairs = |direction: &Vec<f64>| direction.len() == self.pairs.len();
         let group = |k: usize| (k < matrix.len()).then(|| matrix.place(k).0);
@@ -70,12 +73,12 @@ impl Springs {
             && self.at_rest.len() == self.directions.len()
     }
 
-    /// Whether others differ in where they are without force at most.
+    /// Whether other springs have the same pairs and stiffness, whatever gaps they rest at.
     pub(crate) fn as_stiff_as(&self, other: &Springs) -> bool {
         self.pairs == other.pairs && self.directions == other.directions
     }
 
-    /// Springs of the same stiffness that are without force at other gaps.
+    /// Returns springs of the same stiffness that carry no force at the gaps `gap`.
     pub(crate) fn moved_to(&self, gap: &[f64]) -> Self {
         Springs {
             at_rest: self.amplitudes(gap),
@@ -83,7 +86,7 @@ impl Springs {
         }
     }
 
-    /// Amplitudes `F' g` of gaps.
+    /// Amplitudes `F' g` of the motions for the gaps `g`.
     fn amplitudes(&self, gap: &[f64]) -> Vec<f64> {
         let along = |direction: &Vec<f64>| {
             let of_pairs = self.pairs.iter().zip(direction);
@@ -92,7 +95,7 @@ impl Springs {
         self.directions.iter().map(along).collect()
     }
 
-    /// Adds `F a` to the forces of all pairs.
+    /// Adds `F a`, the spring forces of the amplitudes `a`, to the forces of all pairs.
     fn add_times(&self, amplitudes: &[f64], forces: &mut [f64]) {
         for (direction, a) in self.directions.iter().zip(amplitudes) {
             for (&k, f) in self.pairs.iter().zip(direction) {
@@ -101,13 +104,13 @@ impl Springs {
         }
     }
 
-    /// Adds `-F F' g_0` to the forces of all pairs.
+    /// Adds the constant part of the spring forces, `-F F' g_0`, to the forces of all pairs.
     pub(crate) fn add_at_rest(&self, forces: &mut [f64]) {
         let back: Vec<f64> = self.at_rest.iter().map(|a| -a).collect();
         self.add_times(&back, forces);
     }
 
-    /// The largest force that they exert on a pair at these gaps: `F F' (g - g_0)`.
+    /// The largest force that the springs exert on a pair at the gaps `gap`: `F F' (g - g_0)`.
     pub(crate) fn largest_force(&self, gap: &[f64]) -> f64 {
         let moved = self.amplitudes(gap);
         let moved: Vec<f64> = moved
@@ -123,7 +126,7 @@ impl Springs {
     }
 }
 
-/// The matrix of the pairs with springs.
+/// Returns the matrix of the pairs with the stiffness of the springs added.
 pub(crate) fn with_springs(matrix: &PairMatrix, springs: &[Springs]) -> PairMatrix {
     if springs.is_empty() {
         return matrix.clone();

@@ -1,50 +1,51 @@
-//! A symmetric matrix under principal pivots, a few of which wait before they are applied together.
+//! A symmetric matrix under principal pivots, of which the latest wait until they are applied
+//! together.
 //!
 //! A pivot changes every entry of the matrix: with thousands of pairs its cost is that of reading
-//! and writing the whole of it from and to the memory. Here the last pivots are kept as their
-//! columns, an entry or a column is worked out from them when it is asked for (O(number of waiting
-//! pivots) each), and [`WAITING`] of them are applied in one pass. The operations on an entry are
-//! the same, in the same order, whenever they are applied: so are the bits.
+//! and writing the whole matrix. Here the latest pivots are kept as columns. An entry or a column
+//! is computed from them when it is asked for (O(number of waiting pivots) for each entry), and
+//! [`WAITING`] pivots are applied in one pass. Each entry undergoes the same operations in the same
+//! order, whenever the pivots are applied, so the result is the same bit for bit.
 //!
 //! # Source
-//! Pivots: Cottle, Pang, Stone (1992), section 2.3. Waiting: as the delayed rank-one updates of P.
-//! K. V. V. Nukala et al. (2009), doi:10.1103/PhysRevB.80.195111.
+//! Pivots: Cottle, Pang, Stone (1992), section 2.3. Waiting: like the delayed rank-one updates of
+//! P. K. V. V. Nukala et al. (2009), doi:10.1103/PhysRevB.80.195111.
 
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-/// Pivots that wait at most: their columns, [`ROWS`] rows of each, fit into the first level of the
-/// processor's memory.
+/// Largest number of waiting pivots: [`ROWS`] rows of their columns fit into the first-level cache
+/// of the processor.
 const WAITING: usize = 16;
-/// Rows that are taken at a time.
+/// Number of rows that are taken at a time.
 const ROWS: usize = 256;
-/// Order from which on the work is shared among threads.
+/// Order of the matrix from which the work is shared among threads.
 const SHARED: usize = 512;
 
-/// A matrix and the pivots that wait.
+/// A matrix with the pivots that are not applied to it yet.
 #[derive(Debug, Clone)]
 pub(super) struct Swept {
-    /// The matrix without the pivots that wait.
+    /// Matrix before the waiting pivots.
     matrix: DMatrix<f64>,
     waiting: Vec<SweptPivot>,
-    /// Columns of pivots that were applied, for the next ones.
+    /// Columns of applied pivots, whose memory the next pivots reuse.
     spare: Vec<Vec<f64>>,
 }
 
-/// A principal pivot on entry (k, k).
+/// A principal pivot on the diagonal entry (k, k).
 #[derive(Debug, Clone)]
 struct SweptPivot {
     k: usize,
-    /// Column `k` before it.
+    /// Column `k` before the pivot.
     column: Vec<f64>,
     /// The pivot itself, `column[k]`.
     value: f64,
-    /// 1 where the pair opens, -1 where it closes.
+    /// Sign of the pivot: 1 if the pair opens, -1 if it closes.
     sign: f64,
 }
 
 impl SweptPivot {
-    /// Entry (i, j) beyond this pivot.
+    /// Entry (i, j) after this pivot, from its value `before` the pivot.
     fn entry(&self, before: f64, i: usize, j: usize) -> f64 {
         match (i == self.k, j == self.k) {
             (true, true) => -1.0 / self.value,
@@ -64,7 +65,7 @@ impl Swept {
         }
     }
 
-    /// Starts again from `matrix`.
+    /// Replaces the matrix by `matrix` and drops all waiting pivots.
     pub(super) fn copy_from(&mut self, matrix: &DMatrix<f64>) {
         self.matrix.copy_from(matrix);
         self.spare
@@ -84,7 +85,7 @@ impl Swept {
         bring_forward(&self.waiting, j, out, |i| self.get(i, j));
     }
 
-    /// The whole matrix.
+    /// The whole matrix, after applying all waiting pivots.
     pub(super) fn matrix(&mut self) -> &DMatrix<f64> {
         self.apply();
         &self.matrix
@@ -106,7 +107,7 @@ impl Swept {
         }
     }
 
-    /// Applies the pivots that wait.
+    /// Applies the waiting pivots to the matrix.
     fn apply(&mut self) {
         let n = self.matrix.nrows();
         if self.waiting.is_empty() {
@@ -136,7 +137,7 @@ impl Swept {
     }
 }
 
-/// Takes column `j` through the pivots; `row(k)` gives the entries in the rows of the pivots, in
+/// Applies the pivots to column `j`; `row(k)` gives the new entries in the rows of the pivots, in
 /// their order.
 fn bring_forward(
     pivots: &[SweptPivot],
@@ -146,7 +147,7 @@ fn bring_forward(
 ) {
     let rows: [f64; WAITING] =
         std::array::from_fn(|m| pivots.get(m).map_or(0.0, |pivot| row(pivot.k)));
-    // What came before the last pivot on column j itself does not matter any more.
+    // Pivots before the last one on column j itself no longer matter.
     let own = pivots.iter().rposition(|pivot| pivot.k == j);
     let rest = match own {
         Some(own) => {
@@ -191,7 +192,7 @@ fn bring_forward(
 mod tests {
     use super::*;
 
-    /// Pivots one by one on the whole matrix.
+    /// Applies one pivot directly to the whole matrix.
     fn plainly(s: &mut DMatrix<f64>, k: usize, sign: f64) {
         let (before, value) = (s.clone(), s[(k, k)]);
         for j in 0..s.ncols() {
@@ -208,8 +209,8 @@ mod tests {
 
     #[test]
     fn waiting_changes_no_bit() {
-        // Both below and above the order from which on threads share the work, with rows left over
-        // in the last block.
+        // Orders below and above the one from which threads share the work, with rows left over in
+        // the last block.
         for n in [7, SHARED + 13] {
             let a = DMatrix::from_fn(n, n, |i, j| {
                 let bump = 1.0 / (1.0 + (i as f64 - j as f64).abs());
@@ -218,7 +219,7 @@ mod tests {
             let mut expected = a.clone();
             let mut swept = Swept::new(a);
             let mut open = vec![false; n];
-            // Repeats within one batch, batches that are full, and one that is asked for half full.
+            // Repeats within one batch, full batches, and a batch that is read half full.
             let order = (0..45).map(|m| (m * m + m / 3) % 7 + if m % 4 == 0 { n - 7 } else { 0 });
             for (m, k) in order.enumerate() {
                 let sign = if open[k] { -1.0 } else { 1.0 };

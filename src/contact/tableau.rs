@@ -1,48 +1,49 @@
-//! The contact matrix with a set of pairs opened: a principal pivotal transform.
+//! The contact matrix after a set of pairs has been opened: a principal pivotal transform.
 
 use super::matrix::{self, PairMatrix};
 use super::swept::Swept;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-/// Share of the original diagonal below which a pivot counts as zero: opening the pair would free a
-/// rigid motion.
+/// Share of the original diagonal entry below which a pivot counts as zero: opening the pair would
+/// free a rigid motion.
 const SINGULAR: f64 = 1e-11;
-/// Share beyond which it certainly does not.
+/// Share of the original diagonal entry above which a pivot certainly frees no rigid motion.
 const NOT_SINGULAR: f64 = 1e-4;
-/// Multiple of the round-off to be expected beyond which a solution has lost its digits.
+/// Multiple of the expected round-off beyond which a solution has lost its digits.
 const LOST: f64 = 1e3;
-/// Rounds of a solution: two, and more where the matrix is so near to a singular one that they do
-/// not settle it.
+/// Largest number of refinement rounds of a solution: two suffice unless the matrix is nearly
+/// singular.
 const MOST_ROUNDS: usize = 4;
-/// Pivots after which the transform is rebuilt from the original matrix.
+/// Number of pivots after which the transform is rebuilt from the original matrix.
 const REBUILD: usize = 2000;
 
-/// `T` swept on the open pairs: blocks `-T_oo^-1`, `T_oo^-1 T_oc`, `T_cc - T_co T_oo^-1 T_oc`.
+/// Matrix `T` swept on the open pairs: blocks `-T_oo^-1`, `T_oo^-1 T_oc`,
+/// `T_cc - T_co T_oo^-1 T_oc`.
 ///
 /// # Source
 /// R. W. Cottle, J.-S. Pang, R. E. Stone, *The Linear Complementarity Problem* (1992), section 2.3.
 #[derive(Debug, Clone)]
 pub struct Tableau {
     matrix: PairMatrix,
-    /// Swept form of each block of the matrix.
+    /// Swept form of each block of `matrix`.
     swept: Vec<Swept>,
     open: Vec<bool>,
     way: TableauRecord,
     column: Vec<f64>,
 }
 
-/// How the swept matrix came about: the same pivots in the same order give it again, bit for bit.
+/// History of a swept matrix: the same pivots in the same order reproduce the matrix bit for bit.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct TableauRecord {
-    /// Statuses when it was last built from the original matrix.
+    /// Statuses when the swept matrix was last built from the original matrix.
     base: Vec<bool>,
-    /// Pairs whose status was changed since, in order.
+    /// Pairs whose status has changed since the matrix was last built, in order.
     flips: Vec<u32>,
 }
 
 impl Tableau {
-    /// The symmetric positive semidefinite matrix `T` with every pair closed.
+    /// Starts from the symmetric positive semidefinite matrix `T` with every pair closed.
     pub fn new(matrix: impl Into<PairMatrix>) -> Self {
         let matrix = matrix.into();
         let n = matrix.len();
@@ -66,22 +67,22 @@ impl Tableau {
         self.open.len()
     }
 
-    /// True where there is no pair.
+    /// True if there is no pair.
     pub fn is_empty(&self) -> bool {
         self.open.is_empty()
     }
 
-    /// Which pairs are open.
+    /// For each pair, whether it is open.
     pub fn open(&self) -> &[bool] {
         &self.open
     }
 
-    /// The original matrix T.
+    /// The original matrix `T`, with all pairs closed.
     pub fn matrix(&self) -> &PairMatrix {
         &self.matrix
     }
 
-    /// An entry of the swept matrix.
+    /// Entry (i, j) of the swept matrix; zero between pairs of different groups.
     pub(super) fn swept(&self, i: usize, j: usize) -> f64 {
         let ((block, i), (other, j)) = (self.matrix.place(i), self.matrix.place(j));
         if block == other {
@@ -91,14 +92,15 @@ impl Tableau {
         }
     }
 
-    /// A column of the swept matrix: the pairs of its group, ascending, and the entries.
+    /// Column of a pair in the swept matrix: the pairs of its group, ascending, each with its
+    /// entry.
     pub(super) fn swept_column(&mut self, j: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.bring_column(j);
         let pairs = &self.matrix.blocks()[self.matrix.place(j).0].pairs;
         pairs.iter().copied().zip(self.column.iter().copied())
     }
 
-    /// Puts a column of the swept matrix into `column`, for the pairs of its group.
+    /// Copies a column of the swept matrix into `self.column`, for the pairs of its group.
     fn bring_column(&mut self, j: usize) {
         let (block, j) = self.matrix.place(j);
         let n = self.matrix.blocks()[block].pairs.len();
@@ -107,9 +109,9 @@ impl Tableau {
 
     /// Whether opening pair `k` now would free a rigid motion.
     ///
-    /// What is left of `T_kk` is `T_kk - T_ko w` with `w = T_oo^-1 T_ok`: the round-off of that is
-    /// a share of `|T_kk| + 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`,
-    /// since `|T_ij| <= sqrt(T_ii T_jj)`.
+    /// The pivot is `T_kk - T_ko w` with `w = T_oo^-1 T_ok`. Its round-off is a share of `|T_kk| +
+    /// 2 |T_ko| |w| + |w|' |T_oo| |w| <= (sqrt T_kk + sum |w_o| sqrt T_oo)^2`, since `|T_ij| <=
+    /// sqrt(T_ii T_jj)`.
     pub(crate) fn would_free(&self, k: usize) -> bool {
         let (block, own) = self.matrix.place(k);
         let (left, whole) = (self.swept[block].get(own, own), self.matrix.diagonal(k));
@@ -126,8 +128,8 @@ impl Tableau {
         left <= round_off.max(SINGULAR * whole)
     }
 
-    /// Opens or closes pair `k`; false (and nothing changed) if opening it would free a rigid
-    /// motion.
+    /// Opens or closes pair `k`. Returns false, and changes nothing, if opening the pair would free
+    /// a rigid motion.
     pub fn flip(&mut self, k: usize) -> bool {
         if self.would_free(k) {
             return false;
@@ -142,14 +144,15 @@ impl Tableau {
         true
     }
 
-    /// As [`Tableau::flip`]; keeps `gap` and `force` what [`Tableau::solve`] gives for their
-    /// right-hand side, for the new statuses: one column instead of the whole matrix.
+    /// Flips a pair like [`Tableau::flip`] and updates `gap` and `force` from the solution
+    /// ([`Tableau::solve`]) for the old statuses to that for the new ones. The right-hand side
+    /// stays the same, so this takes one column of the matrix instead of the whole matrix.
     pub(crate) fn flip_with(&mut self, k: usize, gap: &mut [f64], force: &mut [f64]) -> bool {
         if self.would_free(k) {
             return false;
         }
-        // Of y = b + S z with y = (r_closed, -g_open) and z = (g_closed, r_open) only b stands
-        // where z is zero.
+        // In y = b + S z with y = (r_closed, -g_open) and z = (g_closed, r_open), z is zero except
+        // for pair k, so b is known from y.
         let b = if self.open[k] { -gap[k] } else { force[k] };
         let own = self.matrix.place(k).1;
         self.bring_column(k);
@@ -166,8 +169,8 @@ impl Tableau {
         self.flip(k)
     }
 
-    /// Sets all statuses, starting from the original matrix; pairs whose opening would free a rigid
-    /// motion stay closed.
+    /// Sets all statuses, starting from the original matrix. A pair whose opening would free a
+    /// rigid motion stays closed.
     pub fn reset(&mut self, open: &[bool]) {
         for (swept, block) in self.swept.iter_mut().zip(self.matrix.blocks()) {
             swept.copy_from(&block.matrix);
@@ -183,13 +186,13 @@ impl Tableau {
         self.way.base.copy_from_slice(&self.open);
     }
 
-    /// How this tableau came about.
+    /// History of this tableau, from which an equal tableau can be made.
     pub fn record(&self) -> &TableauRecord {
         &self.way
     }
 
-    /// Repeats what a tableau of the same matrix went through; false (and the tableau of no use)
-    /// where the record is of another one.
+    /// Repeats the history of another tableau of the same matrix. Returns false, and leaves the
+    /// tableau unusable, if the record belongs to a different matrix.
     pub(crate) fn replay(&mut self, record: &TableauRecord) -> bool {
         if record.base.len() != self.len() || record.flips.len() >= REBUILD {
             return false;
@@ -208,16 +211,16 @@ impl Tableau {
         self.swept[block].pivot(own, sign);
     }
 
-    /// Gaps of the open pairs and forces of the closed ones for the given statuses: `r_o = 0`,
-    /// `g_c = 0`, `r = q + T g`. The gaps are refined against `T`, so that errors of many pivots do
-    /// not stay.
+    /// Computes the gaps of the open pairs and the forces of the closed pairs for the current
+    /// statuses: `r_o = 0`, `g_c = 0`, `r = q + T g`. The gaps are refined against `T`, so that the
+    /// errors of many pivots do not accumulate.
     pub fn solve(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
         self.solve_with_residual(q, gap, force);
     }
 
-    /// As [`Tableau::solve`], starting again from the original matrix where pivots have lost the
-    /// digits (a pivot that was hardly more than round-off): pairs that then turn out to hold a
-    /// rigid motion are closed.
+    /// Solves like [`Tableau::solve`], but rebuilds the tableau from the original matrix if pivots
+    /// have lost the digits (a pivot was hardly more than round-off). Pairs that then turn out to
+    /// hold a rigid motion are closed.
     pub(crate) fn solve_safely(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) {
         let residual = self.solve_with_residual(q, gap, force);
         if residual > LOST * self.force_tolerance(q, gap) {
@@ -227,7 +230,7 @@ impl Tableau {
         }
     }
 
-    /// [`Tableau::solve`]; the largest force that is left on an open pair.
+    /// Solves like [`Tableau::solve`] and returns the largest force that remains on an open pair.
     fn solve_with_residual(&mut self, q: &[f64], gap: &mut [f64], force: &mut [f64]) -> f64 {
         gap.fill(0.0);
         force.copy_from_slice(q);
@@ -248,7 +251,7 @@ impl Tableau {
         residual
     }
 
-    /// `g_o -= T_oo^-1 residual_o`.
+    /// Corrects the gaps of the open pairs: `g_o -= T_oo^-1 residual_o`.
     fn correct(&mut self, residual: &mut [f64], gap: &mut [f64]) {
         for (r, _) in residual
             .iter_mut()
@@ -267,7 +270,8 @@ impl Tableau {
         }
     }
 
-    /// Round-off to be expected in the forces of a solution with these right-hand side and gaps.
+    /// Round-off to be expected in the forces of a solution with this right-hand side and these
+    /// gaps.
     pub(crate) fn force_tolerance(&self, q: &[f64], gap: &[f64]) -> f64 {
         let largest_q = q.iter().fold(0.0f64, |m, v| m.max(v.abs()));
         let largest_t = (0..self.len()).fold(0.0f64, |m, k| m.max(self.matrix.diagonal(k)));

@@ -2,7 +2,7 @@ use super::*;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-/// `A A'` with fewer columns than rows is semidefinite.
+/// A semidefinite matrix `A A'`, where `A` has fewer columns than rows if `rank < n`.
 fn semidefinite(n: usize, rank: usize, entries: &[f64]) -> DMatrix<f64> {
     let a = DMatrix::from_fn(n, rank.max(1), |i, j| {
         entries[(i * rank.max(1) + j) % entries.len()]
@@ -56,7 +56,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// The path's end is the direct solution there, whatever happened on the way.
+    /// The end of the path equals the direct solution there, whatever happened on the way.
     #[test]
     fn path_ends_where_the_direct_solve_does(
             n in 1usize..12,
@@ -104,7 +104,7 @@ fn flips_carry_gaps_and_forces_along() {
         let largest = |v: &[f64]| v.iter().fold(1.0f64, |m, x| m.max(x.abs()));
         for (a, b) in [(&gap, &solved_gap), (&force, &solved_force)] {
             for (x, y) in a.iter().zip(b) {
-                // A few pivots of a matrix whose condition is far below 1e5.
+                // Only a few pivots of a matrix whose condition number is far below 1e5.
                 assert!((x - y).abs() <= 1e-10 * largest(b), "{k}: {a:?} {b:?}");
             }
         }
@@ -125,7 +125,7 @@ fn sweeping_there_and_back_is_the_identity() {
     assert!((DMatrix::from_fn(5, 5, |i, j| tableau.swept(i, j)) - t).amax() < 1e-13);
 }
 
-/// However long a run is, what it went through is repeated in few pivots, to the same bits.
+/// However long a run is, the history of its tableau is repeated in few pivots, to the same bits.
 #[test]
 fn the_way_of_a_tableau_stays_short_enough_to_be_repeated() {
     let t = semidefinite(
@@ -147,7 +147,7 @@ fn the_way_of_a_tableau_stays_short_enough_to_be_repeated() {
 
 #[test]
 fn a_body_held_by_contact_alone_does_not_open_its_last_pair() {
-    // Two springs in a row without ground: T is singular, only one pair may open.
+    // Two springs in a row without a support: T is singular, only one pair may open.
     let t = DMatrix::from_row_slice(2, 2, &[1.0, -1.0, -1.0, 1.0]);
     let mut tableau = Tableau::new(t.clone());
     let (mut g, mut r) = (vec![0.0; 2], vec![0.0; 2]);
@@ -156,8 +156,8 @@ fn a_body_held_by_contact_alone_does_not_open_its_last_pair() {
     assert!(solve(&mut tableau, &[-1.0, 0.5], &mut g, &mut r).is_err());
 }
 
-/// Two springs in a row on a third to the ground, a billionth as stiff: that is far above round-off
-/// and holds the body, a ten-trillionth is not and does not.
+/// Two springs in a row, supported by a third. If the third is a billionth as stiff, it is far
+/// above round-off and holds the body; if it is a ten-trillionth as stiff, it does not.
 #[test]
 fn a_body_on_a_weak_spring_is_held() {
     for (weak, is_held) in [(1e-9, true), (1e-13, false)] {
@@ -287,9 +287,9 @@ fn digits_lost_in_a_pivot_of_round_off_come_back() {
     check(&t, &q, &g, &r);
 }
 
-/// Pair 0 stands at the border (no gap, no force), and its rate of -1e-13 is round-off of what it
-/// is the sum of, 1 and -1. When pair 2 opens half way, pair 0 does not: a rate without a sign is
-/// no change of contact.
+/// Pair 0 stands at the border (no gap, no force), and its rate of -1e-13 is only the round-off of
+/// the terms 1 and -1. When pair 2 opens half way, pair 0 stays as it is: a rate without a
+/// meaningful sign is no change of contact.
 #[test]
 fn a_rate_of_round_off_is_no_event() {
     let t = DMatrix::from_row_slice(3, 3, &[2.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
@@ -304,8 +304,8 @@ fn a_rate_of_round_off_is_no_event() {
     assert!((path.t - 0.5).abs() <= 1e-12, "{}", path.t);
 }
 
-/// Blocks and the whole matrix with zeros between them are one problem, along a path with events in
-/// both.
+/// Two blocks, and the whole matrix with zeros between them, give the same path, with events in
+/// both blocks.
 #[test]
 fn groups_of_pairs_are_one_problem() {
     let own = |n: usize| {

@@ -6,17 +6,17 @@ use crate::space::{Space, Vector, length};
 /// An integration point on a facet.
 #[derive(Debug, Clone, Copy)]
 pub struct FacetPoint {
-    /// Shape function values of the facet's nodes (corners first, then the mid-side nodes).
+    /// Values of the shape functions of the facet's nodes (corners first, then mid-side nodes).
     pub values: [f64; MAX_FACET_NODES],
-    /// Weight times length or area, times circumference where axisymmetric.
+    /// Quadrature weight times length or area, times circumference if axisymmetric.
     pub weight: f64,
     /// Coordinates of the point.
     pub position: Vector,
-    /// Outward unit normal.
+    /// Outward unit normal at the point.
     pub normal: Vector,
 }
 
-/// The points of a facet (the rule of the facet) with these nodes.
+/// Returns the integration points of a facet with the given nodes, by the facet's own rule.
 pub fn facet_points(
     space: Space,
     facet: &FacetReference,

@@ -1,16 +1,16 @@
-//! The one kernel of all elements: gradients of fields at the points of an element.
+//! Kernel of all elements: gradients of fields at the points of an element.
 //!
 //! The shape functions in the reference element are the same for all elements of a shape. With the
-//! Jacobian `J = sum_k x_k dN_k/dxi` of a point
+//! Jacobian `J = sum_k x_k dN_k/dxi` at a point
 //!
 //! ```text
 //! du/dx = J^-T sum_k u_k dN_k/dxi          f_k = sum_g (J^-1 w sigma) dN_k/dxi
 //! ```
 //!
-//! so that of an element only `J^-1` and the weights are kept, a third of the numbers of `dN_k/dx`.
+//! so that for each element only `J^-1` and the weights are kept, a third of the size of `dN_k/dx`.
 //! With a mean dilatation (B-bar) the trace of the strain is replaced by its mean over the element,
-//! and in the forces the mean stress by its mean: the same as the mean of `tr B` over the nodes.
-//! Points are computed in parallel: every quantity is an array over them.
+//! and in the forces the mean stress by its mean, which is equivalent to averaging `tr B` over the
+//! element. The points are computed in parallel: every quantity is an array over the points.
 //!
 //! # Source
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).
@@ -18,20 +18,20 @@
 use crate::shape::{Reference, Rule};
 use crate::space::Space;
 
-/// A number at each point; beyond the number of points that of the first.
+/// One number at each point; unused lanes repeat the value at the first point.
 pub type Lanes<const P: usize = 4> = [f64; P];
 /// Stress or strain at the points, component by component.
 pub type Components<const S: usize = 4, const P: usize = 4> = [Lanes<P>; S];
 
-/// The shape functions of a shape at the points of a rule.
+/// Shape functions of one shape at the points of a rule.
 #[derive(Debug)]
 pub(super) struct Table<const D: usize, const P: usize, const N: usize> {
     n_nodes: usize,
     n_points: usize,
-    /// Zero beyond the number of points.
+    /// Weights of the points; zero in unused lanes.
     weights: Lanes<P>,
     pub(super) values: [Lanes<P>; N],
-    /// Along the reference coordinates.
+    /// Derivatives along the reference coordinates.
     gradients: [[Lanes<P>; D]; N],
 }
 
@@ -58,8 +58,8 @@ impl<const D: usize, const P: usize, const N: usize> Table<D, P, N> {
         out
     }
 
-    /// Derivatives along the reference coordinates of each component of a field with the values
-    /// `of` at the nodes.
+    /// Derivatives along the reference coordinates of each component of the field that has the
+    /// values `of` at the nodes.
     #[inline]
     fn along<const K: usize>(&self, of: &[[f64; D]; N]) -> [[Lanes<P>; D]; D] {
         let mut out = [[[0.0; P]; D]; D];
@@ -75,7 +75,7 @@ impl<const D: usize, const P: usize, const N: usize> Table<D, P, N> {
         out
     }
 
-    /// A field with the nodal values `of` at the points.
+    /// Values at the points of the field that has the values `of` at the nodes.
     #[inline]
     fn interpolated(&self, of: impl Fn(usize) -> f64) -> Lanes<P> {
         let mut out = [0.0; P];
@@ -89,7 +89,7 @@ impl<const D: usize, const P: usize, const N: usize> Table<D, P, N> {
     }
 }
 
-/// Calls a method with the number of nodes as a constant.
+/// Calls a method that takes the number of nodes as a constant.
 macro_rules! of_nodes {
     ($n:expr, $to:expr, $method:ident, $($argument:expr),*) => {
         match $n {
@@ -111,27 +111,28 @@ pub(super) use of_nodes;
 pub struct Gradients<const D: usize, const S: usize, const P: usize, const N: usize> {
     pub(super) table: &'static Table<D, P, N>,
     pub(super) has_mean: bool,
-    /// `dxi_a/dx_d` as `[d][a]`.
+    /// Inverse Jacobian, `dxi_a/dx_d` as `[d][a]`.
     inverse: [[Lanes<P>; D]; D],
     /// Quadrature weight times Jacobian times thickness (1) or circumference (2 pi r).
     pub(super) weights: Lanes<P>,
-    /// `1/r`, axisymmetric.
+    /// Reciprocal radius `1/r` at the points if axisymmetric.
     pub(super) per_radius: Option<Lanes<P>>,
     pub(super) shear: Option<ShearFromCenter<D, P>>,
 }
 
-/// The shear of an axisymmetric `quad4` ([`super`]). A gradient at the centre is the plain mean of
-/// those along the reference coordinates at the points, through the inverse of the mean Jacobian.
+/// Shear of an axisymmetric `quad4` ([`super`]). A gradient at the centre is the unweighted mean
+/// over the points of the gradients along the reference coordinates, times the inverse of the mean
+/// Jacobian.
 #[derive(Debug, Clone)]
 pub(super) struct ShearFromCenter<const D: usize, const P: usize> {
     /// Factors `sqrt(r/r_c)` at the points.
     pub(super) factors: Lanes<P>,
-    /// `dxi_a/dy` at the centre.
+    /// Inverse Jacobian at the centre, `dxi_a/dy`.
     inverse: [f64; D],
 }
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D, S, P, N> {
-    /// The gradients at the points of `table` for the coordinates of the element's nodes.
+    /// Computes the gradients at the points of `table` from the coordinates of the element's nodes.
     #[inline]
     pub(super) fn new(
         table: &'static Table<D, P, N>,
@@ -184,25 +185,25 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         &self.weights[..self.n_points()]
     }
 
-    /// Coordinates of the points, axis by axis, for those of the nodes.
+    /// Coordinates of the points, axis by axis, from the coordinates of the nodes.
     pub fn positions(&self, nodes: &[[f64; D]; N]) -> [Lanes<P>; D] {
         std::array::from_fn(|d| self.table.interpolated(|k| nodes[k][d]))
     }
 
-    /// A field with these values at the nodes at the points.
+    /// Values at the points of the field that has the values `nodal` at the nodes.
     #[inline]
     pub fn at_points(&self, nodal: &[f64; N]) -> Lanes<P> {
         self.table.interpolated(|k| nodal[k])
     }
 
-    /// Mean over the element.
+    /// Mean of each component over the element's volume.
     #[inline]
     pub fn mean<const C: usize>(&self, values: &[Lanes<P>; C]) -> [f64; C] {
         let volume: f64 = self.weights.iter().sum();
         values.map(|lanes| dot(&lanes, &self.weights) / volume)
     }
 
-    /// Strains at the points for displacements of the nodes.
+    /// Strains at the points from the displacements of the nodes.
     #[inline]
     pub fn strains(&self, u: &[[f64; D]; N]) -> Components<S, P> {
         let mut out = self.local_strains(u);
@@ -213,7 +214,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         out
     }
 
-    /// `f = sum_g w_g B' sigma` on the nodes.
+    /// Nodal forces of a stress, `f = sum_g w_g B' sigma`.
     #[inline]
     pub fn forces(&self, stress: &Components<S, P>) -> [[f64; D]; N] {
         let mut stress = *stress;
@@ -224,11 +225,11 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         of_nodes!(self.n_nodes(), self, forces_of, &stress)
     }
 
-    /// Strains of the displacements alone, their dilatation as it is.
+    /// Strains of the displacements without replacing the dilatation by its mean.
     #[inline]
     pub(super) fn local_strains(&self, u: &[[f64; D]; N]) -> Components<S, P> {
         let along = of_nodes!(self.n_nodes(), self.table, along, u);
-        // du_i/dx_d
+        // slope(i, d) is du_i/dx_d
         let slope = |i: usize, d: usize| {
             let mut out = [0.0; P];
             for (inverse, along) in self.inverse[d].iter().zip(&along[i]) {
@@ -279,12 +280,12 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
                 weighted[3][g] *= shear.factors[g];
             }
         }
-        // What the reference gradients are multiplied by, for the forces along each axis.
+        // Factors of the reference gradients in the forces along each axis.
         let mut fluxes = [[[0.0; P]; D]; D];
         for (i, fluxes) in fluxes.iter_mut().enumerate() {
             for (d, inverse) in self.inverse.iter().enumerate() {
                 if let (Some(shear), 0, 1) = (&self.shear, i, d) {
-                    // The gradient at the centre is the mean of those at the points.
+                    // The gradient at the centre is the mean of the gradients at the points.
                     let share = plain_mean(&weighted[3], self.n_points());
                     for (flux, dxi) in fluxes.iter_mut().zip(shear.inverse) {
                         flux.iter_mut().for_each(|flux| *flux += dxi * share);
@@ -320,7 +321,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         out
     }
 
-    /// `dN_k/dx_d` at the points as `[k][d]`.
+    /// Gradients of the shape functions, `dN_k/dx_d` at the points as `[k][d]`.
     #[inline]
     pub(super) fn of_functions<const K: usize>(&self) -> [[Lanes<P>; D]; K] {
         let mut out = [[[0.0; P]; D]; K];
@@ -336,7 +337,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         out
     }
 
-    /// `dN_k/dy` at the centre, where the shear is taken from there.
+    /// Derivatives `dN_k/dy` of the shape functions at the centre, for the shear taken there.
     pub(super) fn at_center<const K: usize>(&self, shear: &ShearFromCenter<D, P>) -> [f64; K] {
         std::array::from_fn(|k| {
             let terms = shear.inverse.iter().zip(&self.table.gradients[k]);
@@ -347,10 +348,10 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
     }
 }
 
-/// Axes of the shear components.
+/// Axes of each shear component, in the order of the components.
 const SHEARS: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
 
-/// Place of the component along axes `i` and `j` in `[xx yy zz xy | yz zx]`.
+/// Index of the component along axes `i` and `j` in `[xx yy zz xy | yz zx]`.
 const fn component(i: usize, j: usize) -> usize {
     match (i == j, i + j) {
         (true, _) => i,
@@ -360,7 +361,7 @@ const fn component(i: usize, j: usize) -> usize {
     }
 }
 
-/// The inverse of a Jacobian `dx_d/dxi_a` (`[d][a]`) as `dxi_a/dx_d` (`[d][a]`), and its
+/// Returns the inverse of the Jacobian `dx_d/dxi_a` (`[d][a]`) as `dxi_a/dx_d` (`[d][a]`), and its
 /// determinant, at all points.
 #[inline]
 fn inverted<const D: usize, const P: usize>(
@@ -407,7 +408,7 @@ fn trace<const S: usize, const P: usize>(components: &Components<S, P>) -> Lanes
     std::array::from_fn(|g| x[g] + y[g] + z[g])
 }
 
-/// Changes the normal components alike until their sum is `mean` at every point.
+/// Changes the normal components by equal amounts so that their sum is `mean` at every point.
 #[inline]
 pub(super) fn set_trace<const S: usize, const P: usize>(
     components: &mut Components<S, P>,
@@ -426,7 +427,7 @@ pub(super) fn dot<const P: usize>(a: &Lanes<P>, b: &Lanes<P>) -> f64 {
     sum::<P>(&std::array::from_fn(|g| a[g] * b[g]))
 }
 
-/// The sum of numbers, by pairs.
+/// Sums numbers by pairs.
 #[inline]
 pub(super) fn sum<const P: usize>(lanes: &Lanes<P>) -> f64 {
     let (mut lanes, mut n) = (*lanes, P);
@@ -443,7 +444,7 @@ pub(super) fn sum<const P: usize>(lanes: &Lanes<P>) -> f64 {
     lanes[0]
 }
 
-/// Mean over the `n` points, unweighted.
+/// Unweighted mean over the first `n` points.
 #[inline]
 fn plain_mean<const P: usize>(lanes: &Lanes<P>, n: usize) -> f64 {
     match n == P {

@@ -1,26 +1,26 @@
-//! The stiffness of an element for an isotropic law.
+//! Stiffness matrix of an element for an isotropic law.
 //!
 //! With the gradients `g_k` of the shape functions, their trace `t_k = g_k + N_k/r e_r` (the hoop
-//! only where axisymmetric) and the mean dilatation `m_k` of the element (B-bar)
+//! term only if axisymmetric) and the mean dilatation `m_k` of the element (B-bar)
 //!
 //! ```text
 //! K_ij = sum_g w (lambda t_i t_j' + mu (g_j g_i' + g_i.g_j I) + 2 mu N_i N_j/r^2 e_r e_r')
 //! B-bar: lambda - kappa in place of lambda, and V kappa m_i m_j'     kappa bulk modulus, V volume
 //! ```
 //!
-//! Where the shear is taken from the centre ([`super`]) the shear's share of the second term is
-//! `mu s_i s_j'`, `s_k` what the displacements of node k count in it.
+//! If the shear is taken from the centre ([`super`]), the shear's share of the second term is
+//! `mu s_i s_j'`, where `s_k` is the contribution of the displacements of node k to the shear.
 
 use super::gradients::{Gradients, Lanes, dot, of_nodes, sum};
 use crate::material::Lame;
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D, S, P, N> {
-    /// `K_e` for an elastic law, packed lower triangle ([`packed`]), into `out`.
+    /// Writes `K_e` for an elastic law into `out`, as a packed lower triangle ([`packed`]).
     pub(crate) fn stiffness_into(&self, law: &Lame, out: &mut [f64]) {
         of_nodes!(self.n_nodes(), self, stiffness_of, law, out);
     }
 
-    /// The mean dilatation for a unit displacement of each node along each axis, `int tr B / V`.
+    /// Mean dilatation for a unit displacement of each node along each axis, `int tr B / V`.
     #[inline]
     pub(super) fn mean_dilatation(&self) -> [[f64; D]; N] {
         of_nodes!(self.n_nodes(), self, padded_mean,)
@@ -33,13 +33,13 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         out
     }
 
-    /// Means `m_k` of the traces over the element.
+    /// Means `m_k` of the traces over the element's volume.
     fn means<const K: usize>(&self, traces: &[[Lanes<P>; D]; K]) -> [[f64; D]; K] {
         let volume: f64 = self.weights.iter().sum();
         std::array::from_fn(|k| std::array::from_fn(|d| dot(&traces[k][d], &self.weights) / volume))
     }
 
-    /// Traces `t_k` of the strain of each unit displacement.
+    /// Traces `t_k` of the strains for unit displacements of the nodes.
     fn traces<const K: usize>(&self, gradients: &[[Lanes<P>; D]; K]) -> [[Lanes<P>; D]; K] {
         let mut out = *gradients;
         if let Some(per_radius) = &self.per_radius {
@@ -110,7 +110,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         }
     }
 
-    /// Puts the shear from the centre in place of that at the points.
+    /// Replaces the shear at the points by the shear from the centre.
     fn exchange_shear<const K: usize>(
         &self,
         gradients: &[[Lanes<P>; D]; K],
@@ -146,7 +146,7 @@ fn product<const P: usize>(a: &Lanes<P>, b: &Lanes<P>) -> Lanes<P> {
     std::array::from_fn(|g| a[g] * b[g])
 }
 
-/// Place of (i, j) in a packed lower triangle of a symmetric matrix.
+/// Index of entry (i, j) in the packed lower triangle of a symmetric matrix.
 pub fn packed(i: usize, j: usize) -> usize {
     let row = i.max(j);
     row * (row + 1) / 2 + i.min(j)

@@ -4,7 +4,7 @@ use crate::shape::Rule;
 
 mod solid;
 
-/// Most nodes of a plane element.
+/// Largest number of nodes of a plane element.
 const MAX_NODES: usize = 8;
 const MAX_FREEDOMS: usize = 2 * MAX_NODES;
 type PlaneGradients = Gradients<2, 4, 4, 8>;
@@ -18,7 +18,7 @@ fn sampling(space: Space, shape: Shape, x: &[[f64; 2]; MAX_NODES]) -> PlaneSampl
     Kernel::plane(space).sampling(shape, x)
 }
 
-/// A distorted element away from the axis; mid-side nodes at the middle of straight sides.
+/// A distorted element off the axis; mid-side nodes lie at the middle of straight sides.
 fn coordinates(shape: Shape) -> [[f64; 2]; MAX_NODES] {
     let corners = [[1.0, 0.2], [2.1, 0.0], [2.4, 1.3], [0.9, 1.0]];
     let n = shape.n_corners();
@@ -38,7 +38,7 @@ fn padded(points: &[[f64; 2]]) -> [[f64; 2]; MAX_NODES] {
     out
 }
 
-/// The strains at each point by the Gauss points' gradients, or by those of the sampling points.
+/// Strains at each point, at the sampling points if `sampled`, otherwise at the Gauss points.
 fn strains_at(
     sampled: bool,
     space: Space,
@@ -78,8 +78,8 @@ fn linear_fields_give_exact_strains() {
             let u = x.map(|p| [0.3 * p[0] - 0.2 * p[1], 0.5 * p[0] + 0.1 * p[1]]);
             for sampled in [false, true] {
                 for e in strains_at(sampled, space, shape, &x, &u) {
-                    // The mean dilatation of a constant field is that field; e_zz then is round-off
-                    // only.
+                    // The mean dilatation of a constant strain equals that strain; e_zz is then
+                    // only round-off.
                     for (value, exact) in e.iter().zip([0.3, 0.1, 0.0, 0.3]) {
                         assert!((value - exact).abs() < 1e-14, "{shape:?} {e:?}");
                     }
@@ -89,10 +89,10 @@ fn linear_fields_give_exact_strains() {
     }
 }
 
-/// Weight and matrix B of a point: rows xx, yy, zz, xy.
+/// Weight and matrix B of each point, with the rows xx, yy, zz, xy.
 type Textbook = Vec<(f64, [[f64; MAX_FREEDOMS]; 4])>;
 
-/// The textbook's matrix B at each point of a rule with the point's weight, B-bar where it applies.
+/// Textbook matrix B and weight at each point of a rule, with B-bar where the element uses it.
 fn textbook(space: Space, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Textbook {
     let mut out = without_mean(space, shape, x, rule);
     if shape == Shape::Quad4 && space != Space::PlaneStress {
@@ -142,7 +142,7 @@ fn without_mean(space: Space, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Text
         })
         .collect();
     if shape == Shape::Quad4 && space == Space::Axisymmetric {
-        // Slopes du/dy and radius of the centre, where the gradients along the reference
+        // Slopes du/dy and radius at the centre, where the gradients along the reference
         // coordinates are +-1/4.
         let sign = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
         let sum = |a: usize, d: usize| (0..4).map(|i| 0.25 * sign[i][a] * x[i][d]).sum::<f64>();
@@ -163,7 +163,7 @@ fn without_mean(space: Space, shape: Shape, x: &[[f64; 2]], rule: &Rule) -> Text
     out
 }
 
-/// The elastic matrix of [`steel`], with E = 10 and nu = 0.3.
+/// Elastic matrix of [`steel`], with E = 10 and nu = 0.3.
 fn textbook_elasticity(space: Space) -> [[f64; 4]; 4] {
     let (e, nu) = (10.0, 0.3);
     let shear = e / (2.0 * (1.0 + nu));
@@ -226,7 +226,7 @@ fn strains_forces_and_stiffness_are_those_of_the_textbooks_b() {
             let forces = forces.as_flattened();
             let mut packed_stiffness = vec![0.0; n * (n + 1) / 2];
             gradients.stiffness_into(&steel(space), &mut packed_stiffness);
-            // A few hundred terms of order 10: round-off 1e-13.
+            // Sums of a few hundred terms of order 10 have a round-off of 1e-13.
             for r in 0..n {
                 assert!((forces[r] - force[r]).abs() < 1e-13, "{shape:?} {space:?}");
                 for s in 0..n {
@@ -238,17 +238,17 @@ fn strains_forces_and_stiffness_are_those_of_the_textbooks_b() {
     }
 }
 
-/// Rectangles of unlike sizes on the axis and beside it, their nodes moved as `u_r = a r z`,
-/// `u_z = b r^2 + c z^2` with `c` such that the stresses are in equilibrium: no node inside has a
-/// force left, nor one on the axis. With the shear of the bilinear field the nodes on the axis have
-/// one.
+/// Rectangles of different sizes on the axis and next to it, their nodes moved by `u_r = a r z`,
+/// `u_z = b r^2 + c z^2` with `c` such that the stresses are in equilibrium. No residual force
+/// remains on an interior node or on a node on the axis. With the shear of the bilinear field,
+/// forces on the axis would remain.
 #[test]
 fn what_is_regular_at_the_axis_is_in_equilibrium_node_by_node() {
     let (r, z) = ([0.0, 0.7, 1.1, 2.0], [-0.3, 0.2, 1.0]);
     let d = steel(Space::Axisymmetric);
     let (lambda, shear) = (d.lambda, d.mu);
     for (a, b) in [(0.4, 0.3), (-0.4, 0.2), (0.0, 1.0)] {
-        // d(s_zz)/dz + d(r s_rz)/dr/r = 0.
+        // Equilibrium requires d(s_zz)/dz + d(r s_rz)/dr/r = 0.
         let along_z = 2.0 * lambda * a + 2.0 * shear * (a + 2.0 * b);
         let c = -along_z / (2.0 * lambda + 4.0 * shear);
         let mut forces = [[[0.0f64; 2]; 3]; 4];
@@ -288,8 +288,8 @@ fn what_is_regular_at_the_axis_is_in_equilibrium_node_by_node() {
     }
 }
 
-/// On the axis and off it, pulled out of shape: constant strains are exact, and a section that
-/// turns has the strain of its hoops, less in the mean dilatation, but no shear.
+/// Distorted elements on the axis and off it: constant strains are exact, and a section that turns
+/// has the strain of its hoops, reduced by the mean dilatation, but no shear.
 #[test]
 fn constant_strains_are_exact_and_a_turning_section_has_no_shear() {
     let on_axis = padded(&[[0.0, 0.2], [1.1, 0.0], [1.4, 1.3], [0.0, 1.0]]);
@@ -334,8 +334,8 @@ fn stiffness_is_free_of_rigid_motion() {
     }
 }
 
-/// Nothing but the rigid motion along the axis is free in an axisymmetric `quad4`, on the axis or
-/// off it, long or flat, upright or on its corner.
+/// The rigid motion along the axis is the only free motion of an axisymmetric `quad4`, on the axis
+/// or off it, long or flat, upright or on its corner.
 #[test]
 fn no_other_motion_of_a_ring_is_free() {
     let block = |from: f64, [width, height]: [f64; 2]| {
@@ -354,8 +354,8 @@ fn no_other_motion_of_a_ring_is_free() {
         let matrix = nalgebra::SMatrix::<f64, 8, 8>::from_fn(|i, j| k[packed(i, j)]);
         let mut sizes = matrix.symmetric_eigenvalues().data.0[0];
         sizes.sort_by(f64::total_cmp);
-        // The softest motion is the bending of a plate: the fourth power of its slenderness, 1/20,
-        // beside the shear, times about a tenth.
+        // The softest motion is the bending of a plate: compared with the shear, the fourth power
+        // of its slenderness, 1/20, times about a tenth.
         assert!(sizes[0].abs() < 1e-12 * sizes[7], "{x:?}: {sizes:?}");
         assert!(
             sizes[1] > 0.01 / 20f64.powi(4) * sizes[7],
@@ -421,8 +421,8 @@ fn sampled_strains_are_those_of_the_textbooks_b_there() {
     }
 }
 
-/// Elements with fewer points than the kernel has lanes come to the same, the mean dilatation and
-/// the shear of an axisymmetric `quad4` included.
+/// Elements with fewer points than the kernel has lanes give the same results, including the mean
+/// dilatation and the shear of an axisymmetric `quad4`.
 #[test]
 fn the_kernel_of_full_integration_has_the_same_elements() {
     let law = steel(Space::PlaneStrain);

@@ -7,15 +7,15 @@ use nalgebra::Matrix3;
 /// An integration point in an element.
 #[derive(Debug, Clone, Copy)]
 pub struct VolumePoint {
-    /// Shape function values of the element's nodes.
+    /// Values of the shape functions of the element's nodes.
     pub values: [f64; MAX_NODES],
-    /// Weight times volume (area in the plane), times circumference where axisymmetric.
+    /// Quadrature weight times volume (area in the plane), times circumference if axisymmetric.
     pub weight: f64,
     /// Coordinates of the point.
     pub position: Vector,
 }
 
-/// The Gauss points of an integrated element with these nodes.
+/// Returns the Gauss points of an element with the given nodes and integration.
 pub fn volume_points(
     space: Space,
     (shape, integration): (Shape, Integration),

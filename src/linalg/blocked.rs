@@ -1,7 +1,7 @@
-//! Dense kernels by blocks, on all threads: what thousands of contact pairs spend their time in.
+//! Dense kernels by blocks, on all threads, for models with thousands of contact pairs.
 //!
-//! Blocks have the same sizes and sums the same order whatever the number of threads: so have the
-//! bits.
+//! Blocks have the same sizes and sums the same order whatever the number of threads, so results
+//! are the same bit for bit.
 //!
 //! # Source
 //! G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed., 2013, sections 3.1.7 and 4.2.9.
@@ -9,21 +9,22 @@
 use nalgebra::{DMatrix, DMatrixViewMut};
 use rayon::prelude::*;
 
-/// Columns of a block.
+/// Number of columns of a block.
 const BLOCK: usize = 96;
-/// Entries that a thread takes at a time.
+/// Number of entries that a thread takes at a time.
 const ENTRIES: usize = 1 << 14;
-/// Share of the entries of a block that are not zero from which on its product is faster as that of
-/// a full matrix. Measured with 300, 1000 and 2000 rows: both take the same at 0.25, 0.2 and 0.1.
+/// Share of nonzero entries of a block from which its product is faster as that of a full matrix.
+/// Measured with 300, 1000 and 2000 rows: both take the same at 0.25, 0.2 and 0.1.
 const FULL: f64 = 0.2;
 
-/// Columns of a length that a thread takes at a time: fewer take less than waking it.
+/// Number of columns of the given length that a thread takes at a time: fewer cost less than waking
+/// it.
 pub(crate) fn at_once(length: usize) -> usize {
     ENTRIES / length.max(1) + 1
 }
 
-/// `a b` for a matrix `b` that is given by its columns, each the rows and values of its entries,
-/// and the number of multiplications.
+/// Returns the product `a b` and the number of multiplications. The matrix `b` is given by its
+/// columns, each as the rows and values of its entries.
 pub(crate) fn times(a: &DMatrix<f64>, b: &[Vec<(usize, f64)>]) -> (DMatrix<f64>, usize) {
     let (m, n) = a.shape();
     let mut product = DMatrix::zeros(m, b.len());
@@ -51,7 +52,7 @@ pub(crate) fn times(a: &DMatrix<f64>, b: &[Vec<(usize, f64)>]) -> (DMatrix<f64>,
     (product, multiplications)
 }
 
-/// The lower triangle of `a` becomes that of `a + a'`.
+/// Replaces the lower triangle of `a` by that of `a + a'`.
 pub(crate) fn add_transpose(a: &mut DMatrix<f64>) {
     for j in 0..a.ncols() {
         for i in j..a.nrows() {
@@ -60,8 +61,8 @@ pub(crate) fn add_transpose(a: &mut DMatrix<f64>) {
     }
 }
 
-/// The lower Cholesky factor of `a`, whose lower triangle is read; `None` where a pivot is not
-/// positive.
+/// Returns the lower Cholesky factor of `a`, of which only the lower triangle is read; `None` if a
+/// pivot is not positive.
 pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<DMatrix<f64>> {
     let n = a.nrows();
     for start in (0..n).step_by(BLOCK) {
@@ -71,7 +72,7 @@ pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<DMatrix<f64>> {
         let own = block.cholesky()?.unpack();
         a.view_mut((start, start), (width, width)).copy_from(&own);
         a.view_mut((0, start), (start, width)).fill(0.0);
-        // L_21 = A_21 L_11^-T, by its transpose.
+        // L_21 = A_21 L_11^-T, computed by its transpose.
         let mut right = a.view((end, start), (n - end, width)).transpose();
         own.solve_lower_triangular_mut(&mut right);
         let below = right.transpose();
@@ -93,7 +94,7 @@ pub(crate) fn cholesky(mut a: DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(a)
 }
 
-/// `b = L^-1 b` for a lower triangle `L` without zeros on its diagonal.
+/// Solves `L x = b` in place for a lower triangle `L` without zeros on its diagonal.
 pub(crate) fn solve_lower(l: &DMatrix<f64>, b: &mut DMatrix<f64>) {
     let n = l.nrows();
     if n == 0 {
@@ -114,16 +115,17 @@ pub(crate) fn solve_lower(l: &DMatrix<f64>, b: &mut DMatrix<f64>) {
         });
 }
 
-/// The lower triangle of `a a'`, by strips of columns: above the diagonal only within them.
-/// `depth(i)` says how many columns of the rows before `i` count, all where it is not less.
+/// Returns the lower triangle of `a a'`, computed by strips of columns; only entries within a strip
+/// are valid above the diagonal. `depth(i)` bounds the columns that are not zero in the rows before
+/// `i`.
 pub(crate) fn outer(a: &DMatrix<f64>, depth: impl Fn(usize) -> usize + Sync) -> DMatrix<f64> {
     let n = a.nrows();
     let mut product = DMatrix::zeros(n, n);
     if n == 0 {
         return product;
     }
-    // Wide strips: the kernel copies what stands left of a product into its own order once for
-    // each.
+    // The strips are wide, because for each strip the kernel copies the left factor of the product
+    // into its own order.
     let strip = (n / 8).clamp(BLOCK, 4 * BLOCK);
     product
         .as_mut_slice()
@@ -171,7 +173,7 @@ mod tests {
         assert!(cholesky(DMatrix::from_element(200, 200, 1.0)).is_none());
     }
 
-    /// Columns with few and with many entries, in one block and in several.
+    /// Columns with few and with many entries, in one block and in several blocks.
     #[test]
     fn sparse_columns_are_multiplied_as_full_ones() {
         let mut numbers = Numbers::new(7);

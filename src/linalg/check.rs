@@ -1,4 +1,4 @@
-//! Checks of what is handed to the backends, which rely on them.
+//! Checks of the arguments on which the backends rely.
 
 use super::{Partition, SymmetricCsc};
 use crate::error::{Error, Result};
@@ -98,7 +98,7 @@ pub(super) fn length(what: &str, found: usize, expected: usize) -> Result<()> {
     )))
 }
 
-/// Whether each of `some` (ascending) is among `all` (ascending).
+/// Whether each of `some` (ascending) occurs in `all` (ascending).
 pub(super) fn contains(all: &[usize], some: &[usize]) -> bool {
     some.iter().all(|one| all.binary_search(one).is_ok())
 }

@@ -1,10 +1,11 @@
-//! The condition of a factored matrix, estimated with a few solves.
+//! Condition number of a factored matrix, estimated with a few solves.
 //!
 //! For `A = K + diag(shift)` and `S = diag(a_ii^-1/2)` the estimate is `|B|_1 |B^-1|_1` with
-//! `B = S A S`: about the smallest that any scaling of rows and columns gives (van der Sluis), so
-//! that units and graded meshes do not count. `|B^-1|_1`, the maximum of a convex function over a
-//! polytope, is climbed to from vertex to vertex; each step takes two solves, and two or three
-//! steps are the rule. It is a lower bound, rarely off by more than a factor of three.
+//! `B = S A S`. This is about the smallest condition that any scaling of rows and columns gives
+//! (van der Sluis), so that units and graded meshes have no influence. `|B^-1|_1`, the maximum of a
+//! convex function over a polytope, is found by climbing from vertex to vertex; each step takes two
+//! solves, and two or three steps are usual. The estimate is a lower bound, rarely off by more than
+//! a factor of three.
 //!
 //! # Source
 //! W. W. Hager (1984), doi:10.1137/0905023; N. J. Higham (1988), algorithm 674,
@@ -15,12 +16,12 @@ use super::{Condensed, Partition, Symmetric, solve_whole};
 use crate::error::Result;
 use nalgebra::Cholesky;
 
-/// Most steps from vertex to vertex.
+/// Largest number of steps from vertex to vertex.
 const MOST: usize = 5;
 
-/// Estimated condition of a factored `matrix` with its `shift` (empty for none), scaled to a unit
-/// diagonal; infinite where round-off has left no definite matrix on the contact freedoms.
-/// `partition` holds the zone as it is chosen.
+/// Estimates the condition of a factored `matrix` with its `shift` (empty for none), scaled to a
+/// unit diagonal; infinite if round-off has left no definite matrix on the contact freedoms.
+/// `partition` holds the zone that is chosen at present.
 ///
 /// # Errors
 /// Errors of [`Condensed::recover_all`].
@@ -40,7 +41,7 @@ pub fn condition(
         return Ok(f64::INFINITY);
     }
     root.iter_mut().for_each(|a| *a = a.sqrt());
-    // The sums of the rows of |S K S|, their diagonal entries replaced by those of S A S: ones.
+    // Row sums of |S K S|, with the diagonal entries replaced by those of S A S, which are one.
     let inverse: Vec<f64> = root.iter().map(|root| 1.0 / root).collect();
     let terms = matrix.rows(&vec![0.0; n], &inverse)?.terms;
     let beside = |i: usize| (terms[i] - of_matrix[i].abs() * inverse[i]) * inverse[i];
@@ -67,7 +68,7 @@ pub fn condition(
     Ok(norm * inverse_norm(n, solve)?)
 }
 
-/// Estimate of `|B^-1|_1` for a symmetric `B` of order `n`, given how to solve with it.
+/// Estimates `|B^-1|_1` for a symmetric `B` of order `n`, given a function that solves with `B`.
 fn inverse_norm(n: usize, solve: impl Fn(&mut [f64]) -> Result<()>) -> Result<f64> {
     let size = |x: &[f64]| x.iter().map(|v| v.abs()).sum::<f64>();
     let signs = |x: &[f64]| -> Vec<f64> { x.iter().map(|v| 1f64.copysign(*v)).collect() };
@@ -79,7 +80,7 @@ fn inverse_norm(n: usize, solve: impl Fn(&mut [f64]) -> Result<()>) -> Result<f6
     for _ in 0..MOST {
         let mut slope = vertex.clone();
         solve(&mut slope)?;
-        // The first of equals.
+        // Of equal slopes the first one is taken.
         let steepest = (0..n).fold(0, |best, i| {
             if slope[i].abs() > slope[best].abs() {
                 i
@@ -105,8 +106,8 @@ fn inverse_norm(n: usize, solve: impl Fn(&mut [f64]) -> Result<()>) -> Result<f6
         }
         vertex = next;
     }
-    // Matrices are known on which the climb stops at once: a vector with all frequencies in it
-    // finds most of them out.
+    // For some matrices the climb is known to stop at once: a vector with all frequencies detects
+    // most of them.
     for (i, v) in x.iter_mut().enumerate() {
         let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
         *v = sign * (1.0 + i as f64 / (n.max(2) - 1) as f64);

@@ -1,33 +1,33 @@
-//! The condensed stiffness on the contact freedoms, by bodies.
+//! Condensed stiffness on the contact freedoms, stored by bodies.
 //!
 //! Bodies that touch share contact forces, not stiffness: freedoms of different bodies are not
-//! coupled in `C`. Two bodies of equally many contact freedoms need half the memory of the whole
-//! matrix, and a quarter of the work to form it.
+//! coupled in `C`. Two bodies with equal numbers of contact freedoms need half the memory of the
+//! whole matrix, and a quarter of the work to form it.
 
 use super::blocked;
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-/// `C = S_cc - S_cz S_zz^-1 S_zc` (force per displacement), `n_contact x n_contact`, symmetric to
-/// the last bit, as its diagonal blocks.
+/// Contact stiffness `C = S_cc - S_cz S_zz^-1 S_zc` (force per displacement),
+/// `n_contact x n_contact`, symmetric to the last bit, stored as its diagonal blocks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactStiffness {
     blocks: Vec<ContactBlock>,
-    /// Block and place in it of each contact freedom.
+    /// Number of the block, and place in the block, of each contact freedom.
     place: Vec<(usize, usize)>,
 }
 
-/// The stiffness among contact freedoms that are coupled with one another.
+/// Diagonal block: stiffness among contact freedoms that are coupled with one another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactBlock {
     /// Contact freedoms (places in [`super::Partition::contact`]), ascending.
     pub freedoms: Vec<usize>,
-    /// `freedoms.len() x freedoms.len()`.
+    /// Entries of the block, `freedoms.len() x freedoms.len()`.
     pub matrix: DMatrix<f64>,
 }
 
 impl ContactStiffness {
-    /// A matrix of blocks that hold each of the freedoms `0..n_contact` once.
+    /// Builds a matrix from blocks that together hold each of the freedoms `0..n_contact` once.
     pub(crate) fn new(blocks: Vec<ContactBlock>) -> Self {
         let n = blocks.iter().map(|block| block.freedoms.len()).sum();
         let mut place = vec![(0, 0); n];
@@ -44,7 +44,7 @@ impl ContactStiffness {
         self.place.len()
     }
 
-    /// The diagonal blocks, one after the other.
+    /// Iterates over the diagonal blocks.
     pub fn blocks(&self) -> impl Iterator<Item = &ContactBlock> {
         self.blocks.iter()
     }
@@ -55,7 +55,7 @@ impl ContactStiffness {
         self.blocks[block].matrix[(k, k)]
     }
 
-    /// Column of a freedom: the freedoms that it is coupled with, ascending, and the entries.
+    /// Column of a freedom: the freedoms coupled with it, ascending, each with its entry.
     pub fn column(&self, freedom: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let (block, k) = self.place[freedom];
         let block = &self.blocks[block];
@@ -64,7 +64,7 @@ impl ContactStiffness {
         entries.map(|(&freedom, &entry)| (freedom, entry))
     }
 
-    /// `C x` for the columns of `x` (`n_contact x m`).
+    /// Product `C x` for the columns of `x` (`n_contact x m`).
     pub fn times(&self, x: &DMatrix<f64>) -> DMatrix<f64> {
         let mut product = DMatrix::zeros(x.nrows(), x.ncols());
         for block in &self.blocks {
@@ -76,14 +76,14 @@ impl ContactStiffness {
         product
     }
 
-    /// The part of some rows and columns.
+    /// Submatrix of the given rows and columns.
     pub(crate) fn part(&self, rows: &[usize], columns: &[usize]) -> DMatrix<f64> {
         let mut part = DMatrix::zeros(rows.len(), columns.len());
         self.add_part(rows, columns, &mut part);
         part
     }
 
-    /// Adds the part of some rows and columns to a matrix of their numbers.
+    /// Adds the submatrix of the given rows and columns to `sum`, in their order.
     pub(crate) fn add_part(&self, rows: &[usize], columns: &[usize], sum: &mut DMatrix<f64>) {
         let mut row_of = vec![None; self.n_contact()];
         for (i, &freedom) in rows.iter().enumerate() {
@@ -101,8 +101,9 @@ impl ContactStiffness {
             });
     }
 
-    /// The stiffness of each group of freedoms that no block couples with others: `place` says the
-    /// group of each freedom and its number there, which ascends with the freedoms of a block.
+    /// Splits the stiffness into groups of freedoms that no block couples with others. `place`
+    /// gives the group of each freedom and its number there, which ascends with the freedoms of a
+    /// block.
     pub(crate) fn split(self, place: &[(usize, usize)], n_groups: usize) -> Vec<Self> {
         let mut blocks: Vec<Vec<ContactBlock>> = vec![Vec::new(); n_groups];
         for mut block in self.blocks {
@@ -118,7 +119,7 @@ impl ContactStiffness {
         blocks.into_iter().map(ContactStiffness::new).collect()
     }
 
-    /// The whole matrix, zeros between the blocks.
+    /// The whole matrix as a dense one, with zeros between the blocks.
     pub fn dense(&self) -> DMatrix<f64> {
         let n = self.n_contact();
         let mut whole = DMatrix::zeros(n, n);

@@ -1,12 +1,12 @@
-//! Dense backend: the condensation by its textbook formulas, in Rust alone.
+//! Dense backend: static condensation by the textbook formulas, in Rust alone.
 //!
 //! ```text
 //!     S   = K_tt - K_ti K_ii^-1 K_it          t = zone and contact, i = interior
 //!     C   = S_cc - S_cz S_zz^-1 S_zc
 //! ```
 //!
-//! It is the reference that the sparse backend is tested against, and shares nothing with it but
-//! the trait.
+//! This backend is the reference against which the sparse backends are tested; it shares only the
+//! trait with them.
 //!
 //! # Source
 //! R. J. Guyan, *Reduction of stiffness and mass matrices*, AIAA Journal 3 (2), 1965, p. 380,
@@ -17,18 +17,18 @@ use super::*;
 use crate::memory;
 use nalgebra::{DMatrix, DVector};
 
-/// The largest model that this backend takes: 6000 freedoms need 0.6 GB and about ten seconds.
+/// Largest number of freedoms that this backend takes: 6000 need 0.6 GB and about ten seconds.
 pub const LARGEST: usize = 6000;
 
-/// A matrix condensed with dense factors.
+/// A matrix that is condensed with dense factors.
 pub struct DenseCondensed {
     partition: Partition,
     interior: Vec<usize>,
-    /// `K`, both triangles, all freedoms.
+    /// Matrix `K` with both triangles, on all freedoms.
     matrix: DMatrix<f64>,
-    /// Lower factor of `K_ii`.
+    /// Lower Cholesky factor of `K_ii`.
     factor_ii: DMatrix<f64>,
-    /// Lower factor of `S_zz`.
+    /// Lower Cholesky factor of `S_zz`.
     factor_zz: DMatrix<f64>,
     s_cz: DMatrix<f64>,
     contact_stiffness: DMatrix<f64>,
@@ -39,7 +39,7 @@ impl DenseCondensed {
     /// Factors and condenses `matrix + diag(shift)`.
     ///
     /// # Errors
-    /// As [`super::condense`]; `Input` for more than [`LARGEST`] freedoms.
+    /// Errors of [`super::condense`]; `Input` for more than [`LARGEST`] freedoms.
     pub fn new(matrix: &SymmetricCsc, partition: &Partition, shift: &[f64]) -> Result<Self> {
         check::arguments(matrix, partition, shift)?;
         refuse_large(partition.n)?;
@@ -94,7 +94,7 @@ impl DenseCondensed {
         })
     }
 
-    /// `f_t = b_t - K_ti K_ii^-1 b_i`.
+    /// Condensed load `f_t = b_t - K_ti K_ii^-1 b_i`.
     fn condensed(&self, b: &DVector<f64>) -> (DVector<f64>, DVector<f64>) {
         let x_i = self.solve_ii(pick(b, &self.interior));
         let part =
@@ -207,7 +207,7 @@ fn prediction(partition: &Partition) -> Prediction {
         factor_nonzeros: n * (n + 1.0) / 2.0,
         flops: n * n * n / 3.0,
         trailing_nonzeros: trailing * (trailing + 1.0) / 2.0,
-        // K, its blocks (together as large again), and W and S with their products.
+        // K, its blocks (together the same size), and W and S with their products.
         memory_bytes: 8.0 * (2.0 * n * n + 2.0 * trailing * n),
         memory_by_rank: Vec::new(),
     }
@@ -224,7 +224,7 @@ fn refuse_large(n: usize) -> Result<()> {
     )))
 }
 
-/// The pivots of several factorisations that together are one of the whole matrix.
+/// Pivots of several factorisations that together form one of the whole matrix.
 struct Pivots {
     smallest: f64,
     weakest: Pivot,
@@ -241,15 +241,16 @@ impl Pivots {
         }
     }
 
-    /// Lower Cholesky factor of `a` (its lower triangle is read), whose row `j` is the freedom
-    /// `freedoms[j]` with `diagonal(j)` in the matrix it was condensed from.
+    /// Returns the lower Cholesky factor of `a`, of which only the lower triangle is read. Row `j`
+    /// is the freedom `freedoms[j]`, with the entry `diagonal(j)` in the matrix before
+    /// condensation.
     fn factor(
         &mut self,
         mut a: DMatrix<f64>,
         freedoms: &[usize],
         diagonal: impl Fn(usize) -> f64,
     ) -> Result<DMatrix<f64>> {
-        // Columns brought up to date together, by one matrix product.
+        // Number of columns that are updated together, by one matrix product.
         const BLOCK: usize = 64;
         let n = a.nrows();
         for start in (0..n).step_by(BLOCK) {
@@ -272,7 +273,7 @@ impl Pivots {
                 }
                 let (freedom, pivot) = (freedoms[j], column[j]);
                 let ratio = pivot / diagonal(j);
-                // Written so that a pivot that is not a number fails as well.
+                // Written so that a NaN pivot fails as well.
                 if !(pivot > 0.0 && ratio > self.smallest) {
                     return Err(NotDefinite { freedom }.into());
                 }
@@ -287,7 +288,7 @@ impl Pivots {
     }
 }
 
-/// Both triangles.
+/// Dense matrix with both triangles of a symmetric one.
 fn full(matrix: &SymmetricCsc) -> DMatrix<f64> {
     let n = matrix.rows();
     let mut k = DMatrix::zeros(n, n);

@@ -8,7 +8,7 @@
 //!     [ S_cz S_cc ] [ u_c ] = [ f_c ]      S = K_tt - K_ti K_ii^-1 K_it,  t = z + c
 //! ```
 //!
-//! and everything the analysis needs is: the fully condensed contact stiffness
+//! and everything that the analysis needs is: the fully condensed contact stiffness
 //! `C = S_cc - S_cz S_zz^-1 S_zc`, static condensation of a load onto (z, c), the elimination of
 //! the zone for given (f_z, f_c), its recovery for given u_c, and the recovery of all freedoms.
 //!
@@ -56,96 +56,95 @@ use crate::error::{Error, Result};
 /// Upper triangle (row <= column) of a symmetric matrix, compressed by column, rows sorted.
 pub type SymmetricCsc = sprs::CsMatI<f64, i64>;
 
-/// Which freedoms are eliminated first (interior), second (zone), and kept (contact).
+/// Groups of freedoms: eliminated first (interior), eliminated second (zone), kept (contact).
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Partition {
-    /// Number of freedoms.
+    /// Number of all freedoms.
     pub n: usize,
-    /// Freedoms of the zone, ascending. Zone vectors are in this order.
+    /// Freedoms of the zone, ascending, which is the order of zone vectors.
     pub zone: Vec<usize>,
-    /// Contact freedoms. Contact vectors and matrices are in this order.
+    /// Contact freedoms, in the order of contact vectors and matrices.
     pub contact: Vec<usize>,
 }
 
 /// A matrix `K + diag(shift)` factored and condensed. `shift` acts on contact freedoms only (one
-/// value for each, in the order of [`Partition::contact`], or none at all) and is taken off again:
-/// every result is that of `K` itself, so `K` may be singular as long as fixing its contact
+/// value for each, in the order of [`Partition::contact`], or none at all) and is subtracted again:
+/// every result is that of `K` itself. `K` may therefore be singular as long as fixing its contact
 /// freedoms makes it definite.
 pub trait Condensed: Send + Sync {
-    /// `C = S_cc - S_cz S_zz^-1 S_zc` of `K` (the shift taken off), `n_contact x n_contact`,
-    /// symmetric; formed anew at each call.
+    /// Contact stiffness `C = S_cc - S_cz S_zz^-1 S_zc` of `K` (shift subtracted),
+    /// `n_contact x n_contact`, symmetric; computed at each call.
     fn contact_stiffness(&self) -> ContactStiffness;
 
-    /// Makes a part of the factored zone the zone: the freedoms `wanted` (ascending) and those that
-    /// the backend cannot do without. Returns the zone freedoms from now on, the order of all zone
-    /// vectors, or `None` where one of those wanted was not factored as zone. The rest of the zone
-    /// joins the interior; it can come back.
+    /// Chooses a part of the factored zone as the zone: the freedoms `wanted` (ascending) and
+    /// further ones that the backend cannot do without. Returns the new zone freedoms, which give
+    /// the order of all zone vectors; `None` if a wanted freedom was not factored as zone. The
+    /// other freedoms of the factored zone join the interior; they can be chosen again later.
     ///
     /// # Errors
-    /// `Analysis` where the memory does not suffice.
+    /// `Analysis` if the memory does not suffice.
     fn choose_zone(&mut self, wanted: &[usize]) -> Result<Option<Vec<usize>>>;
 
     /// Reduces a load on all freedoms (`n`) to what [`Condensed::condense_load`] and
-    /// [`Condensed::recover_all`] need of it for whichever zone is chosen, linear in the load
-    /// (`n`). Costs about half a full solve.
+    /// [`Condensed::recover_all`] need, independently of the choice of the zone. The result is
+    /// linear in the load and has length `n`. Costs about half a full solve.
     ///
     /// # Errors
-    /// As [`Condensed::recover_all`].
+    /// Errors of [`Condensed::recover_all`].
     fn reduce_load(&self, load: &[f64]) -> Result<Vec<f64>>;
 
-    /// Static condensation of a reduced load onto zone and contact freedoms:
-    /// `f_t = load_t - K_ti K_ii^-1 load_i`. Costs the zone, not the mesh.
+    /// Condenses a reduced load statically onto zone and contact freedoms:
+    /// `f_t = load_t - K_ti K_ii^-1 load_i`. The cost depends on the zone, not on the mesh.
     ///
     /// # Errors
-    /// `Internal` where a vector has the wrong length.
+    /// `Internal` if a vector has the wrong length.
     fn condense_load(&self, reduced: &[f64], zone: &mut [f64], contact: &mut [f64]) -> Result<()>;
 
-    /// Eliminates the zone: on entry (f_z, f_c); on return `contact` is `f_c - S_cz S_zz^-1 f_z`
-    /// and `zone` holds what [`Condensed::recover_zone`] needs.
+    /// Eliminates the zone: on entry (f_z, f_c); on return `contact` is `f_c - S_cz S_zz^-1 f_z`,
+    /// and `zone` holds the values that [`Condensed::recover_zone`] needs.
     fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]);
 
-    /// Recovers the zone: `zone` as left by [`Condensed::eliminate_zone`], on return
+    /// Recovers the zone: on entry `zone` as [`Condensed::eliminate_zone`] left it, on return
     /// `u_z = S_zz^-1 (f_z - S_zc u_c)`.
     fn recover_zone(&self, zone: &mut [f64], u_contact: &[f64]);
 
-    /// The part of the zone that the marked zone freedoms are in.
+    /// Part of the zone that contains the marked zone freedoms.
     fn part_of_zone(&self, _marked: &[bool]) -> ZonePart {
         ZonePart::default()
     }
 
-    /// As [`Condensed::recover_zone`] where only the displacements in a part of the zone are asked
-    /// for; what the others are is left open.
+    /// Recovers displacements as [`Condensed::recover_zone`] does, but only in a part of the zone;
+    /// the displacements of the rest are undefined.
     fn recover_part(&self, _part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
         self.recover_zone(zone, u_contact);
     }
 
-    /// A second factor, of the condensed matrix with other values in the chosen zone and on the
-    /// contact freedoms. `None` where the backend has none, or the memory does not suffice.
+    /// Makes a second factor, of the condensed matrix with changed values in the chosen zone and on
+    /// the contact freedoms. `None` if the backend has none, or if the memory does not suffice.
     fn changed(&self) -> Option<Box<dyn ChangedFactor>> {
         None
     }
 
-    /// All freedoms for a reduced load, given the displacements of zone and contact freedoms (loads
-    /// on these have no part in it): `u_i = K_ii^-1 (load_i - K_it u_t)`. Costs about half a full
+    /// Recovers all freedoms from a reduced load and the displacements of zone and contact freedoms
+    /// (loads on these are ignored): `u_i = K_ii^-1 (load_i - K_it u_t)`. Costs about half a full
     /// solve.
     ///
     /// # Errors
-    /// `Analysis` where the memory does not suffice, `Internal` where a vector has the wrong
-    /// length.
+    /// `Analysis` if the memory does not suffice, `Internal` if a vector has the wrong length.
     fn recover_all(&self, reduced: &[f64], zone: &[f64], contact: &[f64]) -> Result<Vec<f64>>;
 
-    /// What the factorisation cost (the same figures that were predicted).
+    /// Cost of the factorisation (the same figures as predicted).
     fn cost(&self) -> Prediction;
 
-    /// The pivot that lost most to cancellation. Near `smallest_pivot_ratio` the model is
-    /// barely held at that freedom.
+    /// Pivot that lost most digits to cancellation. If its ratio is close to
+    /// `smallest_pivot_ratio`, the model is barely held at that freedom.
     fn weakest_pivot(&self) -> Pivot;
 }
 
-/// What a backend must go through to recover some of the zone freedoms; by default all of them.
+/// Blocks that a backend must visit to recover some zone freedoms; by default all.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct ZonePart {
-    /// Which blocks of the backend's own; empty for all.
+    /// For each block of the backend, whether it is visited; empty for all.
     blocks: Vec<bool>,
 }
 
@@ -156,18 +155,20 @@ impl ZonePart {
     }
 }
 
-/// A pivot of the factorisation of `A = K + diag(shift)`, relative to its diagonal entry: in (0,
-/// 1], small where the freedom is held only weakly by those eliminated before it and its supports.
+/// A pivot of the factorisation of `A = K + diag(shift)`, relative to its diagonal entry. The ratio
+/// is in (0, 1] and small if the freedom is held only weakly by its supports and the freedoms
+/// eliminated before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pivot {
-    /// Freedom (row of the matrix as given).
+    /// Freedom of the pivot (row of the matrix as given).
     pub freedom: usize,
-    /// `l_jj^2 / a_jj`.
+    /// Ratio `l_jj^2 / a_jj` of the pivot to the diagonal entry.
     pub ratio: f64,
 }
 
-/// The pivot ratio that round-off alone produces on a singular matrix of `n` freedoms, `n eps`: a
-/// factorisation with a smaller one is refused as not definite, since its sign means nothing.
+/// Pivot ratio that round-off alone produces on a singular matrix of `n` freedoms, `n eps`. A
+/// factorisation with a smaller ratio is refused as not definite, since the pivot's sign has no
+/// meaning.
 ///
 /// The computed factor is that of `A + E` with `|E_ij| <= (m + 1) eps sqrt(a_ii a_jj)`, m the
 /// nonzeros in a row of `L`. For a singular `A` with null vector `v` the last pivot is
@@ -180,21 +181,21 @@ pub(crate) fn smallest_pivot_ratio(n: usize) -> f64 {
     n as f64 * f64::EPSILON
 }
 
-/// The backend that factors and condenses.
+/// Backend that factors and condenses the stiffness.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Backend {
-    /// CHOLMOD with a constrained order.
+    /// CHOLMOD with a constrained ordering.
     Cholmod,
-    /// faer, sparse and in Rust.
+    /// The sparse solver of faer, in Rust.
     Faer,
     /// MUMPS over MPI for the interior, CHOLMOD for the rest.
     Mumps,
-    /// Dense, by the textbook, in Rust.
+    /// Dense matrices, by the textbook formulas, in Rust.
     Dense,
 }
 
 impl Backend {
-    /// All of them; the first that is built in is the default.
+    /// All backends; the first that is built in is the default.
     pub const ALL: [Backend; 4] = [
         Backend::Cholmod,
         Backend::Faer,
@@ -202,7 +203,8 @@ impl Backend {
         Backend::Dense,
     ];
 
-    /// The name used on the command line, in results, and of the cargo feature that builds it in.
+    /// Name on the command line and in results, and of the cargo feature that builds the backend
+    /// in.
     pub fn name(self) -> &'static str {
         match self {
             Backend::Cholmod => "cholmod",
@@ -212,10 +214,10 @@ impl Backend {
         }
     }
 
-    /// The backend of this name.
+    /// Finds the backend with a name.
     ///
     /// # Errors
-    /// `Input` with the names that there are.
+    /// `Input` with the names that exist.
     pub fn from_name(name: &str) -> Result<Self> {
         let found = Backend::ALL.into_iter().find(|b| b.name() == name);
         found.ok_or_else(|| {
@@ -224,7 +226,7 @@ impl Backend {
         })
     }
 
-    /// Whether this build has it.
+    /// Whether this build contains the backend.
     pub(crate) fn is_built_in(self) -> bool {
         match self {
             Backend::Cholmod => cfg!(feature = "cholmod"),
@@ -234,13 +236,13 @@ impl Backend {
         }
     }
 
-    /// The backends of this build, the default first.
+    /// Backends of this build, the default first.
     pub fn built_in() -> Vec<Backend> {
         let all = Backend::ALL.into_iter();
         all.filter(|backend| backend.is_built_in()).collect()
     }
 
-    /// Who does the dense arithmetic of a factorisation, in words.
+    /// Name of the library that does the dense arithmetic of a factorisation.
     pub fn arithmetic(self) -> String {
         match self {
             #[cfg(feature = "cholmod")]
@@ -250,7 +252,7 @@ impl Backend {
         }
     }
 
-    /// The processor whose kernels the BLAS uses (`Haswell`); `None` where there is no BLAS or it
+    /// Processor whose kernels the BLAS uses (`Haswell`); `None` if there is no BLAS or if the BLAS
     /// cannot be asked.
     pub fn kernels(self) -> Option<String> {
         match self {
@@ -260,7 +262,7 @@ impl Backend {
         }
     }
 
-    /// Threads of a factorisation; `None` where it cannot be asked.
+    /// Number of threads of a factorisation; `None` if it cannot be asked.
     pub(crate) fn threads(self) -> Option<usize> {
         match self {
             #[cfg(feature = "cholmod")]
@@ -269,7 +271,7 @@ impl Backend {
         }
     }
 
-    /// Message where a backend is asked for that this build does not have.
+    /// Error for a backend that this build does not contain.
     #[cfg_attr(
         all(feature = "cholmod", feature = "faer", feature = "mumps"),
         allow(dead_code)
@@ -294,11 +296,11 @@ impl Default for Backend {
 /// Factors `K + diag(shift on contact freedoms)` and condenses it.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Internal`] naming the freedom as `freedom I` where the matrix is not
-/// positive definite, to working precision (`smallest_pivot_ratio`; callers map it back to body,
-/// node and direction through [`NotDefinite`] as cause), or where the arguments do not fit
-/// together; `Input` where the backend is not built in or the model is too large for it; `Analysis`
-/// where the memory does not suffice.
+/// [`crate::ErrorKind::Internal`], naming the freedom as `freedom I`, if the matrix is not positive
+/// definite to working precision (`smallest_pivot_ratio`; callers map the freedom back to body,
+/// node and direction through [`NotDefinite`] as cause), or if the arguments do not fit together;
+/// `Input` if the backend is not built in or the model is too large for it; `Analysis` if the
+/// memory does not suffice.
 pub fn condense(
     backend: Backend,
     matrix: &SymmetricCsc,
@@ -324,7 +326,7 @@ pub fn condense(
 /// Predicts the cost of [`condense`] from the pattern alone.
 ///
 /// # Errors
-/// As [`condense`], without those of the numerical factorisation.
+/// Errors of [`condense`], except those of the numerical factorisation.
 pub fn predict(
     backend: Backend,
     matrix: &SymmetricCsc,
@@ -347,7 +349,7 @@ pub fn predict(
 /// Cause of a failed factorisation: the freedom whose pivot was not positive.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NotDefinite {
-    /// Freedom (row of the matrix as given, not permuted).
+    /// Freedom of the pivot (row of the matrix as given, not permuted).
     pub freedom: usize,
 }
 
@@ -369,9 +371,9 @@ impl From<NotDefinite> for Error {
     }
 }
 
-/// What to tell a user where the BLAS computes with less than the processor has, and with which
-/// setting of the environment it would not; `None` where all is well. Libraries say it once,
-/// through their log; the program `brinell` begins anew with the setting.
+/// Warning if the BLAS uses slower instructions than the processor has, with the environment
+/// setting that corrects this; `None` otherwise. Libraries report it once, through their log; the
+/// program `brinell` restarts itself with the setting.
 pub fn slow_kernels() -> Option<String> {
     #[cfg(feature = "cholmod")]
     return cholmod::slow_kernels();
@@ -379,7 +381,7 @@ pub fn slow_kernels() -> Option<String> {
     None
 }
 
-/// The BLAS that the default backend uses, in words.
+/// Name of the BLAS that the default backend uses.
 pub fn blas_name() -> String {
     Backend::default().arithmetic()
 }

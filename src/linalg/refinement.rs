@@ -1,16 +1,16 @@
 //! Iterative refinement with a residual in twice the working precision.
 //!
 //! Refinement with a residual in working precision makes the backward error small and stops there:
-//! the residual's own round-off, `eps |K| |u|`, hides what is left, and the solution keeps an error
-//! of `eps` times the condition. With the residual in twice the precision every step gains the
-//! digits that the factor has, until the solution is right to the last bit but one, as long as the
-//! condition is below about `1 / (n eps)`.
+//! the residual's own round-off, `eps |K| |u|`, hides the remaining error, and the solution keeps
+//! an error of `eps` times the condition. With the residual in twice the precision every step gains
+//! as many digits as the factor has, until the solution is right to the last bit but one, as long
+//! as the condition is below about `1 / (n eps)`.
 //!
-//! The solution gained is that of the matrix as it is stored. Where the matrix is exact (a caller's
-//! own) that is the solution; where its entries are rounded sums of element stiffnesses their
-//! round-off costs as much as the solve's, and refinement gains nothing: the analysis of scenes
-//! does not use it (measured: `tests/stability/refinement.rs`; slivers factored by faer would gain
-//! a digit).
+//! The result is the solution for the matrix as it is stored. If the matrix is exact (a caller's
+//! own), this is the true solution. If its entries are rounded sums of element stiffnesses, their
+//! round-off costs as much accuracy as the solve's, and refinement gains nothing: the analysis of
+//! scenes does not use it (measured: `tests/stability/refinement.rs`; slivers factored by faer
+//! would gain a digit).
 //!
 //! # Source
 //! N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 12.1; T. Ogita,
@@ -21,26 +21,26 @@ use super::SymmetricCsc;
 use super::residual::Rows;
 use crate::error::Result;
 
-/// Most steps: with a condition at which each gains a digit only.
+/// Largest number of steps, for a condition at which each step gains only one digit.
 const MOST: usize = 20;
-/// A correction that is not smaller than this share of the one before says that the factor gains
-/// nothing any more.
+/// Share of the previous correction below which the next one must be for the refinement to go on;
+/// otherwise the factor gains nothing more.
 const PROGRESS: f64 = 0.5;
 
-/// What a refinement did.
+/// Record of a refinement.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Refinement {
-    /// Corrections that were added.
+    /// Number of corrections that were added.
     pub steps: usize,
-    /// Size of the first correction over the solution (largest values): the error that the solution
-    /// had before.
+    /// Size of the first correction relative to the solution (largest values): the error of the
+    /// solution before the refinement.
     pub first: f64,
-    /// Size of the last correction that was found.
+    /// Size of the last correction computed, relative to the solution.
     pub last: f64,
 }
 
-/// Improves a solution `u` until it is right to round-off, or no longer improves: `residual` gives
-/// `f - A u` in twice the precision ([`twofold_residual`]), `solve` solves with a factor of `A`.
+/// Improves a solution `u` until it is right to round-off or no longer improves. `residual` gives
+/// `f - A u` in twice the precision ([`twofold_residual`]); `solve` solves with a factor of `A`.
 ///
 /// # Errors
 /// Errors of `solve`.
@@ -75,7 +75,7 @@ pub fn refine(
     Ok(out)
 }
 
-/// `load - K u`, summed in twice the working precision and rounded once.
+/// Residual `load - K u`, summed in twice the working precision and rounded once.
 pub fn twofold_residual(matrix: &SymmetricCsc, load: &[f64], u: &[f64]) -> Vec<f64> {
     let mut high = load.to_vec();
     let mut low = vec![0.0; load.len()];
@@ -90,7 +90,7 @@ pub fn twofold_residual(matrix: &SymmetricCsc, load: &[f64], u: &[f64]) -> Vec<f
     high.iter().zip(&low).map(|(h, l)| h + l).collect()
 }
 
-/// `high + low -= a b` with the round-off of product and sum kept in `low`.
+/// Subtracts `a b` from `high + low`, and keeps the round-off of product and sum in `low`.
 fn subtract_product(high: &mut f64, low: &mut f64, a: f64, b: f64) {
     let product = -a * b;
     let product_error = (-a).mul_add(b, -product);
@@ -102,8 +102,8 @@ fn subtract_product(high: &mut f64, low: &mut f64, a: f64, b: f64) {
 }
 
 /// Componentwise backward error of `u` as a solution of `K u = load`: the smallest `omega` for
-/// which `u` solves exactly a system in which no entry of matrix and load is off by more than this
-/// share. Rows in which nothing acts and next to nothing moves are measured against their own
+/// which `u` is the exact solution of a system whose entries of matrix and load differ by at most
+/// this share. Rows without load and almost without displacement are measured against their own
 /// stiffness times the largest displacement.
 pub fn componentwise_backward_error(matrix: &SymmetricCsc, load: &[f64], u: &[f64]) -> f64 {
     let mut rows = Rows::new(matrix, load, u);

@@ -1,27 +1,28 @@
-//! How well a solution solves, and the step of refinement that makes it better.
+//! Residual and backward error of a solution, and a step of iterative refinement.
 
 use super::{Condensed, Partition, Symmetric, SymmetricCsc};
 use crate::error::Result;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Parts of the matrix that are gone through side by side: their number, not that of the threads,
-/// decides what is added to what.
+/// Number of parts of the matrix that are processed in parallel. It is fixed, so that the order of
+/// summation does not depend on the number of threads.
 const PARTS: usize = 4;
-/// Entries of a matrix whose parts take longer than to wake a thread for them.
+/// Number of entries from which a matrix is processed in parallel: below it, waking a thread costs
+/// more.
 const MANY: usize = 1 << 15;
-/// Rows that a thread takes at a time.
+/// Number of rows that a thread takes at a time.
 const GRAIN: usize = 1 << 14;
 
-/// A refinement step is tried where the backward error is above this: a rounding error for each
-/// entry of a row, as many as rows have in the mean. A smaller residual may be all round-off of its
-/// own, and a step that follows from it gains nothing.
+/// Backward error above which a refinement step is tried: one rounding error for each entry of a
+/// row, for the mean number of entries. A smaller residual may consist only of its own round-off,
+/// and a step computed from it gains nothing.
 pub(super) fn refine_above(matrix: &Symmetric) -> f64 {
     let (n, upper) = (matrix.n().max(1) as f64, matrix.n_entries() as f64);
     (2.0 * upper / n - 1.0).max(1.0) * f64::EPSILON
 }
 
-/// `y = K x` for the stored upper triangle.
+/// Product `y = K x` for the stored upper triangle.
 pub fn multiply(matrix: &SymmetricCsc, x: &[f64], y: &mut [f64]) {
     y.fill(0.0);
     for (j, column) in matrix.outer_iterator().enumerate() {
@@ -36,7 +37,7 @@ pub fn multiply(matrix: &SymmetricCsc, x: &[f64], y: &mut [f64]) {
     }
 }
 
-/// `|K|` in the infinity norm: the largest sum of absolute values of a row.
+/// Infinity norm `|K|`: the largest sum of absolute values of a row.
 pub fn norm(matrix: &SymmetricCsc) -> f64 {
     let mut rows = vec![0.0f64; matrix.rows()];
     for (j, column) in matrix.outer_iterator().enumerate() {
@@ -50,12 +51,12 @@ pub fn norm(matrix: &SymmetricCsc) -> f64 {
     largest(&rows)
 }
 
-/// Largest absolute value; NaN where there is one.
+/// Largest absolute value; NaN if any value is NaN.
 pub(crate) fn largest(values: &[f64]) -> f64 {
     largest_of(values.len(), |i| values[i].abs())
 }
 
-/// The largest of `n` values that are not negative; NaN where there is one.
+/// Largest of `n` nonnegative values; NaN if any value is NaN.
 fn largest_of(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
     let of = |rows: Range<usize>| {
         let (mut largest, mut lost) = (0.0, false);
@@ -74,24 +75,24 @@ fn largest_of(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
     parts.reduce(|| 0.0, |a, b| if a > b || a.is_nan() { a } else { b })
 }
 
-/// What one pass over `K` states about a solution `u` of `K u = f`.
+/// Row sums from one pass over `K`, for a solution `u` of `K u = f`.
 pub(super) struct Rows {
     /// Residual `f - K u` of each row.
     pub residual: Vec<f64>,
-    /// `|K| |u|` of each row.
+    /// Sum `|K| |u|` of each row.
     pub terms: Vec<f64>,
-    /// `|K|` summed over each row.
+    /// Sum of `|K|` over each row.
     pub stiffness: Vec<f64>,
 }
 
-/// The rows that have the numbers of a part's columns.
+/// Rows that have the numbers of a part's columns.
 struct RowBlock<'a> {
     columns: Range<usize>,
     residual: &'a mut [f64],
     terms: &'a mut [f64],
     stiffness: &'a mut [f64],
-    /// What the columns add to rows before these, `K u`, `|K| |u|` and `|K|`: of row
-    /// `columns.start - 1 - i` at place `i`.
+    /// Contributions of the columns to rows before these: `K u`, `|K| |u|` and `|K|`. The entry at
+    /// place `i` belongs to row `columns.start - 1 - i`.
     before: Vec<[f64; 3]>,
 }
 
@@ -103,7 +104,7 @@ impl Rows {
             terms: vec![0.0; n],
             stiffness: vec![0.0; n],
         };
-        // As many entries for each part.
+        // Each part gets the same number of entries.
         let bound = |part: usize| {
             let entry = (matrix.nnz() * part / PARTS) as i64;
             pointers[..n].partition_point(|p| *p < entry)
@@ -146,8 +147,8 @@ impl Rows {
         rows
     }
 
-    /// The componentwise backward error: the largest of a row's `|f - K u|` over its
-    /// `|K| |u| + |f|`. Rows in which nothing acts and next to nothing moves are measured against
+    /// Componentwise backward error: the largest ratio of a row's `|f - K u|` to its
+    /// `|K| |u| + |f|`. Rows without load and almost without displacement are measured against
     /// their own stiffness times the largest displacement (Arioli, Demmel, Duff 1989).
     pub(super) fn componentwise_error(&self, f: &[f64], u: &[f64]) -> f64 {
         let moved = largest(u);
@@ -168,8 +169,8 @@ impl Rows {
 }
 
 impl RowBlock<'_> {
-    /// Subtracts the products of the part's columns of the upper triangle, and of the rows that
-    /// mirror them, from the residual and adds up their sizes.
+    /// Subtracts the products of the part's columns of the upper triangle, and of their mirrored
+    /// rows, from the residual and adds up their sizes.
     fn subtract_products(&mut self, matrix: &SymmetricCsc, pointers: &[i64], u: &[f64]) {
         let (rows, values) = (matrix.indices(), matrix.data());
         let first = self.columns.start;
@@ -211,20 +212,21 @@ impl RowBlock<'_> {
     }
 }
 
-/// What a full solve found.
+/// Solution of a full solve with its errors.
 #[derive(Debug, Clone)]
 pub struct Recovered {
     /// Displacements of all freedoms.
     pub u: Vec<f64>,
-    /// `|f - K u|` in the infinity norm.
+    /// Residual `|f - K u|` in the infinity norm.
     pub residual: f64,
-    /// `|f - K u| / (|K| |u| + |f|)` in infinity norms; zero where all are zero, NaN where one is.
+    /// Backward error `|f - K u| / (|K| |u| + |f|)` in infinity norms; zero if all are zero, NaN if
+    /// one is NaN.
     pub backward_error: f64,
     /// Componentwise backward error ([`super::componentwise_backward_error`]), with the residual in
-    /// working precision: its own round-off, a rounding error for each entry of a row, counts as an
-    /// error of the solution.
+    /// working precision: the residual's own round-off, one rounding error for each entry of a row,
+    /// counts as an error of the solution.
     pub componentwise_error: f64,
-    /// Largest `|K| |u|` of a row: what the round-off of forces that follow from `u` is a share of.
+    /// Largest `|K| |u|` of a row, which scales the round-off of forces computed from `u`.
     pub terms: f64,
 }
 
@@ -248,11 +250,11 @@ impl Recovered {
     }
 }
 
-/// [`Condensed::recover_all`] with its residual for the load `f` on all freedoms (contact forces
-/// included), and a step of iterative refinement of interior and zone where that lowers it. `norm`
-/// is that of `matrix` ([`norm`]); `beside` are a displacement and a load that the residual need
-/// only be small against, where they are larger than those of this solution: zeros, or the largest
-/// of others that go with it.
+/// Recovers all freedoms ([`Condensed::recover_all`]) with the residual for the load `f` on all
+/// freedoms (contact forces included). A step of iterative refinement of interior and zone follows
+/// if it lowers the residual. `norm` is that of `matrix` ([`norm`]). `beside` are a displacement
+/// and a load, for instance the largest of other solutions that belong to this one, or zeros: if
+/// they are larger than those of this solution, the residual need only be small compared with them.
 ///
 /// # Errors
 /// Errors of [`Condensed::recover_all`].
@@ -268,11 +270,11 @@ pub fn recover_refined(
     let u = condensed.recover_all(reduced, zone, contact)?;
     let (found, mut r) = Recovered::new(matrix, norm, f, u)?;
     let scale = norm * largest(&found.u).max(beside[0]) + largest(f).max(beside[1]);
-    // What is not a number is not refined either.
+    // A NaN is not refined.
     if found.backward_error.is_nan() || found.residual <= refine_above(matrix) * scale {
         return Ok(found);
     }
-    // The contact displacements are given: the step leaves them alone.
+    // The contact displacements are given, so the step does not change them.
     for &freedom in &partition.contact {
         r[freedom] = 0.0;
     }

@@ -1,4 +1,4 @@
-//! A symmetric matrix wherever its entries are.
+//! A symmetric matrix, whether stored in one place or shared among ranks.
 
 #[cfg(feature = "mumps")]
 use super::mumps;
@@ -10,12 +10,12 @@ use crate::error::Result;
 use crate::results::Ranks;
 use std::sync::Arc;
 
-/// A symmetric matrix: all of it here, or a part on each of several ranks.
+/// A symmetric matrix, stored as a whole in this process or as parts on several ranks.
 #[derive(Debug, Clone)]
 pub enum Symmetric {
-    /// The whole matrix here, as its upper triangle.
+    /// The whole matrix in this process, as its upper triangle.
     Whole(Arc<SymmetricCsc>),
-    /// Parts of the matrix on the ranks of MUMPS.
+    /// Parts of the matrix, distributed over the ranks of MUMPS.
     #[cfg(feature = "mumps")]
     Shared(mumps::Shared),
 }
@@ -27,7 +27,7 @@ impl From<SymmetricCsc> for Symmetric {
 }
 
 impl Symmetric {
-    /// The upper triangle, where all of it is here.
+    /// Upper triangle of a matrix stored as a whole; `None` if it is distributed.
     pub fn whole(&self) -> Option<&SymmetricCsc> {
         match self {
             Symmetric::Whole(matrix) => Some(matrix),
@@ -54,7 +54,7 @@ impl Symmetric {
         }
     }
 
-    /// An entry of the diagonal.
+    /// Diagonal entry of a freedom.
     pub fn diagonal(&self, freedom: usize) -> f64 {
         match self {
             Symmetric::Whole(matrix) => matrix.get(freedom, freedom).copied().unwrap_or(0.0),
@@ -63,7 +63,7 @@ impl Symmetric {
         }
     }
 
-    /// The infinity norm: the largest sum of absolute values of a row.
+    /// Infinity norm: the largest sum of absolute values of a row.
     ///
     /// # Errors
     /// Errors of the ranks.
@@ -78,7 +78,7 @@ impl Symmetric {
         }
     }
 
-    /// What one pass over the matrix states about a solution `u` for the load `f`.
+    /// Row sums from one pass over the matrix, for a solution `u` with the load `f`.
     pub(super) fn rows(&self, f: &[f64], u: &[f64]) -> Result<Rows> {
         match self {
             Symmetric::Whole(matrix) => Ok(Rows::new(matrix, f, u)),
@@ -87,7 +87,7 @@ impl Symmetric {
         }
     }
 
-    /// The largest `|K| |u|` of a row.
+    /// Largest `|K| |u|` of a row.
     ///
     /// # Errors
     /// Errors of the ranks.
@@ -95,7 +95,7 @@ impl Symmetric {
         Ok(largest(&self.rows(&vec![0.0; u.len()], u)?.terms))
     }
 
-    /// What ranks that share it did so far; `None` where all of it is here.
+    /// Work of the ranks that share the matrix; `None` if it is stored as a whole.
     pub(crate) fn ranks(&self) -> Option<Ranks> {
         match self {
             Symmetric::Whole(_) => None,
@@ -104,7 +104,7 @@ impl Symmetric {
         }
     }
 
-    /// Number of ranks that share it, 1 where all of it is here.
+    /// Number of ranks that share the matrix; 1 if it is stored as a whole.
     pub(crate) fn n_ranks(&self) -> usize {
         match self {
             Symmetric::Whole(_) => 1,
@@ -113,8 +113,8 @@ impl Symmetric {
         }
     }
 
-    /// What each rank that shares it answers to its message by `evaluate`: work on the mesh goes
-    /// where the matrix is.
+    /// Runs `evaluate` on each rank that shares the matrix, with a message for that rank, and
+    /// returns the answers: work on the mesh is done where the matrix is stored.
     ///
     /// # Errors
     /// Errors of the ranks.
@@ -130,10 +130,11 @@ impl Symmetric {
         }
     }
 
-    /// [`super::condense`] of this matrix.
+    /// Factors and condenses this matrix ([`super::condense`]).
     ///
     /// # Errors
-    /// As there; `Internal` for a matrix on ranks and a backend that wants it here.
+    /// Errors of [`super::condense`]; `Internal` for a distributed matrix if the backend needs a
+    /// whole one.
     pub fn condense(
         &self,
         backend: Backend,
@@ -151,10 +152,10 @@ impl Symmetric {
         }
     }
 
-    /// [`super::predict`] of this matrix.
+    /// Predicts the cost of condensing this matrix ([`super::predict`]).
     ///
     /// # Errors
-    /// As [`Symmetric::condense`].
+    /// Errors of [`Symmetric::condense`].
     pub fn predict(&self, backend: Backend, partition: &Partition) -> Result<Prediction> {
         match (self, backend) {
             (Symmetric::Whole(matrix), _) => predict(backend, matrix, partition),

@@ -1,12 +1,12 @@
-//! A solve with the whole matrix by its condensed structure.
+//! Solves with the whole matrix by means of its condensed structure.
 
 use super::{Condensed, Partition};
 use crate::error::Result;
 use nalgebra::{Cholesky, DVector, Dyn};
 
 /// Solves `(K + D) u = x` in place. `held` is the factor of `C + D`, the contact stiffness with
-/// whatever acts on the contact freedoms besides `K`; `None` where there are no contact freedoms.
-/// `partition` holds the zone as it is chosen. Costs a full solve.
+/// anything that acts on the contact freedoms in addition to `K`; `None` if there are no contact
+/// freedoms. `partition` holds the zone that is chosen at present. Costs a full solve.
 ///
 /// # Errors
 /// Errors of [`Condensed::recover_all`].

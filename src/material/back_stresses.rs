@@ -1,15 +1,15 @@
 //! Kinematic hardening: the back stresses that move the centre of the yield surface.
 //!
-//! The centre is the sum of `2/3 C_i z_i`. Each `z_i` follows the plastic strain and forgets it
-//! with the equivalent plastic strain p (P. J. Armstrong, C. O. Frederick; several of them: J. L.
+//! The centre is the sum of `2/3 C_i z_i`. Each `z_i` follows the plastic strain and fades with the
+//! equivalent plastic strain p (P. J. Armstrong, C. O. Frederick; several back stresses: J. L.
 //! Chaboche):
 //!
 //! ```text
 //! dz_i = deps_p - gamma_i z_i dp,    z_i = eps_p where gamma_i = 0 (W. Prager): stored nowhere
 //! ```
 //!
-//! Over an increment flow keeps the direction that it has at its end, as everywhere in the implicit
-//! rule, and for a constant direction the law has a closed form: with `d` the increment of p
+//! Over an increment the direction of flow is that at its end, as everywhere in the implicit rule.
+//! For a constant direction the law has a closed form: with `d` the increment of p
 //!
 //! ```text
 //! z_i <- e_i z_i + (1 - e_i)/(gamma_i d) deps_p,      e_i = exp(-gamma_i d)
@@ -26,17 +26,17 @@
 use super::{PlasticState, double_dot, tensor_of};
 use serde::{Deserialize, Serialize};
 
-/// The back stresses of a material.
+/// Back stresses of a material, linear (Prager) and fading ones.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct BackStresses {
-    /// Sum of the moduli of those that forget nothing.
+    /// Sum of the moduli of the back stresses that do not fade.
     linear: f64,
-    /// Modulus C and rate gamma > 0 of those that do, rates ascending.
+    /// Modulus C and rate gamma > 0 of each fading back stress, rates ascending.
     fading: Vec<[f64; 2]>,
 }
 
 impl BackStresses {
-    /// Back stresses of the given moduli and rates `[C, gamma]`.
+    /// Builds back stresses from moduli and rates `[C, gamma]`.
     pub fn new(laws: impl IntoIterator<Item = [f64; 2]>) -> Self {
         let mut out = BackStresses::default();
         for [modulus, rate] in laws {
@@ -46,33 +46,33 @@ impl BackStresses {
                 out.fading.push([modulus, rate]);
             }
         }
-        // In one order however they are listed: what they remember is stored by place.
+        // Sorted, however they are listed, because the stored strains are assigned by position.
         out.fading
             .sort_by(|a, b| a[1].total_cmp(&b[1]).then(a[0].total_cmp(&b[0])));
         out
     }
 
-    /// Whether there are none.
+    /// Whether there are no back stresses.
     pub fn is_none(&self) -> bool {
         self.linear == 0.0 && self.fading.is_empty()
     }
 
-    /// The modulus that hardening keeps for good.
+    /// Modulus of the part of kinematic hardening that does not fade.
     pub fn linear(&self) -> f64 {
         self.linear
     }
 
-    /// Number of back stresses that have a memory of their own at each point.
+    /// Number of fading back stresses, each of which is stored at every point.
     pub fn n_stored(&self) -> usize {
         self.fading.len()
     }
 
-    /// The rates of those, ascending.
+    /// Rates gamma of the fading back stresses, ascending.
     pub(crate) fn rates(&self) -> impl Iterator<Item = f64> {
         self.fading.iter().map(|[_, rate]| *rate)
     }
 
-    /// How far the centre moves along a constant direction of flow over `d`, from zero:
+    /// Distance that the centre moves from zero if flow goes on in one direction over `d`:
     /// `C d + sum C_i (1 - e_i)/gamma_i`.
     pub(super) fn gain(&self, d: f64) -> f64 {
         let fading = self.fading.iter();
@@ -80,13 +80,13 @@ impl BackStresses {
         self.linear * d + gains.sum::<f64>()
     }
 
-    /// The derivative of [`BackStresses::gain`].
+    /// Derivative of [`BackStresses::gain`] with respect to `d`.
     pub(super) fn modulus(&self, d: f64) -> f64 {
         let moduli = (self.fading.iter()).map(|[modulus, rate]| modulus * (-rate * d).exp());
         self.linear + moduli.sum::<f64>()
     }
 
-    /// Takes the back stress off a stress.
+    /// Subtracts the back stress from a stress.
     #[inline]
     pub(super) fn take_off<const S: usize>(
         &self,
@@ -102,12 +102,12 @@ impl BackStresses {
         }
     }
 
-    /// What the back stresses forget over `d`: `sum (1 - e_i) 2/3 C_i z_i`.
+    /// Back stress that fades over `d`: `sum (1 - e_i) 2/3 C_i z_i`.
     pub(super) fn forgotten<const S: usize>(&self, stored: &[[f64; S]], d: f64) -> [f64; S] {
         self.sum(stored, |rate| lost(rate, d))
     }
 
-    /// The derivative of [`BackStresses::forgotten`].
+    /// Derivative of [`BackStresses::forgotten`] with respect to `d`.
     pub(super) fn forgetting<const S: usize>(&self, stored: &[[f64; S]], d: f64) -> [f64; S] {
         self.sum(stored, |rate| rate * (-rate * d).exp())
     }
@@ -120,8 +120,8 @@ impl BackStresses {
         out
     }
 
-    /// Brings the stored strains from one plastic state to the next. Returns the work per volume
-    /// that was lost with what they forgot, `sum 2/3 C_i gamma_i int z_i:z_i dp`.
+    /// Carries the stored strains from one plastic state to the next. Returns the work per volume
+    /// that is lost with the part that fades, `sum 2/3 C_i gamma_i int z_i:z_i dp`.
     pub fn carry<const S: usize>(
         &self,
         stored: &mut [[f64; S]],
@@ -134,7 +134,7 @@ impl BackStresses {
         }
         let mut work = 0.0;
         for ([modulus, rate], strain) in self.fading.iter().zip(stored) {
-            // Where the flow leads to, and how far the strain is from there: z = limit + e off.
+            // Limit to which the flow leads, and distance of the strain from it: z = limit + e off.
             let limit: [f64; S] =
                 std::array::from_fn(|k| (to.strain[k] - from.strain[k]) / (rate * d));
             let off: [f64; S] = std::array::from_fn(|k| strain[k] - limit[k]);
@@ -150,7 +150,7 @@ impl BackStresses {
         work
     }
 
-    /// Work per volume that the back stresses hold: `sum C_i/3 z_i:z_i`.
+    /// Work per volume that the back stresses store: `sum C_i/3 z_i:z_i`.
     pub(super) fn held<const S: usize>(&self, plastic: &[f64; S], stored: &[[f64; S]]) -> f64 {
         let square = |strain: &[f64; S]| {
             let strain = tensor_of(strain);
@@ -162,12 +162,12 @@ impl BackStresses {
     }
 }
 
-/// `1 - exp(-rate d)`.
+/// Share that fades over `d`: `1 - exp(-rate d)`.
 fn lost(rate: f64, d: f64) -> f64 {
     -(-rate * d).exp_m1()
 }
 
-/// Adds `2/3 modulus strain` to a stress.
+/// Adds the back stress `2/3 modulus strain` of a stored strain to a stress.
 #[inline]
 fn add<const S: usize>(stress: &mut [f64; S], modulus: f64, strain: &[f64; S]) {
     for (stress, tensor) in stress.iter_mut().zip(tensor_of(strain)) {

@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 /// A piecewise linear hardening curve, continued with a constant slope.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Hardening {
-    /// (equivalent plastic strain, yield stress), the first at strain 0.
+    /// Points (equivalent plastic strain, yield stress), the first at strain 0.
     points: Vec<[f64; 2]>,
-    /// Slope after the last point.
+    /// Slope of the curve after the last point.
     slope: f64,
 }
 
 impl Hardening {
-    /// Linear hardening `sigma_y = yield_stress + plastic_modulus * eps_p`; modulus 0 is perfect
-    /// plasticity.
+    /// Builds linear hardening `sigma_y = yield_stress + plastic_modulus * eps_p`; modulus 0 is
+    /// perfect plasticity.
     pub fn linear(yield_stress: f64, plastic_modulus: f64) -> Self {
         Hardening {
             points: vec![[0.0, yield_stress]],
@@ -22,7 +22,7 @@ impl Hardening {
         }
     }
 
-    /// A table, flat after its last row.
+    /// Builds the curve from a table; the curve is flat after the last row.
     pub fn table(points: &[[f64; 2]]) -> Self {
         Hardening {
             points: points.to_vec(),
@@ -30,7 +30,7 @@ impl Hardening {
         }
     }
 
-    /// The curve of a scene's (validated) material; `None` where it has no yield stress.
+    /// Reads the curve of a scene's (validated) material; `None` if it has no yield stress.
     pub(crate) fn from_scene(data: &scene::Material) -> Option<Self> {
         match data.hardening_curve() {
             Some(curve) => Some(Self::table(&curve)),
@@ -52,8 +52,8 @@ impl Hardening {
         self.segment(strain).1
     }
 
-    /// Work on plastic strains per volume up to an equivalent plastic strain, the area below the
-    /// curve: `int_0^strain sigma_y d eps_p`.
+    /// Work on plastic strains per volume up to an equivalent plastic strain, which is the area
+    /// below the curve: `int_0^strain sigma_y d eps_p`.
     pub fn work(&self, strain: f64) -> f64 {
         let reached = self.points.iter().take_while(|point| point[0] < strain);
         let ends = (self.points.iter().skip(1).map(|point| point[0])).chain([f64::INFINITY]);
@@ -64,8 +64,8 @@ impl Hardening {
         pieces.sum()
     }
 
-    /// Solves `q - c d = sigma_y(strain + d)` for `d >= 0`: exact, segment by segment. `c > 0`;
-    /// returns (d, slope of the segment in which the solution lies).
+    /// Solves `q - c d = sigma_y(strain + d)` for `d >= 0` with `c > 0`, exactly, segment by
+    /// segment. Returns `d` and the slope of the segment in which the solution lies.
     pub fn solve(&self, q: f64, c: f64, strain: f64) -> (f64, f64) {
         for pair in self.points.windows(2) {
             if pair[1][0] <= strain {

@@ -1,22 +1,22 @@
-//! Isotropic tensors: the elastic law, and what plastic flow takes off it.
+//! Isotropic tensors: the elastic law, and its reduction by plastic flow.
 
 use super::sum;
 use serde::{Deserialize, Serialize};
 
-/// `lambda 1 1' + 2 mu I` acting on strain vectors with engineering shear:
+/// Isotropic law `lambda 1 1' + 2 mu I` for strain vectors with engineering shear:
 ///
 /// ```text
 /// sigma_i = lambda tr(eps) + 2 mu eps_i   (i = xx, yy, zz),      tau = mu gamma
 /// ```
 ///
-/// In plane stress `zz` neither counts in the trace nor has a stress: `across` is 0.
+/// In plane stress `zz` is left out of the trace and has no stress: `across` is 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Lame {
-    /// Times the trace.
+    /// First Lamé constant, the factor of the trace.
     pub lambda: f64,
-    /// The shear modulus.
+    /// Second Lamé constant, the shear modulus.
     pub mu: f64,
-    /// 1, or 0 in plane stress.
+    /// Factor of the `zz` terms: 1, or 0 in plane stress.
     pub across: f64,
 }
 
@@ -28,7 +28,7 @@ impl Lame {
         across: 0.0,
     };
 
-    /// `a I_dev`: a times the deviator of a strain.
+    /// The law `a I_dev`, which gives `a` times the deviator of a strain.
     pub(crate) fn of_deviator(a: f64) -> Self {
         Lame {
             lambda: -a / 3.0,
@@ -42,7 +42,7 @@ impl Lame {
         self.lambda + 2.0 / 3.0 * self.mu
     }
 
-    /// The stress of an elastic strain.
+    /// Stress for an elastic strain.
     #[inline]
     pub fn times<const S: usize>(&self, strain: &[f64; S]) -> [f64; S] {
         let mut out = *strain;
@@ -57,37 +57,38 @@ impl Lame {
         out
     }
 
-    /// The stress of a total strain with a plastic part.
+    /// Stress for a total strain and its plastic part.
     #[inline]
     pub fn stress<const S: usize>(&self, strain: &[f64; S], plastic: &[f64; S]) -> [f64; S] {
         self.times(&sum(1.0, strain, -1.0, plastic))
     }
 }
 
-/// `D - D_ep`, an isotropic tensor and a dyad: `lambda 1 1' + 2 mu I + along n n'`.
+/// Reduction `D - D_ep` of the stiffness by plastic flow, as an isotropic tensor and a dyad:
+/// `lambda 1 1' + 2 mu I + along n n'`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(bound(
     serialize = "[f64; S]: Serialize",
     deserialize = "[f64; S]: Deserialize<'de>"
 ))]
 pub struct Softening<const S: usize = 4> {
-    /// The isotropic part.
+    /// Isotropic part of the reduction.
     pub isotropic: Lame,
-    /// Times the dyad of `normal`.
+    /// Factor of the dyad `n n'` of `normal`.
     pub along: f64,
-    /// A stress vector along the flow.
+    /// Stress vector `n` along the flow.
     pub normal: [f64; S],
 }
 
 impl<const S: usize> Softening<S> {
-    /// Softening of an elastic point: none.
+    /// Softening of an elastic point, which is zero.
     pub const NONE: Self = Softening {
         isotropic: Lame::NONE,
         along: 0.0,
         normal: [0.0; S],
     };
 
-    /// Softening with another number of components: zeros for the components it has not.
+    /// Converts to another number of components; components that are missing become zero.
     pub(crate) fn resized<const T: usize>(&self) -> Softening<T> {
         Softening {
             isotropic: self.isotropic,
@@ -96,14 +97,14 @@ impl<const S: usize> Softening<S> {
         }
     }
 
-    /// Amount of flow that a strain increment makes: what it adds to the stress along the normal.
+    /// Amount of flow for a strain increment: its product with the normal `n`.
     #[inline]
     pub fn flow(&self, strain: &[f64; S]) -> f64 {
         let terms = self.normal.iter().zip(strain);
         terms.map(|(n, e)| n * e).sum()
     }
 
-    /// What is lost of the stress of a strain increment.
+    /// Stress that flow takes off the elastic stress of a strain increment.
     #[inline]
     pub fn times(&self, strain: &[f64; S]) -> [f64; S] {
         let mut out = self.isotropic.times(strain);

@@ -23,10 +23,10 @@ use crate::scene;
 use crate::space::Space;
 use serde::{Deserialize, Serialize};
 
-/// A material: linear elastic, and plastic where it has a hardening curve.
+/// A material: linear elastic, and plastic if it has a hardening curve.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Material {
-    /// Name in the scene.
+    /// Name of the material in the scene.
     pub name: String,
     /// Young's modulus E.
     pub youngs_modulus: f64,
@@ -34,9 +34,9 @@ pub struct Material {
     pub poissons_ratio: f64,
     /// Yield stress against equivalent plastic strain; `None` for an elastic material.
     pub hardening: Option<Hardening>,
-    /// What moves the yield surface.
+    /// Kinematic hardening: the back stresses that move the yield surface.
     pub back_stresses: BackStresses,
-    /// The idealisation, which decides the elastic matrix and the return mapping.
+    /// Idealisation of space, which decides the elastic matrix and the return mapping.
     pub space: Space,
 }
 
@@ -63,7 +63,7 @@ impl<const S: usize> Default for PlasticState<S> {
 }
 
 impl<const S: usize> PlasticState<S> {
-    /// Plastic state with another number of components: zeros for the components it has not.
+    /// Converts to another number of components; components that are missing become zero.
     pub(crate) fn resized<const T: usize>(&self) -> PlasticState<T> {
         PlasticState {
             strain: resized(&self.strain),
@@ -72,24 +72,25 @@ impl<const S: usize> PlasticState<S> {
     }
 }
 
-/// The first components of a tensor, zeros for those it has not.
+/// Converts a tensor to another number of components; missing components become zero.
 pub(crate) fn resized<const S: usize, const T: usize>(tensor: &[f64; S]) -> [f64; T] {
     std::array::from_fn(|i| tensor.get(i).copied().unwrap_or(0.0))
 }
 
-/// What a point has gone through.
+/// History of a point before an increment.
 #[derive(Debug, Clone, Copy)]
 pub struct Past<'a, const S: usize> {
     /// Plastic history of the point.
     pub state: &'a PlasticState<S>,
-    /// Strains of the back stresses that fade, the material's first: engineering shear, trace 0.
+    /// Strains of the fading back stresses, in the order of the material's: engineering shear,
+    /// trace 0.
     pub back: &'a [[f64; S]],
-    /// Yield stress at the point less the material's.
+    /// Yield stress at the point minus that of the material.
     pub harder: f64,
 }
 
 impl<const S: usize> Past<'_, S> {
-    /// The yield stress after `d` more of equivalent plastic strain.
+    /// Yield stress after an increment `d` of equivalent plastic strain.
     #[inline]
     fn yield_stress(&self, hardening: &Hardening, d: f64) -> f64 {
         hardening.yield_stress(self.state.equivalent + d) + self.harder
@@ -101,17 +102,17 @@ impl<const S: usize> Past<'_, S> {
 pub struct Update<const S: usize> {
     /// Plastic history at the end of the increment.
     pub state: PlasticState<S>,
-    /// `D - D_ep`: what plastic flow takes off the elastic stiffness. Zero where elastic.
+    /// Reduction `D - D_ep` of the elastic stiffness by plastic flow; zero if elastic.
     pub softening: Softening<S>,
-    /// The rest of it, the dyad of this stress and the softening's normal: flow turns as back
-    /// stresses fade. Zero without those.
+    /// Remaining part of `D - D_ep`, as the dyad of this stress and the softening's normal: the
+    /// direction of flow turns as back stresses fade. Zero without fading back stresses.
     pub turn: [f64; S],
     /// Whether plastic flow took place.
     pub yields: bool,
 }
 
 impl Material {
-    /// The material of a scene.
+    /// Converts the material of a scene.
     pub fn new(name: &str, data: &scene::Material, space: Space) -> Self {
         Material {
             name: name.to_string(),
@@ -128,9 +129,9 @@ impl Material {
         self.youngs_modulus / (2.0 * (1.0 + self.poissons_ratio))
     }
 
-    /// Work on plastic strains per volume, 0 for an elastic material: `int sigma_y deps_p` on the
-    /// equivalent one, and what the back stresses hold (`C/3 z:z`). What they lost on the way is
-    /// none of it ([`BackStresses::carry`]).
+    /// Work on plastic strains per volume, 0 for an elastic material: `int sigma_y deps_p` over the
+    /// equivalent plastic strain, and the work that the back stresses store (`C/3 z:z`). Work that
+    /// the back stresses have lost by fading is not included ([`BackStresses::carry`]).
     pub fn plastic_work<const S: usize>(&self, past: &Past<S>) -> f64 {
         let equivalent = past.state.equivalent;
         let worked = |h: &Hardening| h.work(equivalent) + past.harder * equivalent;
@@ -138,7 +139,7 @@ impl Material {
         self.hardening.as_ref().map_or(0.0, worked) + held
     }
 
-    /// The stress of a total strain, less the back stress: what the yield condition is of.
+    /// Stress for a total strain minus the back stress, on which the yield condition is based.
     #[inline]
     fn relative_stress<const S: usize>(
         &self,
@@ -154,15 +155,15 @@ impl Material {
         out
     }
 
-    /// Initial yield stress, infinite for an elastic material.
+    /// Initial yield stress; infinite for an elastic material.
     pub fn yield_stress(&self) -> f64 {
         self.hardening
             .as_ref()
             .map_or(f64::INFINITY, |h| h.yield_stress(0.0))
     }
 
-    /// The elastic law. In plane stress `lambda* = 2 lambda mu/(lambda + 2 mu)` stands for
-    /// `lambda`, and `zz` takes no part.
+    /// Elastic law. In plane stress `lambda* = 2 lambda mu/(lambda + 2 mu)` replaces `lambda`, and
+    /// `zz` takes no part.
     pub fn lame(&self) -> Lame {
         let (e, nu, mu) = (
             self.youngs_modulus,
@@ -171,7 +172,7 @@ impl Material {
         );
         match self.space {
             Space::PlaneStress => Lame {
-                // 2 lambda mu/(lambda + 2 mu) without the pole at nu = 1/2.
+                // This is 2 lambda mu/(lambda + 2 mu) without the pole at nu = 1/2.
                 lambda: e * nu / (1.0 - nu * nu),
                 mu,
                 across: 0.0,
@@ -184,8 +185,8 @@ impl Material {
         }
     }
 
-    /// The stress of a total strain less the back stress, without further flow, and the hardening,
-    /// where it does not lie within the yield surface: no number does not either.
+    /// Trial stress of a total strain without further flow, minus the back stress, and the
+    /// hardening; `None` if the trial stress lies within the yield surface. NaN counts as outside.
     #[inline]
     fn beyond_yield<const S: usize>(
         &self,
@@ -199,8 +200,8 @@ impl Material {
         (!within).then_some((hardening, trial))
     }
 
-    /// Whether a total strain lies within the yield surface of a history: [`Material::integrate`]
-    /// then changes nothing.
+    /// Whether a total strain lies within the yield surface of a history, in which case
+    /// [`Material::integrate`] changes nothing.
     #[inline]
     pub(crate) fn stays_elastic<const S: usize>(
         &self,
@@ -211,8 +212,8 @@ impl Material {
         self.beyond_yield(law, strain, old).is_none()
     }
 
-    /// Integrates the flow rule: total strain at the end of the increment, history at its start.
-    /// `law` is [`Material::lame`], passed in because the caller has it at hand.
+    /// Integrates the flow rule, given the total strain at the end of the increment and the history
+    /// at its start. `law` is [`Material::lame`], passed in because the caller already has it.
     ///
     /// # Source
     /// J. C. Simo, T. J. R. Hughes, *Computational Inelasticity* (1998), boxes 3.1 to 3.3.
@@ -236,7 +237,8 @@ impl Material {
         }
     }
 
-    /// What [`Material::integrate`] finds, without the tangent; not in plane stress.
+    /// Integrates the flow rule like [`Material::integrate`], without the tangent; not in plane
+    /// stress.
     fn flow<const S: usize>(
         &self,
         law: &Lame,
@@ -250,9 +252,9 @@ impl Material {
     }
 }
 
-/// The increment of equivalent plastic strain at which the excess over the yield stress, positive
-/// at zero, vanishes; over any length it falls by at least the stiffness times that, and is a
-/// stress of the size of `scale`.
+/// Finds the increment of equivalent plastic strain at which the excess over the yield stress
+/// vanishes. The excess is a stress of the size of `scale`, positive at zero; it falls by at least
+/// `stiffness` per unit of the increment.
 fn flow_to_root(excess: impl Fn(f64) -> f64, stiffness: f64, scale: f64) -> f64 {
     let first = excess(0.0);
     let end = first / stiffness;
@@ -263,7 +265,7 @@ fn flow_to_root(excess: impl Fn(f64) -> f64, stiffness: f64, scale: f64) -> f64 
     root::between([(0.0, first), (end, excess(end))], accuracy, excess)
 }
 
-/// `a x + b y`, as a loop: arrays made of closures are slow where nothing is inlined.
+/// Returns `a x + b y`. A loop, because arrays made by closures are slow without inlining.
 #[inline]
 fn sum<const S: usize>(a: f64, x: &[f64; S], b: f64, y: &[f64; S]) -> [f64; S] {
     let mut out = [0.0; S];
@@ -273,13 +275,13 @@ fn sum<const S: usize>(a: f64, x: &[f64; S], b: f64, y: &[f64; S]) -> [f64; S] {
     out
 }
 
-/// A strain with engineering shear as a tensor's components.
+/// Converts a strain with engineering shear to tensor components.
 #[inline]
 fn tensor_of<const S: usize>(strain: &[f64; S]) -> [f64; S] {
     std::array::from_fn(|k| if k < 3 { strain[k] } else { 0.5 * strain[k] })
 }
 
-/// `a:b` of two tensors.
+/// Double contraction `a:b` of two tensors.
 #[inline]
 fn double_dot<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     let product = |k: usize| a[k] * b[k];
@@ -288,7 +290,7 @@ fn double_dot<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     normal + 2.0 * shear
 }
 
-/// Von Mises stress `sqrt(3/2 s:s)`.
+/// Von Mises stress `sqrt(3/2 s:s)` of the deviator `s`.
 #[inline]
 pub fn von_mises<const S: usize>(stress: &[f64; S]) -> f64 {
     let (x, y, z) = (stress[0], stress[1], stress[2]);
@@ -296,8 +298,8 @@ pub fn von_mises<const S: usize>(stress: &[f64; S]) -> f64 {
     (0.5 * ((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) + 3.0 * shear).sqrt()
 }
 
-/// `3/2 s:t` of the deviators of two stresses: the square of the von Mises stress where they are
-/// the same.
+/// Product `3/2 s:t` of the deviators of two stresses, which is the square of the von Mises stress
+/// if they are equal.
 #[inline]
 fn von_mises_product<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     let difference = |i: usize, j: usize| (a[i] - a[j]) * (b[i] - b[j]);

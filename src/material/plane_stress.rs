@@ -1,11 +1,11 @@
-//! Return mapping that keeps the stress in the plane.
+//! Return mapping in plane stress, which keeps the stress in the plane.
 //!
-//! With `P = [[2, -1, 0], [-1, 2, 0], [0, 0, 6]]/3`, the stress `xi = sigma - alpha` relative to a
-//! back stress `alpha` of the plane whose deviator is the back stress, `eps_p += (3/2) d P u`, `u =
-//! xi/sigma_y`, everything decouples in the eigenvectors (1, 1, 0), (1, -1, 0) and (0, 0, 1) that
-//! `D` and `P` share, `D P` having the eigenvalues `m = E/(3 (1 - nu))` and `2 G`. With the trial
-//! stress, what the back stresses forget over the increment `d` of equivalent plastic strain added
-//! to it (`x(d)`, see [`super::back_stresses`]), and `K(d)` what they gain:
+//! With `P = [[2, -1, 0], [-1, 2, 0], [0, 0, 6]]/3`, the stress `xi = sigma - alpha` relative to
+//! the plane stress `alpha` whose deviator is the back stress, and `eps_p += (3/2) d P u`,
+//! `u = xi/sigma_y`, everything decouples in the eigenvectors (1, 1, 0), (1, -1, 0) and (0, 0, 1)
+//! that `D` and `P` share, `D P` having the eigenvalues `m = E/(3 (1 - nu))` and `2 G`. Let `x(d)`
+//! be the trial stress plus the back stress that fades over the increment `d` of equivalent plastic
+//! strain (see [`super::back_stresses`]), and `K(d)` the gain of the back stresses:
 //!
 //! ```text
 //! b_j(d) = sigma_y(eps + d) + K(d) + (3/2) m_j d,        u_j = x_j(d)/b_j(d)
@@ -14,8 +14,8 @@
 //! D - D_ep = (3/2) d D P B^-1 D + (3/2)/r (k w + d D P B^-1 x') w'
 //! ```
 //!
-//! No back stress exceeds `C/gamma`: at `d = (q - sigma_y)/(3/2 m)`, q that of the trial stress and
-//! `m` the smaller eigenvalue, the left side is at most 1, which brackets the solution.
+//! No back stress exceeds `C/gamma`: at `d = (q - sigma_y)/(3/2 m)`, with q of the trial stress and
+//! `m` the smaller eigenvalue, the left-hand side is at most 1, which brackets the solution.
 //!
 //! # Source
 //! Simo and Hughes (1998), section 3.4, box 3.3; J. C. Simo, R. L. Taylor (1986),
@@ -44,7 +44,7 @@ pub(super) fn integrate<const S: usize>(
         let u: [f64; 3] = std::array::from_fn(|j| (start[j] + forgotten[j]) / b[j]);
         u
     };
-    // Times the yield stress, so that it is a stress as elsewhere.
+    // The excess is multiplied by the yield stress, so that it is a stress as in other spaces.
     let scale = old.yield_stress(hardening, 0.0);
     let excess = |d: f64| scale * (product(&relative(d), &relative(d)).sqrt() - 1.0);
     let d = flow_to_root(excess, 1.5 * moduli[0].min(moduli[1]), scale);
@@ -62,15 +62,15 @@ pub(super) fn integrate<const S: usize>(
         hardening.slope(state.equivalent) + laws.modulus(d),
     );
     let forgetting = in_plane(&laws.forgetting(old.back, d));
-    // x' along the flow and beside it.
+    // Parts of x' along the flow and across it.
     let along_flow = product(&u, &forgetting);
     let beside: [f64; 3] = std::array::from_fn(|j| forgetting[j] - along_flow * u[j]);
-    // D P B^-1 of either.
+    // Applies D P B^-1 to a vector.
     let of = |v: &[f64; 3]| -> [f64; 3] { std::array::from_fn(|j| v[j] * moduli[j] / b[j]) };
     let rate: [f64; 3] =
         std::array::from_fn(|j| ((slope + 1.5 * moduli[j]) * u[j] - forgetting[j]) / b[j]);
     let resistance = product(&u, &rate);
-    // D P B^-1 D on the sum and on the difference of the normal strains.
+    // The product D P B^-1 D for the sum and the difference of the normal strains.
     let lost_sum = 1.5 * d * moduli[0] / b[0] * e / (1.0 - nu);
     let lost_difference = 1.5 * d * moduli[1] / b[1] * 2.0 * g;
     let turn = 2.25 * d / resistance;
@@ -90,14 +90,14 @@ pub(super) fn integrate<const S: usize>(
     }
 }
 
-/// Half sum and half difference of the normal stresses of the plane whose deviator a stress has,
-/// and its shear stress: what is across the plane is a mean stress.
+/// Half sum and half difference of the normal stresses, and the shear stress, of the plane stress
+/// that has the same deviator as the given stress.
 fn in_plane<const S: usize>(stress: &[f64; S]) -> [f64; 3] {
     let half_sum = 0.5 * (stress[0] + stress[1]) - stress[2];
     [half_sum, 0.5 * (stress[0] - stress[1]), stress[3]]
 }
 
-/// The stress vector of half sum, half difference and shear stress.
+/// Stress vector for given half sum, half difference and shear stress.
 fn components<const S: usize>([sum, difference, shear]: &[f64; 3]) -> [f64; S] {
     let mut out = [0.0; S];
     out[0] = sum + difference;

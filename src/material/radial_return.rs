@@ -1,8 +1,8 @@
-//! Radial return: plane strain, axisymmetric and in space.
+//! Radial return in plane strain, axisymmetric and three-dimensional space.
 //!
-//! With the trial deviator `s` (less the back stress), what the back stresses forget over the
-//! increment `d` of equivalent plastic strain added to it (`s(d)`, see [`super::back_stresses`]),
-//! `q = sqrt(3/2 s:s)`, `n = s/|s|`, `K(d)` what the back stresses gain and `s' = ds/dd`:
+//! Let `s(d)` be the trial deviator (minus the back stress) plus the back stress that fades over
+//! the increment `d` of equivalent plastic strain (see [`super::back_stresses`]),
+//! `q = sqrt(3/2 s:s)`, `n = s/|s|`, `K(d)` the gain of the back stresses and `s' = ds/dd`:
 //!
 //! ```text
 //! q(d) - 3 G d - K(d) = sigma_y(eps + d)            one scalar equation for d
@@ -12,10 +12,10 @@
 //! t = s' - (n:s') n
 //! ```
 //!
-//! No back stress exceeds `C/gamma`, so that `sqrt(3/2) |s'| <= K' - C_linear`: the left side falls
-//! by at least `3 G d`, which brackets the solution. Without back stresses that fade `s` is
-//! constant, and the equation is linear on each segment of the hardening curve. The last term,
-//! which alone is not symmetric, vanishes where flow is along the back stress.
+//! No back stress exceeds `C/gamma`, so that `sqrt(3/2) |s'| <= K' - C_linear`: the left-hand side
+//! falls by at least `3 G d`, which brackets the solution. Without fading back stresses `s` is
+//! constant, and the equation is linear on each segment of the hardening curve. The last term of
+//! `D - D_ep`, the only unsymmetric one, vanishes if flow is along the back stress.
 //!
 //! # Source
 //! Simo and Hughes (1998), boxes 3.1 and 3.2; one equation for several back stresses: M. Kobayashi,
@@ -27,21 +27,21 @@ use super::{
     von_mises,
 };
 
-/// What an increment flows.
+/// Plastic flow of one increment.
 pub(super) struct Flow<const S: usize> {
     /// Plastic state at the end of the flow.
     pub state: PlasticState<S>,
     /// Relative stress `s(d)`.
     s: [f64; S],
-    /// `q`, the von Mises stress of `s(d)`.
+    /// Von Mises stress `q` of `s(d)`.
     q: f64,
     d: f64,
-    /// `H` at its end.
+    /// Slope `H` of the hardening curve at the end of the flow.
     slope: f64,
 }
 
 impl<const S: usize> Flow<S> {
-    /// An increment without flow.
+    /// An increment without any flow.
     pub fn none(state: PlasticState<S>) -> Self {
         Flow {
             state,
@@ -52,13 +52,14 @@ impl<const S: usize> Flow<S> {
         }
     }
 
-    /// The direction of flow as a stress of size 1; `None` where there is none.
+    /// Direction of flow as a stress of size 1; `None` if there is no flow.
     pub fn normal(&self) -> Option<[f64; S]> {
         let norm = double_dot(&self.s, &self.s).sqrt();
         (norm > 0.0).then(|| self.s.map(|s| s / norm))
     }
 
-    /// `(3/2) d/q`: the plastic strain of a trial stress across the flow, over that stress.
+    /// Ratio `(3/2) d/q` of the plastic strain to the trial stress, for a trial stress across the
+    /// flow.
     pub fn across(&self) -> f64 {
         if self.d > 0.0 {
             1.5 * self.d / self.q
@@ -98,7 +99,7 @@ pub(super) fn flow<const S: usize>(
     let mut state = *old.state;
     state.equivalent += d;
     for i in 0..S {
-        // Shear strains are engineering strains.
+        // The stored strains have engineering shear.
         let doubled = if i < 3 { 1.0 } else { 2.0 };
         state.strain[i] += doubled * multiplier * s[i];
     }

@@ -1,16 +1,17 @@
-//! The flow rule along the strain path of an increment, which is straight.
+//! Flow rule along the straight strain path of an increment.
 //!
-//! The implicit rule lets the whole of an increment flow in the direction that flow has at its end.
-//! That is exact while the direction does not turn, and wrong by half the angle where it does: of
-//! first order in the increments. Here the path is cut into [`PARTS`] in which the direction of
-//! flow turns by the same angle, a few tenths at most, and each part is integrated twice by the
-//! implicit rule, in one step and in two halves: twice the second less the first is of second order
-//! (Richardson), and where the material loses most of its stiffness it stays as stable as the rule
-//! itself. What comes out changes smoothly with the end of the path, so that iterations converge.
+//! The implicit rule lets the whole increment flow in the direction that flow has at its end. This
+//! is exact while the direction does not turn; otherwise the error is half the angle, of first
+//! order in the increments. Here the path is cut into [`PARTS`] in which the direction of flow
+//! turns by the same angle, a few tenths at most, and each part is integrated twice by the implicit
+//! rule, in one step and in two halves. Twice the second result minus the first is of second order
+//! (Richardson), and where the material loses most of its stiffness it stays as stable as the
+//! implicit rule itself. The result changes smoothly with the end of the path, so that iterations
+//! converge.
 //!
-//! In plane stress the strain across the plane turns a path that is straight in the plane where
-//! flow begins, also of a bar that is pulled: the implicit rule, exact for stresses in proportion,
-//! stays.
+//! In plane stress the strain across the plane turns a path that is straight in the plane as soon
+//! as flow begins, even in a bar under tension. There the implicit rule, which is exact for
+//! proportional stresses, is kept.
 //!
 //! # Source
 //! L. F. Richardson (1911), doi:10.1098/rsta.1911.0009; substeps along strain paths: S. W.
@@ -22,24 +23,26 @@ use self::deviators::Deviators;
 use super::{Lame, Material, Past, PlasticState, Update, sum, von_mises_product};
 use crate::space::Space;
 
-/// Parts of a path. Flow goes outwards, so that none turns by more than a fourth of a right angle.
+/// Number of parts of a path. Flow goes outwards, so that no part turns by more than a fourth of a
+/// right angle.
 const PARTS: u32 = 4;
-/// Below this angle, in radians, the implicit rule is as good, and parts of equal angle are lost in
-/// round-off. The rule's stress is off by half the angle across the flow: where a path goes from
-/// one to the other the stress jumps by as much, which must stay far below what equilibrium asks.
+/// Angle in radians below which the implicit rule is used: there it is as accurate, and parts of
+/// equal angle are lost in round-off. The stress of the implicit rule is off by half the angle
+/// across the flow. Where the method changes, the stress jumps by that much, which must stay far
+/// below the tolerance of equilibrium.
 const LEAST_TURN: f64 = 1e-12;
 
-/// What back stresses that fade remember on the path: empty where there are none.
+/// Strains of fading back stresses along the path; empty if the material has none.
 pub struct Memory<'a, const S: usize> {
-    /// At the end of what is integrated so far.
+    /// Strains at the end of the part integrated so far.
     pub strains: &'a mut [[f64; S]],
-    /// In the middle of a part.
+    /// Strains in the middle of a part.
     pub between: &'a mut [[f64; S]],
-    /// Work per volume that was lost since the begin of the path.
+    /// Work per volume lost since the start of the path.
     pub lost_work: f64,
 }
 
-/// A straight strain path, and the law of the material.
+/// A straight strain path with the law of the material.
 struct StrainPath<'a, const S: usize> {
     material: &'a Material,
     law: &'a Lame,
@@ -49,15 +52,15 @@ struct StrainPath<'a, const S: usize> {
 }
 
 impl Material {
-    /// Integrates the flow rule along the straight path from the total strain that belongs to the
-    /// history `old` to another, by the implicit rule in one step where the first is not known;
-    /// `memory` is left at its end where the point yields.
+    /// Integrates the flow rule along the straight path from the total strain `begin`, which
+    /// belongs to the history `old`, to `end`; by the implicit rule in one step if `begin` is not
+    /// known. If the point yields, `memory` holds the strains at the end afterwards.
     ///
-    /// The tangent is that of the implicit rule over the whole path, but for its normal, that of
-    /// the end, and for what flow takes off strains across it, that of the path while flow does not
-    /// turn: [`Across`]. One step takes off `3 G d/q = x/(1 + x)` where the path takes `1 - (1 -
-    /// exp(-x))/x`: a difference that would be the pace of iterations. Where back stresses fade it
-    /// is that of one step.
+    /// The tangent is that of the implicit rule over the whole path with two changes: its normal is
+    /// the one at the end, and the reduction of stiffness across the flow is that of the path while
+    /// flow does not turn ([`Across`]). One step takes off `3 G d/q = x/(1 + x)` where the path
+    /// takes `1 - (1 - exp(-x))/x`, a difference that would determine the speed of iterations. If
+    /// back stresses fade, the tangent is that of one step.
     pub(crate) fn integrate_along<const S: usize>(
         &self,
         law: &Lame,
@@ -105,8 +108,8 @@ impl Material {
     }
 }
 
-/// What a small strain across the flow, spread over the path as the strain is, has become on the
-/// way, over `2 G` times it: a stress less the back stress, and what plastic strains took off it.
+/// Effect of a small strain across the flow that is spread evenly over the path, divided by `2 G`
+/// times the strain: the stress minus the back stress, and the stress lost to plastic strains.
 #[derive(Debug, Clone, Copy)]
 struct Across {
     stress: f64,
@@ -114,8 +117,9 @@ struct Across {
 }
 
 impl Across {
-    /// After a share of the path along which flow makes `across` of a trial stress
-    /// ([`super::radial_return::Flow::across`]); `moduli` are `2 G` and that of the back stresses.
+    /// Continues over a share of the path in which flow gives the ratio `across` of plastic strain
+    /// to trial stress ([`super::radial_return::Flow::across`]); `moduli` are `2 G` and the modulus
+    /// of the back stresses.
     fn after(self, share: f64, across: f64, moduli: [f64; 2]) -> Self {
         let trial = self.stress + share;
         Across {
@@ -126,18 +130,19 @@ impl Across {
 }
 
 impl<const S: usize> StrainPath<'_, S> {
-    /// The strain at a share of the path.
+    /// Strain at a share of the path.
     fn at(&self, share: f64) -> [f64; S] {
         sum(1.0 - share, self.begin, share, self.end)
     }
 
-    /// The stress less the back stress of a strain.
+    /// Stress for a strain, minus the back stress.
     fn relative(&self, strain: &[f64; S], past: &Past<S>) -> [f64; S] {
         self.material.relative_stress(self.law, strain, past)
     }
 
-    /// The state at the end, the share that flow takes off strains across it, and its direction
-    /// there; `None` where it is `whole`, that of the implicit rule in one step.
+    /// Returns the state at the end, the share of stiffness that flow takes off strains across it,
+    /// and the direction of flow there; `None` if the state is `whole`, the result of the implicit
+    /// rule in one step.
     fn integrate(
         &self,
         old: &Past<S>,
@@ -174,7 +179,7 @@ impl<const S: usize> StrainPath<'_, S> {
         Some((state, across.lost.clamp(0.0, 1.0), normal))
     }
 
-    /// The share of the path at which the yield surface is reached.
+    /// Share of the path at which the yield surface is reached.
     fn begin_of_flow(&self, old: &Past<S>) -> f64 {
         let Some(hardening) = &self.material.hardening else {
             return 1.0;
@@ -183,7 +188,7 @@ impl<const S: usize> StrainPath<'_, S> {
         let start = self.relative(self.begin, old);
         let end = self.relative(self.end, old);
         let change = sum(1.0, &end, -1.0, &start);
-        // a x^2 + 2 b x = inside has one root from 0 on, as the begin is inside to round-off.
+        // a x^2 + 2 b x = inside has one root x >= 0, since the start is inside up to round-off.
         let inside = (size * size - von_mises_product(&start, &start)).max(0.0);
         let a = von_mises_product(&change, &change);
         let b = von_mises_product(&start, &change);
@@ -192,12 +197,13 @@ impl<const S: usize> StrainPath<'_, S> {
             true => inside / (b + root),
             false => (root - b) / a,
         };
-        // A path of no length is 0 / 0.
+        // For a path of zero length the share is 0 / 0.
         if share > 0.0 { share.min(1.0) } else { 0.0 }
     }
 
-    /// A part of the path in one step and in two, extrapolated; and the direction of flow in the
-    /// last: of the stress itself round-off is all that is left where strains are large.
+    /// Integrates a part of the path in one step and in two, and extrapolates. Also returns the
+    /// direction of flow in the last step, because the stress itself is nothing but round-off if
+    /// strains are large.
     fn twice(
         &self,
         (from, across): (&PlasticState<S>, Across),
@@ -236,7 +242,7 @@ impl<const S: usize> StrainPath<'_, S> {
         }
         let state = PlasticState {
             strain: sum(2.0, &two.strain, -1.0, &one.strain),
-            // Flow that turns is no shorter for being followed more closely, but for round-off.
+            // Apart from round-off, finer steps do not shorten the path of flow.
             equivalent: (2.0 * two.equivalent - one.equivalent).max(two.equivalent),
         };
         let across = Across {
@@ -246,8 +252,9 @@ impl<const S: usize> StrainPath<'_, S> {
         (state, across, normal)
     }
 
-    /// What extrapolation leaves beyond the yield surface flows off. It leaves nothing inside: the
-    /// surface is convex, and the stress goes on from one point of it beyond another.
+    /// Lets the stress flow back to the yield surface where extrapolation leaves it outside.
+    /// Extrapolation never leaves it inside: the surface is convex, and extrapolation continues
+    /// from one point of the surface through another.
     fn onto_the_yield_surface(
         &self,
         state: PlasticState<S>,
@@ -269,7 +276,7 @@ impl<const S: usize> StrainPath<'_, S> {
     }
 }
 
-/// From one stress to another, as deviators in the plane of both.
+/// Change from one stress to another, as deviators in the plane of both.
 struct Turn {
     size: f64,
     along: f64,
@@ -281,7 +288,8 @@ impl Turn {
     fn between<const S: usize>(from: &[f64; S], to: &[f64; S]) -> Self {
         let size = von_mises_product(from, from).sqrt();
         let along = von_mises_product(from, to) / size;
-        // What is left of the other without its part along the first: no difference of squares.
+        // The other stress without its part along the first, computed without a difference of
+        // squares.
         let off = sum(1.0, to, -along / size, from);
         let across = von_mises_product(&off, &off).sqrt();
         Turn {
@@ -292,8 +300,8 @@ impl Turn {
         }
     }
 
-    /// The share of the straight path at which a share of the angle has been turned:
-    /// `x across / (size + x (along - size))` is its tangent.
+    /// Share of the straight path at which a share of the angle has been turned. The tangent of the
+    /// angle turned at the share `x` is `x across / (size + x (along - size))`.
     fn share_of_angle(&self, share: f64) -> f64 {
         let tangent = (share * self.angle).tan();
         self.size * tangent / (self.across - (self.along - self.size) * tangent)

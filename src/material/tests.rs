@@ -15,7 +15,7 @@ fn material(space: Space, nu: f64, hardening: Hardening) -> Material {
     }
 }
 
-/// Without kinematic hardening, with Prager's, and with that and two back stresses that fade.
+/// Without kinematic hardening, with Prager's, and with Prager's and two fading back stresses.
 fn each_kind(material: Material) -> [Material; 3] {
     let laws: [&[[f64; 2]]; 3] = [
         &[],
@@ -28,7 +28,7 @@ fn each_kind(material: Material) -> [Material; 3] {
     })
 }
 
-/// A point with its history; the back stresses that fade remember a share of the plastic strain.
+/// A point with its history; the fading back stresses hold a share of the plastic strain.
 #[derive(Debug, Clone)]
 struct Point<const S: usize> {
     state: PlasticState<S>,
@@ -63,13 +63,13 @@ impl<const S: usize> Point<S> {
         m.integrate(&m.lame(), strain, &self.past())
     }
 
-    /// The stress at a total strain.
+    /// Stress at a total strain, without changing the point.
     fn stress(&self, m: &Material, strain: &[f64; S]) -> [f64; S] {
         let plastic = self.integrate(m, strain).state.strain;
         m.lame().stress(strain, &plastic)
     }
 
-    /// Goes on to a total strain; the stress there.
+    /// Moves the point to a total strain and returns the stress there.
     fn advance(&mut self, m: &Material, strain: &[f64; S]) -> [f64; S] {
         let state = self.integrate(m, strain).state;
         let laws = &m.back_stresses;
@@ -83,7 +83,7 @@ impl<const S: usize> Point<S> {
     }
 }
 
-/// What flow takes off the stress of a strain increment.
+/// Stress that flow takes off the elastic stress of a strain increment.
 fn lost<const S: usize>(update: &Update<S>, strain: &[f64; S]) -> [f64; S] {
     let (out, flow) = (
         update.softening.times(strain),
@@ -92,7 +92,7 @@ fn lost<const S: usize>(update: &Update<S>, strain: &[f64; S]) -> [f64; S] {
     std::array::from_fn(|k| out[k] + flow * update.turn[k])
 }
 
-/// The matrix of a linear map.
+/// Matrix of a linear map.
 fn matrix<const S: usize>(map: impl Fn(&[f64; S]) -> [f64; S]) -> [[f64; S]; S] {
     let columns: [[f64; S]; S] = std::array::from_fn(|j| {
         let mut unit = [0.0; S];
@@ -117,7 +117,7 @@ fn hardening_curves_interpolate() {
     assert!((table.slope(0.0) - 100.0).abs() < 1e-12);
     assert!((table.slope(0.004) - 50.0).abs() < 1e-12);
     assert_eq!(table.yield_stress(1.0), 1.7);
-    // Trapezoids, and a rectangle beyond the last row.
+    // Area of trapezoids, and of a rectangle beyond the last row.
     let exact = 0.004 * 1.2 + 0.006 * 1.55 + 0.99 * 1.7;
     assert!((table.work(1.0) - exact).abs() < 4.0 * f64::EPSILON * exact);
     assert_eq!((table.work(0.0), table.work(0.002)), (0.0, 0.002 * 1.1));
@@ -126,9 +126,8 @@ fn hardening_curves_interpolate() {
     assert_eq!(table.slope(1.0), 0.0);
 }
 
-/// A bar of E = 200, yield stress 1 and tangent modulus 40, pulled by a strain of 0.03: its stress
-/// is
-/// `1 + 40 (0.03 - 1/200) = 2`, of the strain `0.03 - 2/200 = 0.02` is plastic.
+/// A bar of E = 200, yield stress 1 and tangent modulus 40 under a strain of 0.03: the stress is
+/// `1 + 40 (0.03 - 1/200) = 2`, and `0.03 - 2/200 = 0.02` of the strain is plastic.
 #[test]
 fn a_tangent_modulus_is_the_slope_of_the_whole_strain() {
     let data = crate::scene::Material {
@@ -182,7 +181,7 @@ fn stress_after_flow_lies_on_the_yield_surface() {
     }
 }
 
-/// The consistent tangent is the derivative: central differences, error O(step^2).
+/// The consistent tangent is the derivative of the stress: central differences, error O(step^2).
 #[test]
 fn softening_is_the_derivative_of_the_stress() {
     for space in [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric] {
@@ -233,9 +232,9 @@ fn softening_is_the_derivative_of_the_stress() {
     }
 }
 
-/// The tangent of plane stress against central differences over many states: strains from just
-/// beyond yield to fifty times that, histories of either sign, all curves. Unloading points are
-/// elastic and lose nothing; points whose differences straddle the knee of a table are left out.
+/// The tangent of plane stress agrees with central differences in many states: strains from just
+/// beyond yield to fifty times as much, histories of either sign, all curves. Unloading points are
+/// elastic and lose nothing; points whose differences straddle a kink of a table are left out.
 #[test]
 fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
     let mut seed = 1u64;
@@ -261,7 +260,7 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
         ];
         let equivalent = 0.3 * size * (1.0 + random());
         let mut point = Point::with(&m, [p[0], p[1], -p[0] - p[1], p[2]], equivalent);
-        // No more than flow can bring about.
+        // Back stresses are limited to what flow can produce.
         let fading = m.back_stresses.rates().zip(&mut point.back);
         for (rate, back) in fading {
             let strain = tensor_of(back);
@@ -305,8 +304,8 @@ fn the_tangent_of_plane_stress_is_consistent_in_states_of_all_kinds() {
     assert!(yielding > 1000 && elastic > 100, "{yielding} {elastic}");
 }
 
-/// One-element cyclic test, uniaxial stress in plane stress: the yield stress grows with the path
-/// length.
+/// Cyclic test of one element under uniaxial stress in plane stress: the yield stress grows with
+/// the length of the plastic path.
 #[test]
 fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
     let (e, h, y) = (200.0, 20.0, 1.0);
@@ -316,7 +315,8 @@ fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
     let mut yield_now = y;
     let mut axial_plastic = 0.0;
     for target in [0.02, -0.02, 0.03, -0.01] {
-        // Lateral strain such that the lateral stress vanishes: bisection on a monotone function.
+        // The lateral stress must vanish: the lateral strain is found by bisection of a monotone
+        // function.
         let (mut a, mut b) = (-0.1, 0.1);
         for _ in 0..200 {
             let lateral = 0.5 * (a + b);
@@ -334,7 +334,7 @@ fn cyclic_uniaxial_stress_follows_the_hardening_curve() {
     }
 }
 
-/// A point that is harder than its material is one of a material whose whole curve is higher.
+/// A point with a higher yield stress behaves like a material whose whole curve is higher.
 #[test]
 fn a_harder_point_has_a_higher_curve() {
     for space in [Space::PlaneStrain, Space::PlaneStress, Space::Axisymmetric] {

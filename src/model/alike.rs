@@ -1,10 +1,10 @@
-//! Loads that change alike: the structure answers to their sum, whatever their number.
+//! Loads with equal factors, to whose sum the structure responds, whatever their number.
 
 use super::loads::LoadCase;
 
-/// The loads by their histories and by what they measure, each list ascending: the factors of the
-/// loads of one list are equal at every point of the load path. The leading load, whose force or
-/// displacement is reported, has a list of its own.
+/// Groups the loads by their histories and by what they measure, each list ascending: the factors
+/// of the loads of one list are equal at every point of the load path. The leading load, whose
+/// force or displacement is reported, has a list of its own.
 pub(super) fn alike(loads: &[LoadCase], leading: Option<usize>) -> Vec<Vec<usize>> {
     let mut lists: Vec<Vec<usize>> = Vec::new();
     for (index, load) in loads.iter().enumerate() {

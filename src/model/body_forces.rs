@@ -1,4 +1,4 @@
-//! Forces on the volume of a body: its weight, an acceleration, rotation.
+//! Forces on the volume of a body: weight, acceleration, rotation.
 //!
 //! ```text
 //! f_i = sum_e int N_i rho b dV,   b = a,   b = omega^2 (x - x_0),  x_0 nearest to x on the axis
@@ -12,8 +12,7 @@ use crate::scene::Rotation;
 use crate::space::{Space, Vector, along, difference, direction, dot, unit};
 use std::f64::consts::PI;
 
-/// What acts on a body: nodal forces, and the part of the body's volume that each of these nodes
-/// stands for.
+/// Nodal forces on a body, and the part of the body's volume that belongs to each of these nodes.
 pub(super) struct BodyForces {
     pub(super) nodal: Vec<(usize, Vector)>,
     pub(super) volumes: Vec<f64>,
@@ -51,8 +50,8 @@ pub(super) fn on_body(
     }
 }
 
-/// The centripetal field `omega^2 (x - x_0)`, which points away from the axis. In the plane the
-/// axis is normal to it, of an axisymmetric model it is the axis of symmetry.
+/// Centrifugal field `omega^2 (x - x_0)`, which points away from the axis. In plane models the axis
+/// is normal to the plane, in an axisymmetric model it is the axis of symmetry.
 pub(super) fn spinning(space: Space, rotation: &Rotation) -> impl Fn(Vector) -> Vector {
     let center = rotation.center.map_or([0.0; 3], |c| c.vector());
     let axis: Vector = match space {

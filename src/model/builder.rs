@@ -1,5 +1,4 @@
-//! A model from arrays: what a scene says in words and a mesh file in tables, handed over in
-//! memory.
+//! Builds a model from arrays in memory, in place of a scene and a mesh file.
 
 mod geometry;
 mod tables;
@@ -17,9 +16,9 @@ use crate::space::{Components, Space, Vector, in_words, length};
 use std::collections::BTreeMap;
 
 /// Builds a [`Model`] from arrays, without a scene file or a mesh file. Nodes and elements are
-/// numbered from 0 in the order in which they were given, and messages name them by these numbers;
-/// what stands in a scene's tables is given by the same types ([`crate::scene`]). A refused call
-/// leaves the builder as it was.
+/// numbered from 0 in the order in which they were given, and messages name them by these numbers.
+/// Entries of a scene's tables are given by the same types ([`crate::scene`]). A refused call
+/// leaves the builder unchanged.
 ///
 /// ```
 /// use brinell::analysis::Analysis;
@@ -64,7 +63,7 @@ pub struct ModelBuilder {
 }
 
 impl ModelBuilder {
-    /// An empty model: the whole of it is meshed, one target at load factor 1.
+    /// Starts an empty model: no copies by symmetry, and one target at load factor 1.
     pub fn new(kind: Space) -> Self {
         ModelBuilder {
             scene: Scene::of(kind),
@@ -76,22 +75,22 @@ impl ModelBuilder {
         }
     }
 
-    /// One line for humans.
+    /// Sets the title, one line for humans.
     pub fn title(&mut self, title: &str) -> &mut Self {
         self.scene.title = title.to_string();
         self
     }
 
-    /// How many copies of the model make the whole (see [`Scene::symmetry`]).
+    /// Sets how many copies of the model make the whole (see [`Scene::symmetry`]).
     pub fn symmetry(&mut self, copies: usize) -> &mut Self {
         self.scene.symmetry = copies;
         self
     }
 
-    /// Names a material. Its values are checked by [`ModelBuilder::build`].
+    /// Adds a material under a name. Its values are checked by [`ModelBuilder::build`].
     ///
     /// # Errors
-    /// A name that is taken.
+    /// A name that is already taken.
     pub fn material(&mut self, name: &str, material: Material) -> Result<&mut Self> {
         if self.scene.materials.contains_key(name) {
             return Err(Error::input(format!("two materials are named `{name}`")));
@@ -100,10 +99,10 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Says what a body is made of.
+    /// Sets the material and further properties of a body.
     ///
     /// # Errors
-    /// A body that has its material already.
+    /// A body that already has a material.
     pub fn body(&mut self, name: &str, body: Body) -> Result<&mut Self> {
         if self.scene.bodies.contains_key(name) {
             return Err(Error::input(format!(
@@ -114,17 +113,17 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Lets two surfaces touch; their nodes are paired by geometry.
+    /// Adds a contact between two surfaces; their nodes are paired by geometry.
     pub fn contact(&mut self, contact: Contact) -> &mut Self {
         self.scene.contact.push(contact);
         self
     }
 
-    /// Adds a rigid surface, which contacts and loads name as they name surfaces of the mesh. Its
-    /// values are checked by [`ModelBuilder::build`].
+    /// Adds a rigid surface, which contacts and loads name just as they name surfaces of the mesh.
+    /// Its values are checked by [`ModelBuilder::build`].
     ///
     /// # Errors
-    /// A name that is taken.
+    /// A name that is already taken.
     pub fn rigid(&mut self, name: &str, surface: RigidSurface) -> Result<&mut Self> {
         if self.scene.rigid.contains_key(name) {
             return Err(Error::input(format!(
@@ -135,18 +134,19 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Holds two surfaces together.
+    /// Adds a tie that holds two surfaces together.
     pub fn tie(&mut self, tie: Tie) -> &mut Self {
         self.scene.tie.push(tie);
         self
     }
 
-    /// Lets two surfaces touch at the given pairs of nodes. Nodes of the surfaces without a pair do
-    /// not touch; `contact.normal` is not used, `contact.gap` is that of pairs without their own.
+    /// Adds a contact between two surfaces at the given pairs of nodes. Nodes of the surfaces
+    /// without a pair take no part in the contact; `contact.normal` is not used, `contact.gap` is
+    /// the gap of pairs without a gap of their own.
     ///
     /// # Errors
-    /// By pair: an index of no node, a node in two pairs, a normal without direction, a gap that is
-    /// negative or not finite.
+    /// An index of no node, a node in two pairs, a normal without direction, a gap that is negative
+    /// or not finite; the message names the pair.
     pub fn contact_pairs(&mut self, contact: Contact, pairs: &[NodePair]) -> Result<&mut Self> {
         let mut pair_of = BTreeMap::new();
         for (k, pair) in pairs.iter().enumerate() {
@@ -180,25 +180,25 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Holds a node set or surface.
+    /// Adds a support, which holds a node set or surface.
     pub fn support(&mut self, support: Support) -> &mut Self {
         self.scene.support.push(support);
         self
     }
 
-    /// Loads a node set or surface.
+    /// Adds a load on a node set or surface.
     pub fn load(&mut self, load: Load) -> &mut Self {
         self.scene.load.push(load);
         self
     }
 
-    /// Loads nodes with forces of their own at factor 1, in global axes (z = 0 in the plane); they
-    /// act on the model itself, not on the whole of a symmetric one. `name` also becomes the name
-    /// of the set of these nodes.
+    /// Loads nodes with individual forces at factor 1, in global axes (z = 0 in the plane). The
+    /// forces act on the model itself, not on the whole of a symmetric one. `name` also becomes the
+    /// name of the set of these nodes.
     ///
     /// # Errors
-    /// Numbers of nodes and forces that differ, an index of no node, a force that is not finite, a
-    /// name that is taken.
+    /// Different numbers of nodes and forces, an index of no node, a force that is not finite, a
+    /// name that is already taken.
     pub fn nodal_load<I: Index>(
         &mut self,
         name: &str,
@@ -237,30 +237,30 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Adds a target of the load program. Without any there will be one at load factor 1.
+    /// Adds a target to the load program. Without any target there is one at load factor 1.
     pub fn target(&mut self, target: Target) -> &mut Self {
         self.scene.program.targets.push(target);
         self
     }
 
-    /// The load program, in place of the one so far.
+    /// Replaces the load program.
     pub fn program(&mut self, program: Program) -> &mut Self {
         self.scene.program = program;
         self
     }
 
-    /// The load program so far.
+    /// The load program set so far.
     pub fn load_program(&self) -> &Program {
         &self.scene.program
     }
 
-    /// How to compute.
+    /// Replaces the settings of the analysis.
     pub fn settings(&mut self, settings: Settings) -> &mut Self {
         self.scene.analysis = settings;
         self
     }
 
-    /// A vector by as many components as the model has coordinates.
+    /// Converts a vector to as many components as the model has coordinates.
     pub(crate) fn components(&self, vector: Vector) -> Components {
         match self.mesh.dimension {
             2 => [vector[0], vector[1]].into(),
@@ -268,10 +268,10 @@ impl ModelBuilder {
         }
     }
 
-    /// The model.
+    /// Checks all entries and builds the model.
     ///
     /// # Errors
-    /// Input errors naming the entry, node, element or pair; [`crate::ErrorKind::Unheld`] where a
+    /// Input errors that name the entry, node, element or pair; [`crate::ErrorKind::Unheld`] if a
     /// body can move freely and the loads do work on that motion.
     pub fn build(&self) -> Result<Model> {
         let mut scene = self.scene.clone();

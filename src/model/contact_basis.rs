@@ -1,17 +1,17 @@
-//! Displacements of quadratic faces in contact by control points.
+//! Displacements of quadratic faces in contact, expressed by control points.
 //!
 //! A uniform pressure pulls at the corners of a face of eight nodes (their weight is -1/12 of the
-//! area) and leaves those of one of six alone: no contact condition can be stated there. In the
-//! basis
+//! area) and does not act on the corners of a face of six: no contact condition can be stated
+//! there. In the basis
 //!
 //! ```text
 //! phi_c = N_c + alpha sum N_m (edges at c),   phi_m = (1 - 2 alpha) N_m,   alpha = 1/5
 //! u_m = (1 - 2 alpha) q_m + alpha (q_c1 + q_c2),   u_c = q_c
 //! ```
 //!
-//! all weights are positive (1/20 and 1/5 of the area; 2/15 and 1/5), and bodies whose control
-//! points `q` touch touch. Freedoms and forces of such faces are those of the control points; the
-//! sum of the coefficients is 1, so a rigid motion moves them as it moves points.
+//! all weights are positive (1/20 and 1/5 of the area; 2/15 and 1/5), and bodies touch where their
+//! control points `q` touch. Freedoms and forces of such faces belong to the control points; the
+//! sum of the coefficients is 1, so a rigid motion moves control points as it moves points.
 //!
 //! # Source
 //! A. Popp, B. Wohlmuth, M. Gee, W. Wall, *Dual quadratic mortar finite element methods for 3D
@@ -24,9 +24,9 @@ use crate::mesh::{Mesh, Surface};
 use crate::space::{Vector, along, dot};
 use std::collections::BTreeMap;
 
-/// Weight of each end of an edge at the middle of the edge.
+/// Weight of each end of an edge in the displacement of the middle of the edge.
 const ALPHA: f64 = ContactBasis::ALPHA;
-/// Weight of the middle's control point there.
+/// Weight of the middle's own control point in the displacement of the middle.
 const OWN: f64 = 1.0 - 2.0 * ALPHA;
 
 /// The middle nodes of the edges of quadratic faces in contact, each with the ends of its edge.
@@ -36,14 +36,14 @@ pub struct ContactBasis {
 }
 
 impl ContactBasis {
-    /// Weight of each end of an edge at the middle of the edge.
+    /// Weight of each end of an edge in the displacement of the middle of the edge.
     pub const ALPHA: f64 = 0.2;
 
-    /// The basis for the pairs of a solid model: of the slaves' faces, and of faces that match
-    /// them; of the faces that follow in ties.
+    /// Finds the basis for the pairs and ties of a solid model. It covers the slaves' faces, the
+    /// faces that match them, and the following faces of ties.
     ///
     /// # Errors
-    /// `Input` where nodes face each other, and one is the middle of an edge and the other is not.
+    /// `Input` if two nodes face each other of which only one is the middle of an edge.
     pub(super) fn of(
         mesh: &Mesh,
         pairs: &[Pair],
@@ -91,12 +91,12 @@ impl ContactBasis {
         Ok(basis)
     }
 
-    /// Whether control points are the nodes everywhere.
+    /// Whether all control points coincide with nodes.
     pub fn is_empty(&self) -> bool {
         self.ends.is_empty()
     }
 
-    /// The ends of the edge in whose middle a node lies.
+    /// Ends of the edge of which a node is the middle; `None` for all other nodes.
     #[inline]
     pub fn ends(&self, node: usize) -> Option<[usize; 2]> {
         if self.ends.is_empty() {
@@ -110,7 +110,7 @@ impl ContactBasis {
         self.ends.iter().map(|(&node, &ends)| (node, ends))
     }
 
-    /// The control points whose displacements that of a node is the sum of, with their weights.
+    /// Calls `of` with each control point, and its weight, in the displacement of a node.
     #[inline]
     pub(super) fn each_control(&self, node: usize, mut of: impl FnMut(usize, f64)) {
         match self.ends(node) {
@@ -122,7 +122,7 @@ impl ContactBasis {
         }
     }
 
-    /// A vector at a node, from those at control points.
+    /// Vector at a node, from the vectors at control points.
     #[inline]
     pub(crate) fn at_node(&self, node: usize, control: impl Fn(usize) -> Vector) -> Vector {
         match self.ends(node) {
@@ -134,7 +134,7 @@ impl ContactBasis {
         }
     }
 
-    /// A vector at a control point, from those at nodes.
+    /// Vector at a control point, from the vectors at nodes.
     pub(crate) fn at_control(&self, node: usize, value: impl Fn(usize) -> Vector) -> Vector {
         match self.ends(node) {
             None => value(node),
@@ -145,12 +145,12 @@ impl ContactBasis {
         }
     }
 
-    /// A number at a control point, from those at nodes.
+    /// Number at a control point, from the numbers at nodes.
     pub(super) fn number_at_control(&self, node: usize, value: impl Fn(usize) -> f64) -> f64 {
         self.at_control(node, |node| [value(node), 0.0, 0.0])[0]
     }
 
-    /// Forces on control points for those on nodes.
+    /// Converts forces on nodes to forces on control points.
     pub fn share(&self, forces: &mut [Vector]) {
         for (node, ends) in self.edges() {
             let own = forces[node];
@@ -161,7 +161,8 @@ impl ContactBasis {
         }
     }
 
-    /// Forces on nodes for those on control points: the inverse of [`ContactBasis::share`].
+    /// Converts forces on control points to forces on nodes: the inverse of
+    /// [`ContactBasis::share`].
     pub(crate) fn gather(&self, forces: &mut [Vector]) {
         for (node, ends) in self.edges() {
             let own = forces[node].map(|f| f / OWN);
@@ -172,7 +173,7 @@ impl ContactBasis {
         }
     }
 
-    /// As [`ContactBasis::share`], for forces on some nodes.
+    /// Converts forces on some nodes as [`ContactBasis::share`] does.
     pub(super) fn share_of(&self, forces: Vec<(usize, Vector)>) -> Vec<(usize, Vector)> {
         if self.ends.is_empty() {
             return forces;
@@ -187,8 +188,8 @@ impl ContactBasis {
         out.into_iter().collect()
     }
 
-    /// Puts gaps, interferences and areas of pairs of nodes, which are those of the nodes, in terms
-    /// of the control points; of other pairs what they say of masters.
+    /// Converts gaps, interferences and areas of node-to-node pairs from nodes to control points.
+    /// In other pairs the weights of the masters are converted.
     pub(super) fn restate(&self, pairs: &mut [Pair], contacts: &[ContactSurface]) {
         if self.ends.is_empty() {
             return;
@@ -237,7 +238,7 @@ impl ContactBasis {
     }
 }
 
-/// The middle nodes of the edges of a surface's faces, each with the ends of its edge.
+/// Finds the middle nodes of the edges of a surface's faces, each with the ends of its edge.
 fn middles(mesh: &Mesh, surface: &Surface) -> BTreeMap<usize, [usize; 2]> {
     let mut out = BTreeMap::new();
     for &facet in &surface.facets {

@@ -1,4 +1,5 @@
-//! What stresses follow from once the displacements are known: mesh, materials, where they yield.
+//! Data from which stresses follow once the displacements are known: mesh, materials, yield
+//! stresses.
 
 use super::YieldByDepth;
 use crate::element::{Gradients, Kernel};
@@ -8,12 +9,12 @@ use crate::scene::Formulation;
 use crate::space::{Space, Vector};
 use serde::{Deserialize, Serialize};
 
-/// Bodies as a continuum: all of a model's, or some of their elements by themselves.
+/// Bodies as a continuum: all bodies of a model, or a self-contained part of their elements.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Continuum {
     /// Plane strain, plane stress, axisymmetric or solid.
     pub kind: Space,
-    /// How elements are integrated.
+    /// Integration of the elements: with the mean dilatation or without.
     pub formulation: Formulation,
     /// The mesh of all bodies.
     pub mesh: Mesh,
@@ -21,14 +22,15 @@ pub struct Continuum {
     pub materials: Vec<Material>,
     /// Whether each body may yield.
     pub may_yield: Vec<bool>,
-    /// Yield stress by depth, of each body that has one.
+    /// Yield stress by depth, for each body that has such a profile.
     pub yield_by_depth: Vec<Option<YieldByDepth>>,
-    /// Whether fields have values at the integration points.
+    /// Whether fields are written at the integration points, too.
     pub point_values: bool,
 }
 
 impl Continuum {
-    /// Some elements, ascending, on their own nodes, and which nodes these are.
+    /// Extracts some elements, ascending, on their own nodes; also returns the numbers of these
+    /// nodes.
     pub fn part(&self, elements: &[usize]) -> (Continuum, Vec<u32>) {
         let (mesh, nodes) = self.mesh.part(elements);
         let part = Continuum {
@@ -41,7 +43,7 @@ impl Continuum {
         (part, nodes)
     }
 
-    /// The gradients at the Gauss points of an element.
+    /// Gradients at the Gauss points of an element.
     #[inline]
     pub fn gradients<const D: usize, const S: usize, const P: usize, const N: usize>(
         &self,
@@ -53,7 +55,7 @@ impl Continuum {
         kernel.gauss((self.mesh.shapes[element], integration), &nodes)
     }
 
-    /// Initial yield stress of a body at a place, infinite for an elastic material.
+    /// Initial yield stress of a body at a point; infinite for an elastic material.
     #[inline]
     pub fn yield_stress(&self, body: usize, place: Vector) -> f64 {
         match &self.yield_by_depth[body] {

@@ -1,4 +1,4 @@
-//! Depth below a surface: the distance from its facets, whose curved edges and faces are taken
+//! Depth below a surface: the distance from its facets, whose curved edges and faces are taken as
 //! straight between neighbouring nodes.
 
 use super::pairs::ContactSurface;
@@ -9,7 +9,7 @@ use crate::scene::{Scene, closest};
 use crate::space::{Vector, along, cross, difference, dot, length};
 use serde::{Deserialize, Serialize};
 
-/// A surface as triangles, or as lines, whose last two corners are one.
+/// A surface as triangles, or as lines, which are triangles with two equal last corners.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Simplices {
     corners: Vec<[Vector; 3]>,
@@ -29,15 +29,15 @@ impl Simplices {
         }
     }
 
-    /// Distance of a place from it.
+    /// Distance of a point from the surface.
     pub(super) fn distance(&self, place: Vector) -> f64 {
         self.balls
             .nearest(place, |k| from_triangle(place, self.corners[k]))
     }
 }
 
-/// Distance of a point from a triangle: from its plane where the foot lies inside, else from a
-/// side.
+/// Distance of a point from a triangle: from its plane if the foot lies inside, otherwise from the
+/// nearest side.
 fn from_triangle(x: Vector, [a, b, c]: [Vector; 3]) -> f64 {
     let normal = cross(difference(b, a), difference(c, a));
     let size = length(normal);
@@ -51,7 +51,7 @@ fn from_triangle(x: Vector, [a, b, c]: [Vector; 3]) -> f64 {
     sides.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Distance of a point from the line between two others.
+/// Distance of a point from the segment between two others.
 fn from_line(x: Vector, [a, b]: [Vector; 2]) -> f64 {
     let (way, off) = (difference(b, a), difference(x, a));
     let square = dot(way, way);
@@ -63,7 +63,7 @@ fn from_line(x: Vector, [a, b]: [Vector; 2]) -> f64 {
     length(difference(x, along(a, share, way)))
 }
 
-/// A facet as triangles or lines between neighbouring nodes.
+/// Splits a facet into triangles or lines between neighbouring nodes.
 fn simplices(mesh: &Mesh, facet: Facet) -> Vec<[Vector; 3]> {
     let x: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
     let n = mesh.facet_corners(facet);
@@ -84,12 +84,12 @@ fn fan(polygon: &[Vector]) -> Vec<[Vector; 3]> {
     pairs.map(|pair| [polygon[0], pair[0], pair[1]]).collect()
 }
 
-/// The surface from which the depths of a body count, that its `depth_from` names or those that may
-/// touch others. `key` is what asks for depths.
+/// Finds the surface from which the depths of a body are measured: the one that its `depth_from`
+/// names, or all its surfaces in contact. `key` is the entry that asks for depths.
 ///
 /// # Errors
-/// A surface that the mesh does not have or that is another body's; a body without a contact
-/// surface that names none.
+/// A surface that the mesh does not have or that belongs to another body; no `depth_from` in a body
+/// without a contact surface.
 pub(super) fn surface_of(
     scene: &Scene,
     mesh: &Mesh,
@@ -103,7 +103,7 @@ pub(super) fn surface_of(
     Ok(Simplices::new(corners))
 }
 
-/// The surfaces from which the depths of a body count.
+/// Finds the mesh surfaces from which the depths of a body are measured.
 fn surfaces<'m>(
     scene: &Scene,
     mesh: &'m Mesh,
@@ -165,8 +165,8 @@ fn surfaces<'m>(
 mod tests {
     use super::*;
 
-    /// A wavy surface of triangles and a line of segments: the tree finds what a scan finds, and a
-    /// fine sampling of the triangles is no nearer.
+    /// For a wavy surface of triangles and a polyline, the tree finds the same distance as a full
+    /// scan, and a fine sampling of the triangles finds no smaller one.
     #[test]
     fn depths_are_distances_from_the_facets() {
         let node = |i: usize, j: usize| {
@@ -211,7 +211,7 @@ mod tests {
                     }
                 }
             }
-            // Samples lie within 1.5/40 of any place of a triangle.
+            // Every point of a triangle has a sample within 1.5/40.
             assert!(
                 found <= sampled + 1e-12 && sampled * sampled <= found * found + 0.04f64.powi(2),
                 "{k}: {found} {sampled}"

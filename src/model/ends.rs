@@ -1,8 +1,8 @@
-//! Where contact candidates end although the bodies go on.
+//! Ends of the contact surfaces beyond which the boundary of a body goes on smoothly.
 //!
 //! A surface is named by the user or a generator; it may end in the middle of a smooth boundary.
-//! What lies beyond is not checked for contact, so a contact that reaches such an end is not to be
-//! believed. At a corner of one of the bodies, on a symmetry plane and on the axis of revolution
+//! The boundary beyond is not checked for contact, so a contact that reaches such an end is not
+//! reliable. At a corner of one of the bodies, on a symmetry plane and on the axis of revolution
 //! nothing more could touch.
 
 mod solid;
@@ -11,8 +11,8 @@ use super::{ContactSurface, Pair};
 use crate::mesh::{Facet, Mesh};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Angle in degrees by which the two boundaries must part for an end to be a corner: the feature
-/// angle that is usual for telling edges of a body from facets of a curved surface.
+/// Angle in degrees by which the two boundaries must diverge for an end to be a corner: the usual
+/// feature angle for telling edges of a body from facets of a curved surface.
 const FEATURE_ANGLE: f64 = 30.0;
 
 /// An end of a run of pairs: its last pair and the one before it.
@@ -55,12 +55,12 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
             let Some(master) = boundary.beyond(faced, inner) else {
                 continue;
             };
-            // As at the seam of a closed surface.
+            // The surface may be closed, and this end its seam.
             followed &= follows(&master);
             turn += master.turn;
         } else {
-            // Facets of the other surface go on, unless it ends among the masters; where it does,
-            // one of another contact may begin.
+            // Facets of the other surface continue unless that surface ends among the masters; in
+            // that case a surface of another contact may begin there.
             let contact = &contacts[end.contact];
             let other = mesh.surfaces.get(&contact.names[1 - contact.slave]);
             let other: BTreeSet<Facet> = (other.into_iter())
@@ -76,7 +76,7 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
     }
 }
 
-/// Nodes of pairs, and those whose supports bear what would press there.
+/// Nodes of pairs, and nodes whose supports carry what would press there.
 fn may_touch(pairs: &[Pair], contacts: &[ContactSurface]) -> BTreeSet<usize> {
     let held = contacts
         .iter()
@@ -84,8 +84,8 @@ fn may_touch(pairs: &[Pair], contacts: &[ContactSurface]) -> BTreeSet<usize> {
     pairs.iter().flat_map(Pair::nodes).chain(held).collect()
 }
 
-/// Ends of all contacts but those on the axis of revolution. At a plane of symmetry the boundary
-/// turns away by a right angle.
+/// Ends of all contacts except on the axis of revolution. At a plane of symmetry the boundary turns
+/// away by a right angle, so these ends need no exception.
 fn ends(contacts: &[ContactSurface]) -> Vec<End> {
     let mut out = Vec::new();
     for (contact, surface) in contacts.iter().enumerate() {
@@ -114,16 +114,16 @@ fn ends(contacts: &[ContactSurface]) -> Vec<End> {
     out
 }
 
-/// How a body's boundary goes on beyond a node.
+/// Continuation of a body's boundary beyond a node.
 struct Beyond {
-    /// The next facet, and its other end.
+    /// Next facet of the boundary; `next` is its other end.
     facet: Facet,
     next: usize,
-    /// Angle in degrees by which it turns away from the other body; negative towards it.
+    /// Angle in degrees by which the boundary turns away from the other body; negative towards it.
     turn: f64,
 }
 
-/// The two boundary facets at each of some nodes.
+/// The two boundary facets at each of the given nodes.
 struct Boundary<'m> {
     mesh: &'m Mesh,
     at: BTreeMap<usize, Vec<Facet>>,
@@ -159,8 +159,9 @@ impl<'m> Boundary<'m> {
         Boundary { mesh, at }
     }
 
-    /// How the boundary goes on at `node` on the side that the `inner` node of the surface is not
-    /// on; `None` where the node has no two boundary facets, or no inner node shows which.
+    /// Continuation of the boundary at `node` on the side opposite to the `inner` node of the
+    /// surface. `None` if the node does not have two boundary facets, or if no inner node shows the
+    /// side.
     fn beyond(&self, node: usize, inner: Option<usize>) -> Option<Beyond> {
         let [a, b] = self.at.get(&node)?[..] else {
             return None;
@@ -192,7 +193,7 @@ impl<'m> Boundary<'m> {
         })
     }
 
-    /// How the boundary turns away at a node where the candidates end.
+    /// Angle by which the boundary turns away at a node where the contact surface ends.
     fn end_of(&self, node: usize, candidates: &BTreeSet<Facet>) -> Option<f64> {
         let facets = self.at.get(&node)?;
         let mut inside = facets.iter().filter(|facet| candidates.contains(facet));
@@ -203,7 +204,7 @@ impl<'m> Boundary<'m> {
         Some(self.beyond(node, inner)?.turn)
     }
 
-    /// Tangent of a facet at one of its ends, away from it.
+    /// Tangent of a facet at one of its ends, pointing away from the end.
     fn leaving(&self, facet: Facet, node: usize) -> Option<[f64; 2]> {
         let nodes: Vec<usize> = self.mesh.facet_nodes(facet).collect();
         let other = *nodes.iter().take(2).find(|&&n| n != node)?;
@@ -212,7 +213,7 @@ impl<'m> Boundary<'m> {
         let Some(&middle) = nodes.get(2) else {
             return Some(chord);
         };
-        // Slope of the parabola through the three nodes.
+        // Slope at the end of the parabola through the three nodes.
         let m = self.mesh.in_plane(middle);
         Some([0, 1].map(|d| 4.0 * (m[d] - x[d]) - chord[d]))
     }

@@ -1,4 +1,4 @@
-//! Linear equations of the scene: which displacement follows which others.
+//! Linear equations of the scene, by which one displacement follows others.
 
 use super::freedoms::{Freedoms, Slot};
 use super::names::Entry;
@@ -10,19 +10,19 @@ use crate::space::{Vector, dot, unit};
 /// A displacement that follows others: `u . e_direction = sum v_k . u_k`.
 #[derive(Debug, Clone)]
 pub(super) struct Following {
-    /// The node that follows, and its direction.
+    /// Node whose displacement along `direction` follows.
     pub node: usize,
     pub direction: usize,
-    /// Nodes with `v`.
+    /// Nodes on the right-hand side, each with its vector `v`.
     pub terms: Vec<(usize, Vector)>,
-    /// Which of the scene's equations it is of.
+    /// Number of the scene's equation to which this displacement belongs.
     pub equation: usize,
 }
 
-/// The equations of a scene, one for each node that follows.
+/// Resolves the equations of a scene, with one entry for each following node.
 ///
 /// # Errors
-/// Input errors: sets that there are not, sets of different sizes.
+/// Input errors: sets that do not exist, sets of different sizes.
 pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Vec<Following>> {
     let mut out = Vec::new();
     for (index, equation) in scene.equation.iter().enumerate() {
@@ -38,7 +38,7 @@ pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Vec<Following>> {
                 (node, unit(term.direction.axis()).map(|e| share * e))
             });
             let (direction, terms) = (first.direction.axis(), terms.collect::<Vec<_>>());
-            // A node that all of a set follow may belong to it.
+            // A node that a whole set follows may itself belong to the set.
             if terms[..] != [(node, unit(direction))] {
                 out.push(Following {
                     node,
@@ -82,10 +82,10 @@ fn nodes_of_terms(
 }
 
 impl Following {
-    /// The axis of its node that follows, with the sense that it has along the direction.
+    /// Returns the local axis of the node that follows, and its sign relative to the direction.
     ///
     /// # Errors
-    /// Something else stands there already: a support, a load, a contact normal.
+    /// Something else already holds the axis: a support, a load, a contact normal.
     pub(super) fn axis(
         &self,
         scene: &Scene,

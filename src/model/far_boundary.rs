@@ -1,9 +1,9 @@
-//! How far a floating body has moved as a whole, as the boundary shows that is far from contact.
+//! Rigid motion of a floating body, measured on the boundary far from contact.
 //!
-//! The dent of a body is measured from where its undeformed surface would be. Supports say where
-//! that is; a body that only contact holds has none, and the surface through which it is loaded
-//! takes their place. The rigid motion `sum a_j R_j` that fits the displacement `u` of its nodes
-//! best,
+//! The dent of a body is measured from the position that its undeformed surface would have.
+//! Supports define this position. A body that only contact holds has no supports; the surface
+//! through which it is loaded takes their place. The rigid motion `sum a_j R_j` that best fits the
+//! displacement `u` of its nodes,
 //!
 //! ```text
 //!     a = G^-1 b,    G_ij = sum_f w_f R_if R_jf,    b_i = sum_f w_f R_if u_f
@@ -11,9 +11,9 @@
 //!
 //! is linear in `u`: each `a_j` is a row of weights on the freedoms `f` of these nodes. `w_f` is
 //! the node's share in a loaded surface times the work of that load on the motions: a load that
-//! presses elsewhere, or hardly at all, does not move the reference. A body on which no load works
-//! is measured from its mean: `w_f` is the node's share in the volume, so that half of a body is
-//! measured as the whole is.
+//! presses elsewhere, or hardly at all, does not move the reference. A body on which no load does
+//! work is measured from its mean: `w_f` is the node's share in the volume, so that half of a body
+//! is measured in the same way as the whole.
 
 use super::{Freedoms, LoadCase, RigidMotion, Slot};
 use crate::element::volume_points;
@@ -22,20 +22,20 @@ use crate::space::{Space, Vector};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::collections::BTreeMap;
 
-/// Smallest eigenvalue of `G`, scaled to a unit diagonal, at which the motions count as distinct by
-/// the nodes: half of the digits are left.
+/// Smallest eigenvalue of `G`, scaled to a unit diagonal, at which the nodes distinguish the
+/// motions: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
-/// A rigid motion that was pinned. Bodies take part in it as they deform, so it is fitted together
-/// with the motions that are left.
+/// A rigid motion that was pinned. The body takes part in it through deformation, so it is fitted
+/// together with the motions that remain free.
 pub(super) struct StoppedMotion {
     pub part: usize,
-    /// Displacement of the freedoms that move; a pinned one has the number of its pin behind those
-    /// of all free freedoms.
+    /// Displacement of the freedoms that move. The number of a pinned freedom is the number of its
+    /// pin plus the number of free freedoms.
     pub values: Vec<(u32, f64)>,
 }
 
-/// What the motions of bodies are measured on.
+/// Data on which the rigid motions of bodies are measured.
 pub(super) struct FarBoundary<'a> {
     pub part_of_node: &'a [usize],
     /// Share of each node in the volume.
@@ -47,8 +47,8 @@ pub(super) struct FarBoundary<'a> {
 }
 
 impl FarBoundary<'_> {
-    /// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]); `work(motion)` is the
-    /// work that each load with forces on its bodies does on a motion, by the loads' numbers.
+    /// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]). `work(motion)` is the
+    /// work on the motion of each load with forces on its bodies, by the numbers of the loads.
     pub(super) fn measure(
         &self,
         motions: &mut [RigidMotion],
@@ -85,7 +85,8 @@ impl FarBoundary<'_> {
                 .chain(stopped.map(|motion| &*motion.values))
                 .collect();
             let weights = [self.on_freedoms(loaded), self.on_freedoms(all)];
-            // Of all rigid motions, or of those that are left where some do not show.
+            // All rigid motions are fitted, or only the free ones if the nodes do not distinguish
+            // all.
             let fitted = weights.iter().find_map(|weights| {
                 fit(&values, weights).or_else(|| fit(&values[..of_part.len()], weights))
             });
@@ -99,8 +100,8 @@ impl FarBoundary<'_> {
         }
     }
 
-    /// The weight of each free and pinned freedom of these nodes; what several nodes share counts
-    /// as often.
+    /// Weight of each free and pinned freedom of these nodes. A freedom that several nodes share is
+    /// counted for each of them.
     fn on_freedoms(&self, nodes: impl Iterator<Item = (usize, f64)>) -> BTreeMap<u32, f64> {
         let pins = self.pins.iter().enumerate();
         let mut pins_of: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
@@ -120,7 +121,7 @@ impl FarBoundary<'_> {
     }
 }
 
-/// Share of each node in the volume of its elements: equal shares, none of which is below zero.
+/// Share of each node in the volume of its elements: equal shares, so that none is negative.
 pub(crate) fn volumes_of_nodes(space: Space, mesh: &Mesh) -> Vec<f64> {
     let mut out = vec![0.0; mesh.n_nodes()];
     for (element, &shape) in mesh.shapes.iter().enumerate() {
@@ -134,7 +135,7 @@ pub(crate) fn volumes_of_nodes(space: Space, mesh: &Mesh) -> Vec<f64> {
     out
 }
 
-/// The rows of `G^-1 R' W`; `None` where these freedoms do not distinguish the motions.
+/// Returns the rows of `G^-1 R' W`; `None` if these freedoms do not distinguish the motions.
 fn fit(motions: &[&[(u32, f64)]], weights: &BTreeMap<u32, f64>) -> Option<Vec<Vec<(u32, f64)>>> {
     let m = motions.len();
     let freedoms: Vec<(u32, f64)> = weights.iter().map(|(&f, &w)| (f, w)).collect();
@@ -177,7 +178,7 @@ mod tests {
 
     #[test]
     fn the_weights_give_back_the_amplitudes_of_rigid_motions() {
-        // Two freedoms each of three nodes: a shift along x, one along y, and a turn.
+        // Two freedoms at each of three nodes: translations along x and y, and a rotation.
         let place = [[0.0, 0.0], [2.0, 0.0], [1.0, 3.0f64]];
         let motion = |of: &dyn Fn([f64; 2]) -> [f64; 2]| -> Vec<(u32, f64)> {
             let values = place.iter().flat_map(|&x| of(x)).enumerate();
@@ -202,7 +203,7 @@ mod tests {
             let found: f64 = row.iter().map(|&(f, w)| w * displacement(f)).sum();
             assert!((found - amplitude).abs() < 1e-14, "{found} {amplitude}");
         }
-        // One node shows no turn about itself.
+        // A single node shows no rotation about itself.
         assert!(fit(&motions, &[(0, 1.0), (1, 1.0)].into()).is_none());
     }
 }

@@ -1,20 +1,20 @@
-//! Displacements that follow others: those of the nodes of tied surfaces, and those of equations.
+//! Displacements that follow others: those of slave nodes in ties, and those of equations.
 //!
-//! A row `j` of a tie says `R_j = D_j u_j - sum_k M_jk u_k = 0` of all directions; with it the
-//! displacement of a slave along each of its axes is a sum of others, which assembly eliminates.
-//! Where something else stands in a direction `n` of a slave `h` (a support, a prescribed
-//! displacement, a contact normal), that stays, and `n . R_h` is added to the rows of its
+//! A row `j` of a tie states `R_j = D_j u_j - sum_k M_jk u_k = 0` for all directions. It makes the
+//! displacement of a slave along each of its axes a sum of others, which assembly eliminates. If
+//! something else acts in a direction `n` of a slave `h` (a support, a prescribed displacement, a
+//! contact normal), it takes precedence, and `n . R_h` is added to the rows of the slave's
 //! neighbours:
 //!
 //! ```text
 //!     R_j + sum_h c_jh n n' R_h = 0,    c_jh = D_j / sum_j D_j
 //! ```
 //!
-//! so that the multipliers that are left still add up to any uniform traction.
+//! so that the remaining multipliers still add up to any uniform traction.
 //!
 //! # Source
-//! Nodes that are held, and nodes of two interfaces: B. Wohlmuth, *Discretization methods and
-//! iterative solvers based on domain decomposition*, Springer 2001, section 1.2.
+//! Held nodes, and nodes of two interfaces: B. Wohlmuth, *Discretization methods and iterative
+//! solvers based on domain decomposition*, Springer 2001, section 1.2.
 
 use super::equations::Following;
 use super::freedoms::{Freedoms, Slot};
@@ -26,38 +26,38 @@ use crate::scene::Scene;
 use crate::space::{Vector, along, dot, in_words};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Share of a coefficient of 1 up to which a coefficient counts as zero.
+/// Size up to which a coefficient counts as zero, relative to coefficients of 1.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
-/// Cosine squared up to which a direction is one of those that a node is free in.
+/// Squared cosine above which a direction lies in the free directions of a node.
 const FREE: f64 = 1.0 - 1e-6;
 
-/// A node and a place among its axes.
+/// A node and the number of one of its axes.
 type Axis = (usize, usize);
 
-/// What displacements follow.
+/// Displacements that follow others, by ties and equations.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Followers {
-    /// Place of each follower among the others.
+    /// Number of each follower, by its axis.
     place: BTreeMap<Axis, usize>,
-    /// `sum v . q` of control points.
+    /// Sum `sum v . q` of control points for each follower.
     terms: Vec<Vec<(usize, Vector)>>,
-    /// Number of those of ties, which are the first.
+    /// Number of followers by ties, which come first.
     of_ties: usize,
 }
 
-/// What stands at the axes of nodes besides supports and prescribed displacements.
+/// Other uses of nodes' axes besides supports and prescribed displacements.
 pub(super) struct Others<'a> {
-    /// Axes of surfaces held plane.
+    /// Whether an axis belongs to a surface that is held plane.
     pub plane: &'a dyn Fn(Axis) -> bool,
-    /// Contact pairs: normals of their slaves.
+    /// Contact pairs, which use the normals of their slaves.
     pub pairs: &'a [Pair],
 }
 
 impl Freedoms {
-    /// Lets the slaves of ties follow.
+    /// Makes the slaves of ties follow.
     ///
     /// # Errors
-    /// A slave all of whose neighbours are held as it is, though what it would follow is not.
+    /// A slave whose neighbours are all held in a direction in which its masters are not.
     pub(super) fn follow(
         &mut self,
         mesh: &Mesh,
@@ -107,10 +107,10 @@ impl Freedoms {
         Ok(followers)
     }
 
-    /// Lets displacements follow others by equations.
+    /// Makes displacements follow others by equations.
     ///
     /// # Errors
-    /// Input errors: a displacement that something else holds; a node that a tie moves as well.
+    /// Input errors: a displacement that is held otherwise; a node that a tie moves as well.
     pub(super) fn follow_equations(
         &mut self,
         scene: &Scene,
@@ -123,7 +123,7 @@ impl Freedoms {
         let of_ties = followers.terms.iter().flatten();
         let in_tie: BTreeSet<usize> = of_ties.map(|term| term.0).collect();
         for equation in equations {
-            // Nodes of ties are placed where they follow without strain, which equations may not
+            // Nodes of ties are moved to where they follow without strain, which equations may not
             // allow.
             let is_taken = |(node, i): Axis| {
                 (others.plane)((node, i))
@@ -141,14 +141,14 @@ impl Freedoms {
         Ok(())
     }
 
-    /// `scale v . sum w_k u_k` on control points.
+    /// Terms `scale v . sum w_k u_k` of the masters on control points.
     fn on_masters(&self, row: &Pair, v: Vector, scale: f64) -> Vec<(usize, Vector)> {
         let terms = row.masters.iter();
         let terms = terms.map(|&(node, w)| (node, v.map(|v| scale * w * v)));
         self.basis.share_of(terms.collect())
     }
 
-    /// Gives the condition of a slave along an axis that is taken to the rows of its neighbours.
+    /// Passes the condition of a slave along a used axis on to the rows of its neighbours.
     fn hand_on(
         &self,
         mesh: &Mesh,
@@ -207,12 +207,12 @@ impl Freedoms {
             .any(|(slot, _)| matches!(slot, Slot::Free(_) | Slot::Sum(_)))
     }
 
-    /// Puts followers in terms of numbered freedoms, and moves their nodes to where they follow
-    /// without strain: `x_j = sum w_jk x_k`, so that a rigid motion stays one. Returns whether any
+    /// Expresses followers by numbered freedoms, and moves their nodes to where they follow without
+    /// strain: `x_j = sum w_jk x_k`, so that a rigid motion remains one. Returns whether any node
     /// moved by more than round-off.
     ///
     /// # Errors
-    /// Ties and equations that go in a circle.
+    /// Ties and equations that form a circle.
     pub(super) fn settle(&mut self, mesh: &mut Mesh, followers: &Followers) -> Result<bool> {
         if followers.terms.is_empty() {
             return Ok(false);
@@ -283,7 +283,8 @@ impl Freedoms {
         moved
     }
 
-    /// What a slot stands for: free freedoms and prescribed displacements with their coefficients.
+    /// Calls `of` with the free freedoms and prescribed displacements of a slot, and their
+    /// coefficients.
     #[inline]
     pub(super) fn each(&self, slot: Slot, mut of: impl FnMut(Slot, f64)) {
         match slot {
@@ -305,13 +306,13 @@ impl Freedoms {
         self.followers.len()
     }
 
-    /// The nodes, axes and coefficients that a tied slot is the sum of.
+    /// Nodes, axes and coefficients whose sum a tied slot is.
     pub fn followed_axes(&self, tied: u32) -> &[(u32, u8, f64)] {
         &self.followers[tied as usize]
     }
 }
 
-/// Nodes that share a facet of the slave surface with each, with their weights.
+/// For each slave node the nodes that share a facet of the slave surface with it, with weights.
 fn neighbours(mesh: &Mesh, tie: &Tied) -> BTreeMap<usize, Vec<(usize, f64)>> {
     let weight: BTreeMap<usize, f64> = (tie.rows.iter()).map(|row| (row.slave, row.area)).collect();
     let mut out: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
@@ -340,7 +341,7 @@ enum Expanded {
     To(Vec<(Axis, f64)>),
 }
 
-/// Followers by the axes that follow nothing.
+/// Expands followers into axes that follow nothing.
 struct FollowerExpansion<'a> {
     freedoms: &'a Freedoms,
     mesh: &'a Mesh,

@@ -1,11 +1,11 @@
-//! Local axes of a node.
+//! Local axes of a node: choice of directions for contact normals and supports.
 
 use crate::space::{Vector, along, cross, direction, dot, length, unit};
 
-/// Three axes at right angles, right-handed.
+/// Three orthogonal unit axes, right-handed.
 pub type Frame = [Vector; 3];
 
-/// How far (sine of an angle) directions may be off right angles or a common line.
+/// Sine of the angle by which directions may deviate from a right angle or a common line.
 pub(super) const ALIGNED: f64 = 1e-6;
 
 /// Whether two unit vectors lie along a common line.
@@ -13,13 +13,13 @@ fn are_aligned(a: Vector, b: Vector) -> bool {
     length(cross(a, b)) <= ALIGNED
 }
 
-/// The axes of a node: the contact normal first, where there is one; the directions that are held
-/// are spanned by some of the others. Global axes where these will do. In the plane the third axis
-/// is out of it.
+/// Chooses the axes of a node. The contact normal, if there is one, comes first; the held
+/// directions are spanned by some of the other axes. Global axes are kept if possible. In the plane
+/// the third axis is the one out of the plane.
 ///
 /// # Errors
-/// The place of a direction that is not at right angles to the normal; in the plane also of one
-/// that is neither at right angles to nor along those before it.
+/// The number of a held direction that is not at right angles to the normal; in the plane also of
+/// one that is neither at right angles to nor along the directions before it.
 pub(super) fn frame(
     dimension: usize,
     normal: Option<Vector>,
@@ -48,8 +48,9 @@ pub(super) fn frame(
         if axes[..rigid].iter().any(|axis| off(axis) > ALIGNED) {
             return Err(k);
         }
-        // Of planes of symmetry at any angle the edge between them is held in what they span. Of
-        // a small angle the first difference leaves round-off over it, which a second takes off.
+        // Two planes of symmetry at any angle hold the node in all directions across their common
+        // edge. If the angle is small, the first difference has relatively large round-off, which a
+        // second difference removes.
         let less_axes = |d: Vector| {
             let axes = axes.iter();
             axes.fold(d, |rest, axis| along(rest, -dot(*axis, d), *axis))
@@ -71,14 +72,15 @@ pub(super) fn frame(
     let first = axes.first().copied().unwrap_or(unit(0));
     let second = axes.get(1).copied().unwrap_or_else(|| across(first));
     let third = cross(first, second);
-    // Along a global axis, not against it: nodes of a surface held plane share a freedom.
+    // The third axis points along a global axis, not against it: nodes of a plane surface share a
+    // freedom.
     if third.iter().any(|x| *x < ALIGNED - 1.0) {
         return Ok([first, second.map(|x| -x), third.map(|x| -x)]);
     }
     Ok([first, second, third])
 }
 
-/// A direction at right angles to another: the global axis that is farthest off it, made so.
+/// A direction at right angles to another, made from the global axis farthest from it.
 fn across(first: Vector) -> Vector {
     let share = |d: &usize| first[*d].abs();
     let axis = (0..3).min_by(|a, b| share(a).total_cmp(&share(b)));
@@ -104,29 +106,30 @@ mod tests {
             assert!(is_frame(&frame) && frame[0] == normal);
             assert!(held.is_empty() || frame[1] == unit(0));
         }
-        // Supports in global axes turn nothing.
+        // Supports along global axes need no rotated axes.
         assert_eq!(frame(3, None, &[unit(1), unit(0)]).unwrap()[0], unit(0));
         let slanted = direction([1.0, 2.0, 2.0]);
         assert_eq!(frame(3, None, &[slanted]).unwrap()[0], slanted);
-        // Two planes at an angle: the second axis is in what they span.
+        // Two planes at an angle: the second axis lies in the span of their normals.
         let edge = frame(3, None, &[slanted, unit(0)]).unwrap();
         assert!(is_frame(&edge) && edge[0] == slanted);
         assert!(dot(edge[2], unit(0)).abs() < 1e-15);
-        // The edge runs along y, whichever of the planes comes first.
+        // The edge runs along y, whichever plane comes first.
         let turned = direction([1.0, 0.0, 1.0]);
         for held in [[unit(2), turned], [turned, unit(2)]] {
             let edge = frame(3, None, &held).unwrap();
             assert!(is_frame(&edge) && (edge[2][1] - 1.0).abs() < 1e-15);
         }
-        // A third one at an angle holds the node altogether.
+        // A third plane at an angle holds the node completely.
         assert!(is_frame(
             &frame(3, None, &[slanted, unit(0), unit(1)]).unwrap()
         ));
         assert_eq!(frame(3, Some(slanted), &[unit(0)]), Err(0));
     }
 
-    /// A direction a milliradian off a global axis, or off another, is one of its own: the cosine
-    /// would take it for the same, and the sine would hold what is across it, too.
+    /// A direction a milliradian off a global axis, or off another direction, is distinct. The
+    /// cosine would not tell them apart, and the sine alone would hold the direction across it,
+    /// too.
     #[test]
     fn a_small_angle_is_an_angle() {
         for angle in [2e-6, 1e-3] {

@@ -1,5 +1,5 @@
-//! Freedoms: one per node and axis, in local axes where a contact normal or a turned support asks
-//! for it.
+//! Freedoms: one per node and axis, in local axes if a contact normal or a rotated support requires
+//! them.
 
 use super::Pair;
 use super::contact_basis::ContactBasis;
@@ -19,62 +19,64 @@ use crate::space::{Vector, dot, in_words, unit};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What stands in one of a node's directions.
+/// State of a node's displacement along one of its axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Slot {
-    /// A free freedom with its number. Nodes held plane share one.
+    /// A free freedom with its number. Nodes of a surface held plane share one.
     Free(u32),
     /// A displacement held at zero.
     Fixed,
     /// A displacement held at a prescribed value, see [`Freedoms::prescribed`].
     Prescribed(u32),
-    /// A sum of other displacements, which it follows in a tie or an equation.
+    /// A weighted sum of other displacements, which this one follows in a tie or an equation.
     Sum(u32),
 }
 
-/// A prescribed displacement.
+/// Displacement prescribed by a load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prescribed {
-    /// Index of the load whose factor scales it.
+    /// Index of the load whose factor scales the displacement.
     pub load: usize,
-    /// Value at factor 1.
+    /// Displacement at factor 1.
     pub value: f64,
 }
 
-/// Numbering of the freedoms and the local axes they stand for: `u = sum u_i a_i`.
+/// Numbering of the freedoms, and the local axes to which they belong: `u = sum u_i a_i`.
 #[derive(Debug, Clone, Default)]
 pub struct Freedoms {
     /// Number of free freedoms.
     pub n: usize,
-    /// Freedoms of a node: the dimension of the mesh.
+    /// Number of freedoms of a node, which is the dimension of the mesh.
     pub per_node: usize,
-    /// The slots of each node; in the plane the third is held.
+    /// Slots of each node, one per local axis; in the plane the third is held.
     pub slots: Vec<[Slot; 3]>,
-    /// The local axes of each node, as a place in `frames`.
+    /// Number of each node's local axes in `frames`.
     frame_of: Vec<u32>,
-    /// Global axes first.
+    /// All different local axes, the global ones first.
     frames: Vec<Frame>,
-    /// Prescribed displacements.
+    /// Displacements that loads prescribe.
     pub prescribed: Vec<Prescribed>,
-    /// A node and local direction for each free freedom, for messages.
+    /// Node and local direction of each free freedom, for messages.
     pub owners: Vec<(u32, u8)>,
-    /// Where freedoms are those of control points.
+    /// Control points to whose displacements freedoms belong on quadratic faces in contact.
     pub basis: ContactBasis,
-    /// What gives way in soft contact: the last of the free freedoms.
+    /// Springs of soft contact, whose freedoms are the last of the free freedoms.
     pub springs: Vec<Spring>,
-    /// The first node of rigid surfaces, of which all nodes from there on are.
+    /// First node of rigid surfaces; all nodes from it on belong to rigid surfaces.
     first_rigid: Option<usize>,
-    /// What sums stand for: nodes, axes and coefficients.
+    /// Nodes, axes and coefficients of each sum.
     pub(super) followers: Vec<Vec<(u32, u8, f64)>>,
 }
 
 impl Freedoms {
-    /// Numbers the freedoms of a scene. Contact normals on symmetry planes are turned into the
-    /// plane (`pairs` is updated). `master_normals` are those of masters that face no single node.
+    /// Numbers the freedoms of a scene. Contact normals on symmetry planes are rotated into the
+    /// plane (`pairs` is updated). `master_normals` are the normals of masters that face no single
+    /// node.
     ///
     /// # Errors
-    /// Input errors: a support in the direction of a contact normal, turned supports that disagree,
-    /// a prescribed displacement on a held freedom, a plane surface that is not free to move.
+    /// Input errors: a support in the direction of a contact normal, rotated supports that
+    /// disagree, a prescribed displacement on a held freedom, a plane surface that is not free to
+    /// move.
     pub(super) fn new(
         scene: &Scene,
         mesh: &Mesh,
@@ -99,8 +101,8 @@ impl Freedoms {
                 normal_of[node] = Some(pair.normal);
             }
         }
-        // Other masters have no normal that they must have: where nothing holds them, an axis of
-        // their own keeps rows short.
+        // Other masters do not need the normal as an axis. Where nothing holds them, such an axis
+        // keeps contact rows short.
         let mut touches: Vec<bool> = normal_of.iter().map(Option::is_some).collect();
         for &(node, normal) in master_normals {
             touches[node] = true;
@@ -152,12 +154,12 @@ impl Freedoms {
         Ok((freedoms, followers))
     }
 
-    /// Refuses an edge whose middle is held by its control point and whose ends are not held as
-    /// well.
+    /// Refuses an edge whose middle is held through its control point while its ends are not held
+    /// in the same way.
     fn check_edges(&self, mesh: &Mesh) -> Result<()> {
         let held = |node: usize, direction: Vector| {
             let axes = self.local(node);
-            // Planes at any angle hold what they span.
+            // Planes at any angle hold all directions in the span of their normals.
             let fixed = (0..3).filter(|&i| self.slots[node][i] == Slot::Fixed);
             if fixed.map(|i| dot(axes[i], direction).powi(2)).sum::<f64>() > 1.0 - ALIGNED {
                 return Some((usize::MAX, 0.0));
@@ -199,18 +201,18 @@ impl Freedoms {
         }
     }
 
-    /// Gives a node axes of which the first is a direction.
+    /// Rotates the axes of a node so that the first lies along a direction.
     pub(super) fn turn(&mut self, node: usize, first: Vector) {
         let frame = frame(self.per_node, Some(first), &[]).unwrap_or_default();
         self.set_frame(node, frame);
     }
 
-    /// Whether a node is one of a rigid surface.
+    /// Whether a node belongs to a rigid surface.
     pub fn is_rigid(&self, node: usize) -> bool {
         self.first_rigid.is_some_and(|first| node >= first)
     }
 
-    /// The free freedoms of rigid surfaces.
+    /// Free freedoms of rigid surfaces.
     pub(crate) fn of_rigid(&self) -> impl Iterator<Item = usize> + '_ {
         let owners = self.owners.iter().enumerate();
         owners
@@ -218,8 +220,8 @@ impl Freedoms {
             .map(|(freedom, _)| freedom)
     }
 
-    /// Holds a node along the directions of its supports, in axes of which one is the contact
-    /// normal, where there is one.
+    /// Holds a node along the directions of its supports, in axes of which the first is the contact
+    /// normal if there is one.
     fn hold(
         &mut self,
         scene: &Scene,
@@ -269,7 +271,7 @@ impl Freedoms {
         Ok(())
     }
 
-    /// Prescribed displacements become slots; surfaces held plane become groups.
+    /// Turns prescribed displacements into slots, and surfaces held plane into groups.
     fn apply_loads(&mut self, scene: &Scene, mesh: &Mesh, touches: &[bool]) -> Result<Planes> {
         let mut planes = Planes::new();
         for (index, load) in scene.load.iter().enumerate() {
@@ -365,7 +367,7 @@ impl Freedoms {
         }
     }
 
-    /// Holds a freedom at zero and renumbers.
+    /// Holds a freedom at zero and renumbers the freedoms after it.
     pub(super) fn pin(&mut self, freedom: usize) {
         for slot in self.slots.iter_mut().flatten() {
             if let Slot::Free(f) = *slot {
@@ -380,31 +382,32 @@ impl Freedoms {
         self.n -= 1;
     }
 
-    /// The slots of a node, one for each axis of the model.
+    /// Slots of a node, one for each axis of the model.
     #[inline]
     pub fn of_node(&self, node: usize) -> &[Slot] {
         &self.slots[node][..self.per_node]
     }
 
-    /// The local axes of a node, of which a contact normal is the first.
+    /// Local axes of a node; a contact normal is the first.
     #[inline]
     pub fn local(&self, node: usize) -> Frame {
         self.frames[self.frame_of[node] as usize]
     }
 
-    /// Whether the axes of a node are others than the global ones.
+    /// Whether the axes of a node differ from the global ones.
     #[inline]
     pub fn is_turned(&self, node: usize) -> bool {
         self.frame_of[node] != 0
     }
 
-    /// Which local axis lies along a global direction (either sense), if one does.
+    /// Number of the local axis along a global direction (in either sense); `None` if there is
+    /// none.
     pub(crate) fn local_axis(&self, node: usize, direction: usize) -> Option<usize> {
         let axes = self.local(node);
         (0..self.per_node).find(|&i| dot(axes[i], unit(direction)).abs() > 1.0 - ALIGNED)
     }
 
-    /// The free freedom of a node's contact normal (its first local axis).
+    /// Free freedom of a node along its contact normal (its first local axis).
     pub fn normal_freedom(&self, node: usize) -> Option<usize> {
         match self.slots[node][0] {
             Slot::Free(f) => Some(f as usize),
@@ -435,6 +438,6 @@ impl Freedoms {
     }
 }
 
-/// Group of each node and local direction of a surface held plane (load index) or of a rigid one
-/// (numbers beyond those of the loads).
+/// Group of each node and local direction that belong to a surface held plane (load index) or to a
+/// rigid one (numbers beyond those of the loads).
 type Planes = BTreeMap<(usize, usize), usize>;

@@ -1,4 +1,4 @@
-//! What a model made from arrays states node by node, where a scene leaves it to the geometry.
+//! Data of a model from arrays that are stated node by node, where a scene relies on geometry.
 
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
@@ -6,7 +6,8 @@ use crate::space::{Vector, direction, dot, in_words, length};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Two nodes that may touch, by their indices, with what is known better than from the mesh.
+/// Two nodes that may touch, given by their indices, with normal and gap if these are known better
+/// than from the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct NodePair {
     /// Node of the first surface.
@@ -20,8 +21,8 @@ pub struct NodePair {
     pub gap: Option<f64>,
 }
 
-/// What is given in addition to a scene: pairs of a contact and nodal forces of a load, by the
-/// index of their entry.
+/// Data given in addition to a scene: pairs of a contact and nodal forces of a load, by the index
+/// of the contact or load.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(crate) struct Given {
     pub(super) pairs: BTreeMap<usize, Vec<NodePair>>,
@@ -30,11 +31,11 @@ pub(crate) struct Given {
 }
 
 impl Given {
-    /// Checks that forces act on nodes that there are; those of pairs are looked up on their
-    /// surfaces.
+    /// Checks that forces act on existing nodes; nodes of pairs are checked when they are looked up
+    /// on their surfaces.
     ///
     /// # Errors
-    /// A node that there is not.
+    /// A force on a node that does not exist.
     pub(super) fn check(&self, n_nodes: usize) -> Result<()> {
         let nodes = self.forces.values().flatten().map(|(node, _)| *node);
         match nodes.into_iter().find(|node| *node >= n_nodes) {
@@ -46,22 +47,22 @@ impl Given {
     }
 }
 
-/// The node that faces a node of the second surface.
+/// The node of the first surface that faces a node of the second.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Partner {
     /// Place among the nodes of the first surface.
     pub(super) first: usize,
     pub(super) normal: Vector,
-    /// `None` for that of the contact, or the geometric one.
+    /// Gap of the pair; `None` for that of the contact, or else the geometric one.
     pub(super) gap: Option<f64>,
 }
 
-/// A vector whose length is one to round-off is one: normalising it again would change its last
-/// digit.
+/// Deviation from 1 up to which a vector's length counts as 1: normalising it again would only
+/// change its last digit.
 const UNIT: f64 = 4.0 * f64::EPSILON;
 
-/// Partner of each node of the second surface. `normals` are the outward normals of the second
-/// surface.
+/// Finds the partner of each node of the second surface. `normals` are the outward normals of the
+/// second surface.
 ///
 /// # Errors
 /// A pair whose nodes are not on the two surfaces, or whose normal points into the second body.

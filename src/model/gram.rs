@@ -1,10 +1,10 @@
-//! The product of the rows that hold rigid motions with themselves, and its free motions.
+//! Gram matrix of the rows that hold rigid motions, and the motions that it leaves free.
 
 use crate::classes::Classes;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use std::collections::BTreeMap;
 
-/// A symmetric matrix by rows, its nonzeros only: bodies are coupled to few others.
+/// A sparse symmetric matrix, stored by rows: each body is coupled to few others.
 pub(super) struct Gram {
     rows: Vec<BTreeMap<usize, f64>>,
 }
@@ -16,8 +16,8 @@ impl Gram {
         }
     }
 
-    /// Adds `row row'`; entries of a row at the same place add up first, which of a contact row
-    /// with many masters leaves two bodies' motions.
+    /// Adds `row row'`. Entries of the row at the same place are added first, which reduces a
+    /// contact row with many masters to the motions of two bodies.
     pub(super) fn add(&mut self, row: &[(usize, f64)]) {
         let mut summed: BTreeMap<usize, f64> = BTreeMap::new();
         for &(i, a) in row {
@@ -38,8 +38,9 @@ impl Gram {
         (0..self.rows.len()).fold(0.0, |m, i| m.max(self.get(i, i)))
     }
 
-    /// The rows of groups (of `per` rows each) that nothing couples with others, ascending. Within
-    /// a block groups with few neighbours come first, which keeps the envelope of its factor small.
+    /// Blocks of rows that nothing couples with other blocks, ascending; rows come in groups of
+    /// `per`. Within a block groups with few neighbours come first, which keeps the envelope of its
+    /// factor small.
     pub(super) fn uncoupled(&self, per: usize) -> Vec<Vec<usize>> {
         let n = self.rows.len() / per;
         let mut classes = Classes::new(n);
@@ -62,8 +63,8 @@ impl Gram {
         blocks.collect()
     }
 
-    /// Whether a block less `shift` times the identity has a Cholesky factor, which is kept from
-    /// the first nonzero of each row on.
+    /// Whether a block minus `shift` times the identity has a Cholesky factor. The factor is stored
+    /// from the first nonzero of each row on.
     pub(super) fn is_definite(&self, block: &[usize], shift: f64) -> bool {
         let mut place = BTreeMap::new();
         place.extend(block.iter().enumerate().map(|(k, &row)| (row, k)));
@@ -100,7 +101,7 @@ impl Gram {
         true
     }
 
-    /// Rows of a block, ascending, and on them its eigenvectors with eigenvalues below `limit`.
+    /// Rows of a block, ascending, and its eigenvectors on them with eigenvalues below `limit`.
     pub(super) fn null_vectors(
         &self,
         block: &[usize],

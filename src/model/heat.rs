@@ -1,14 +1,15 @@
-//! Strains that no stress belongs to: by a change of temperature, or brought along.
+//! Strains without stress: from a change of temperature, or initial ones of a body.
 //!
-//! A point that may expand freely has the strain `eps_0 = alpha dT` along all axes, one with
-//! residual stress whatever strain that took. It enters as plastic strains do, as an initial load:
+//! A point that can expand freely has the strain `eps_0 = alpha dT` along all axes, a point with
+//! residual stress the strain that causes it. The free strain enters like plastic strains, as an
+//! initial load:
 //!
 //! ```text
 //! sigma = D (eps - eps_p - eps_0),   f = sum_g w_g B' D eps_0
 //! ```
 //!
-//! The free strain is interpolated between the nodes; linear elements have the mean of theirs, as
-//! their stress can follow no more than that.
+//! The free strain is interpolated between the nodes. Linear elements take the mean of their nodes'
+//! values, as their stress cannot follow more.
 
 use super::Model;
 use crate::element::{Gradients, Kernel, with_kernel};
@@ -21,10 +22,10 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Some components of a free strain, all of one value at each node.
+/// Some components of a free strain that have the same value at each node.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FreeStrain {
-    /// Which components.
+    /// Range of the components that have this value.
     pub components: Range<usize>,
     /// Value of these components at each node of the mesh.
     pub nodal: Vec<f64>,
@@ -37,7 +38,7 @@ impl FreeStrain {
     }
 }
 
-/// The free strain at an element's nodes: of linear elements their mean.
+/// Free strain at an element's nodes; in linear elements the mean at each node.
 fn of_element<const N: usize>(mesh: &Mesh, element: usize, nodal: &[f64]) -> [f64; N] {
     let mut out = [0.0; N];
     let nodes = mesh.nodes(element);
@@ -102,30 +103,30 @@ fn forces_of<const D: usize, const S: usize, const P: usize, const N: usize>(
     out.into_iter().collect()
 }
 
-/// A free strain of a load.
+/// A free strain that belongs to a load.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FreeOfLoad<'a> {
     /// Index of the load.
     pub load: usize,
-    /// The body whose elements have it.
+    /// Number of the body whose elements have the strain.
     body: u32,
     strain: Cow<'a, FreeStrain>,
 }
 
 impl FreeOfLoad<'_> {
-    /// Components of the strain that the load has.
+    /// Components in which the load has a free strain.
     pub fn components(&self) -> &Range<usize> {
         &self.strain.components
     }
 
-    /// Free strain at an element's nodes at load factor 1; `None` in another body.
+    /// Free strain at an element's nodes at load factor 1; `None` for an element of another body.
     #[inline]
     pub fn at_nodes<const N: usize>(&self, mesh: &Mesh, element: usize) -> Option<[f64; N]> {
         let is_own = mesh.element_body[element] == self.body;
         is_own.then(|| of_element(mesh, element, &self.strain.nodal))
     }
 
-    /// The free strain on some of the nodes, numbered as they come.
+    /// Restricts the free strain to some nodes, which are renumbered in the given order.
     pub fn part(&self, nodes: &[u32]) -> FreeOfLoad<'static> {
         let nodal = nodes.iter().map(|&node| self.strain.nodal[node as usize]);
         let strain = FreeStrain {
@@ -141,7 +142,7 @@ impl FreeOfLoad<'_> {
 }
 
 impl Model {
-    /// The free strains of all loads.
+    /// Free strains of all loads of the model.
     pub fn free_of_loads(&self) -> Vec<FreeOfLoad<'_>> {
         let loads = self.loads.iter().enumerate();
         let each = loads.flat_map(|(index, load)| {

@@ -1,9 +1,8 @@
-//! Which bodies are held, and by what: supports, contact alone, or nothing.
+//! Floating bodies: whether supports, contact alone or nothing holds each body.
 //!
 //! Rigid motions of all bodies together are tested against the supports and, bilaterally, the
 //! contact pairs. A motion that both leave free is an error that names the body and the motion,
-//! unless no load does work on it: then one freedom is pinned, which changes nothing but the free
-//! motion.
+//! unless no load does work on it: then one freedom is pinned, which affects only the free motion.
 
 use super::far_boundary::{FarBoundary, StoppedMotion};
 use super::motions::{self, FREE, Mode, Motions};
@@ -13,7 +12,7 @@ use crate::mesh::Mesh;
 use crate::space::Space;
 use std::collections::BTreeSet;
 
-/// Bodies that supports alone do not hold.
+/// Bodies that are not held by supports alone, and their rigid motions.
 #[derive(Debug, Clone, Default)]
 pub struct FloatingBodies {
     /// Whether each contact freedom belongs to a floating body.
@@ -22,29 +21,29 @@ pub struct FloatingBodies {
     pub bodies: Vec<String>,
     /// Motions that were pinned.
     pub pins: Vec<Pin>,
-    /// Rigid motions that supports and pins leave free: a basis.
+    /// Basis of the rigid motions that supports and pins leave free.
     pub motions: Vec<RigidMotion>,
-    /// Part of the model (bodies that share nodes or free motions) that each contact freedom
-    /// belongs to.
+    /// Part of the model to which each contact freedom belongs; a part is a set of bodies that
+    /// share nodes or free motions.
     pub part_of_contact: Vec<usize>,
 }
 
-/// A rigid motion that supports leave free: a null vector of the stiffness, known exactly where a
-/// factorisation would find it to round-off of the body's stiffness only.
+/// A rigid motion that supports leave free: a null vector of the stiffness. It is known exactly,
+/// whereas a factorisation would find it only up to round-off of the body's stiffness.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigidMotion {
-    /// The part of the model that moves.
+    /// Number of the part of the model that moves.
     pub part: usize,
-    /// Displacement of the freedoms that move (free freedom, value), ascending. Turns are scaled to
-    /// the body's size: values are of order 1.
+    /// Displacement of the freedoms that move (free freedom, value), ascending. Rotations are
+    /// scaled to the body's size: values are of order 1.
     pub values: Vec<(u32, f64)>,
-    /// Share of the motion in any displacement `u`, as the part's far boundary shows it:
-    /// `sum weight u[freedom]`.
+    /// Weights that give the share of the motion in any displacement `u`, measured on the part's
+    /// far boundary: `sum weight u[freedom]`.
     pub in_far_boundary: Vec<(u32, f64)>,
 }
 
 impl RigidMotion {
-    /// Displacement of a free freedom.
+    /// Displacement of a free freedom in this motion.
     pub fn at(&self, freedom: usize) -> f64 {
         let place = self
             .values
@@ -52,14 +51,14 @@ impl RigidMotion {
         place.map_or(0.0, |at| self.values[at].1)
     }
 
-    /// What forces on free freedoms (freedom, force) do on the motion.
+    /// Work of forces on free freedoms (freedom, force) on the motion.
     pub fn work_of<'f>(&self, forces: impl Iterator<Item = &'f (usize, f64)>) -> Work {
         let works = forces.map(|&(freedom, force)| force * self.at(freedom));
         works.fold(Work::default(), |sum, work| sum.and(1.0, work, work.abs()))
     }
 }
 
-/// Work on a rigid motion: a sum and that of the sizes of its terms.
+/// Work on a rigid motion: the sum of its terms, and the sum of their sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Work {
     sum: f64,
@@ -67,7 +66,7 @@ pub struct Work {
 }
 
 impl Work {
-    /// This work with `share` of another of this sum and size.
+    /// Adds `share` of another work with the given sum and size.
     fn and(self, share: f64, sum: f64, size: f64) -> Self {
         Work {
             sum: self.sum + share * sum,
@@ -75,14 +74,14 @@ impl Work {
         }
     }
 
-    /// Work on a motion which has shares of others.
+    /// Work on a motion that is a combination of others.
     pub fn combined(shares: impl Iterator<Item = (f64, Work)>) -> Self {
         shares.fold(Work::default(), |all, (share, own)| {
             all.and(share, own.sum, own.size)
         })
     }
 
-    /// The work: none where it is no more than the round-off of its terms.
+    /// Value of the work; zero if it is only the round-off of its terms.
     pub fn done(self) -> f64 {
         if self.sum.abs() > NO_WORK * self.size {
             self.sum
@@ -92,23 +91,23 @@ impl Work {
     }
 }
 
-/// A freedom that was held because nothing else held it and no load works on its motion.
+/// A freedom that was pinned because nothing else held it and no load does work on its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pin {
-    /// The motion, in words.
+    /// Description of the motion in words.
     pub motion: String,
-    /// Node that was pinned.
+    /// Node of the pinned freedom.
     pub node: usize,
 }
 
-/// Work below which a load does none on a motion, relative to the sum of its parts.
+/// Work that counts as zero, relative to the sum of the sizes of its terms.
 const NO_WORK: f64 = 1e-9;
-/// Work below which a load does none on a motion that moves no pair by more than [`FREE`] of its
-/// own displacement, relative to the sum of its parts: the centre of a round surface is known no
-/// better, and a load through it does so much work.
+/// Work that counts as zero on a motion that moves no pair by more than [`FREE`] of its own
+/// displacement, relative to the sum of the sizes of its terms. The centre of a round surface is
+/// known no more accurately than that, and a load through it does about that much work.
 const NO_WORK_FOUND: f64 = 10.0 * FREE;
 
-/// The floating bodies, and the contact rows on the freedoms that pins leave.
+/// Finds the floating bodies, and the contact rows on the freedoms that pins leave free.
 pub(super) fn resolve(
     space: Space,
     mesh: &Mesh,
@@ -134,8 +133,8 @@ pub(super) fn resolve(
         if free.is_empty() {
             break;
         }
-        // Motions that have no body in common stay free when one of them is pinned: all of these in
-        // one go.
+        // Motions that have no body in common stay free when one of them is pinned, so all of them
+        // are pinned at once.
         let mut moved = vec![false; motions.names.len()];
         for mode in &free {
             let groups = motions.moved(mode);

@@ -1,10 +1,10 @@
-//! Stresses and strains that a body brings along, as strains that no stress belongs to.
+//! Initial stresses and strains of a body, expressed as strains without stress.
 //!
 //! ```text
 //! sigma = D (eps - eps_0),   eps_0 = eps_p0 - C sigma_0,   C = D^-1 in space
 //! ```
 //!
-//! They are loads that act from the start, whatever the load factor.
+//! Initial strains are loads that act from the start, whatever the load factor.
 
 use super::Freedoms;
 use super::depth;
@@ -17,10 +17,11 @@ use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::scene::{History, Scene};
 
-/// Components of a tensor.
+/// Number of components of a symmetric tensor.
 const COMPONENTS: usize = 6;
 
-/// The loads of what bodies bring along. What is zero everywhere is no load.
+/// Resolves the loads of the bodies' initial stresses and strains. An initial field that is zero
+/// everywhere is no load.
 ///
 /// # Errors
 /// Errors of [`depth::surface_of`].
@@ -58,7 +59,7 @@ pub(super) fn resolve(
     Ok(out)
 }
 
-/// The value of a profile at each node of the mesh, zero at nodes of other bodies.
+/// Value of a profile at each node of the mesh; zero at nodes of other bodies.
 fn nodal(
     (scene, mesh, contacts): (&Scene, &Mesh, &[ContactSurface]),
     body: (usize, &str),
@@ -69,7 +70,7 @@ fn nodal(
         rows.iter().map(|row| [row[0], value(row)]).collect()
     };
     let columns: [Vec<[f64; 2]>; COMPONENTS] = std::array::from_fn(column);
-    // A single row is the same at any depth.
+    // A profile of a single row has the same value at any depth.
     let surface = match rows.len() {
         1 => None,
         _ => Some(depth::surface_of(scene, mesh, body, key, contacts)?),
@@ -90,7 +91,7 @@ fn nodal(
     Ok(out)
 }
 
-/// The strain whose stress takes an initial one away: `-C sigma_0`.
+/// Strain whose elastic stress cancels an initial stress: `-C sigma_0`.
 fn strain_of(material: &Material, stress: &[f64; COMPONENTS]) -> [f64; COMPONENTS] {
     let (e, nu) = (material.youngs_modulus, material.poissons_ratio);
     let trace: f64 = stress[..3].iter().sum();
@@ -100,7 +101,7 @@ fn strain_of(material: &Material, stress: &[f64; COMPONENTS]) -> [f64; COMPONENT
     })
 }
 
-/// Component by component, without those that are zero everywhere.
+/// Splits strains into components, leaving out components that are zero everywhere.
 fn parts(strains: impl Iterator<Item = [f64; COMPONENTS]> + Clone) -> Vec<FreeStrain> {
     let component = |k: usize| FreeStrain {
         components: k..k + 1,
@@ -139,7 +140,7 @@ mod tests {
     use crate::material::{BackStresses, Material};
     use crate::space::Space;
 
-    /// The elastic stress of the strain takes the initial stress away, component by component.
+    /// The elastic stress of the strain cancels the initial stress, component by component.
     #[test]
     fn the_stress_of_the_strain_is_the_negative_of_the_initial_one() {
         let material = Material {

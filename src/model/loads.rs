@@ -1,4 +1,4 @@
-//! Load vectors on the free freedoms.
+//! Loads of a scene as vectors on the free freedoms.
 
 use super::given::Given;
 use super::heat::FreeStrain;
@@ -14,27 +14,27 @@ use crate::mesh::Mesh;
 use crate::scene::{self, Displacement, Field, History, Scene};
 use crate::space::{Space, Vector, along, dot, length, unit};
 
-/// What a load's reported magnitude measures.
+/// Quantity that the reported magnitude of a load measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Magnitude {
-    /// A total force of the whole (all copies of a symmetric model).
+    /// Total force on the whole (all copies of a symmetric model).
     Force,
-    /// A pressure, traction or remote stress.
+    /// Pressure, traction or remote stress.
     Stress,
-    /// A displacement.
+    /// Prescribed displacement.
     Displacement,
-    /// A change of temperature.
+    /// Change of temperature.
     Temperature,
-    /// A change of gaps.
+    /// Change of gaps in contact.
     Gap,
-    /// A strain that a body brings along.
+    /// Initial strain of a body.
     Strain,
 }
 
 /// A load: nodal forces per unit of its factor, and how the factor depends on the load factor.
 #[derive(Debug, Clone)]
 pub struct LoadCase {
-    /// Name for messages.
+    /// Name of the load for messages.
     pub name: String,
     /// Nodal forces at factor 1, node by node in global axes (sparse).
     pub(super) nodal: Vec<(usize, Vector)>,
@@ -42,29 +42,29 @@ pub struct LoadCase {
     pub forces: Vec<(usize, f64)>,
     /// Dependence of the load on the load factor.
     pub history: History,
-    /// Size at factor 1: force, stress or displacement.
+    /// Magnitude at factor 1, such as a force, stress or displacement.
     pub magnitude: f64,
-    /// What the size measures.
+    /// Quantity that the magnitude measures.
     pub measures: Magnitude,
     /// Nodes of the loaded set, for the approach.
     pub nodes: Vec<usize>,
-    /// Share of each of these nodes in the mean over the set: its part of a surface's area (the
-    /// integral of its shape function), equal parts of a node set. They add up to 1.
+    /// Share of each node in the mean over the loaded set: for a surface its part of the area (the
+    /// integral of its shape function), for a node set equal parts. The shares add up to 1.
     pub shares: Vec<f64>,
-    /// Body of these nodes, for the approach.
+    /// Body to which the loaded nodes belong, for the approach.
     pub body: u32,
     /// Unit direction of the load, for the approach.
     pub direction: Vector,
-    /// Strains at factor 1 that no stress belongs to, which count in the elements of its body: of
-    /// temperature, or brought along.
+    /// Strains without stress at factor 1, from temperature or initial strain, in the elements of
+    /// the load's body.
     pub free_strain: Vec<FreeStrain>,
-    /// Contacts whose gaps a load by a gap changes, and by how much at factor 1; empty of other
-    /// loads.
+    /// Contacts whose gaps this load changes, with the change at factor 1; empty for other loads.
     pub opens: Vec<(usize, Opening)>,
 }
 
 impl LoadCase {
-    /// Factor of this load at load factor `alpha`; `unit` is what `alpha = 1` stands for.
+    /// Factor of this load at load factor `alpha`, where `unit` is the value that `alpha = 1`
+    /// represents.
     pub fn factor(&self, alpha: f64, unit: f64) -> f64 {
         match &self.history {
             History::Proportional => alpha * unit,
@@ -93,13 +93,13 @@ impl LoadCase {
         }
     }
 
-    /// Sum of the sizes of the nodal forces at factor 1.
+    /// Sum of the absolute values of the nodal forces at factor 1.
     pub fn size(&self) -> f64 {
         self.nodal.iter().map(|(_, f)| length(*f)).sum()
     }
 
-    /// The largest size that the load factor drives it to, for a load factor of 1 where it is
-    /// proportional: a force on nodes, or a displacement; zero for a constant load.
+    /// Largest magnitude that the load reaches, for proportional loads at a load factor of 1: the
+    /// sum of nodal forces, or the displacement; zero for a constant load.
     pub fn driven(&self, unit: f64) -> f64 {
         let factor = match &self.history {
             History::Proportional => unit.abs(),
@@ -123,12 +123,12 @@ impl LoadCase {
         rows.iter().map(|r| r[0])
     }
 
-    /// Calls with each slot that a force at factor 1 acts on, with the force.
+    /// Calls `act` with each slot on which a force acts, and the force at factor 1.
     pub(crate) fn each_on_slots(&self, freedoms: &Freedoms, act: impl FnMut(Slot, f64)) {
         each_on_slots(&self.nodal, freedoms, act);
     }
 
-    /// Forces as vectors in global axes, on control points.
+    /// Nodal forces as vectors in global axes, on control points.
     pub(super) fn nodal(&self) -> &[(usize, Vector)] {
         &self.nodal
     }
@@ -159,14 +159,14 @@ pub(super) fn resolve(
         .collect()
 }
 
-/// The load that the results are reported by: the first that varies, else the first.
+/// Number of the load by which results are reported: the first that varies, otherwise the first.
 pub(super) fn leading(loads: &[LoadCase]) -> Option<usize> {
     let varies = |load: &LoadCase| !matches!(load.history, History::Constant);
     let first = (!loads.is_empty()).then_some(0);
     loads.iter().position(varies).or(first)
 }
 
-/// Takes over a new numbering of the freedoms.
+/// Converts the forces to a new numbering of the freedoms.
 pub(super) fn renumber(mut loads: Vec<LoadCase>, freedoms: &Freedoms) -> Vec<LoadCase> {
     for load in &mut loads {
         load.forces = on_freedoms(&load.nodal, freedoms);
@@ -174,7 +174,7 @@ pub(super) fn renumber(mut loads: Vec<LoadCase>, freedoms: &Freedoms) -> Vec<Loa
     loads
 }
 
-/// The body of the first of some nodes.
+/// Body to which the first of the given nodes belongs.
 fn body_of(mesh: &Mesh, nodes: &[usize]) -> u32 {
     let holds = |e: &usize| {
         let first = nodes.first();
@@ -304,7 +304,8 @@ pub(super) fn name(index: usize, load: &scene::Load) -> String {
 }
 
 impl LoadCase {
-    /// Size and direction of a prescribed displacement: the largest at any node, and the mean.
+    /// Sets magnitude (the largest at any node) and direction (the mean) of a prescribed
+    /// displacement.
     fn displace(&mut self, given: &Displacement, scene: &Scene, mesh: &Mesh) -> Result<()> {
         let mut fields = Vec::new();
         for (axis, field) in given.components().into_iter().enumerate() {
@@ -321,7 +322,7 @@ impl LoadCase {
             mean = along(mean, share, vector);
             largest = largest.max(length(vector));
         }
-        // Without the round-off of a mean where all are the same.
+        // A uniform displacement is set directly, without the round-off of a mean.
         let uniform = given
             .components()
             .map(|field| field.map_or(Some(0.0), Field::uniform));
@@ -355,7 +356,7 @@ fn shares(space: Space, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
     else {
         return equal();
     };
-    // In the order of the nodes: both ascend.
+    // Areas and nodes are in the same order, since both ascend.
     let areas = integrate(space, mesh, surface, |_| unit(0));
     let whole: f64 = areas.iter().map(|(_, a)| a[0]).sum();
     if areas.len() == nodes.len() && whole > 0.0 {

@@ -1,19 +1,19 @@
-//! Planes of symmetry that bound a body: there the stress goes on as its own mirror image.
+//! Planes of symmetry that bound a body, beyond which the stress continues as its mirror image.
 //!
 //! Along a straight boundary whose nodes are held across it and free along it (the axis of
-//! revolution is one), the body goes on as if mirrored. A fit of the stress from one side alone
-//! would leave out what is known of the other side, and would put a maximum that lies on the plane
-//! beside it.
+//! revolution is one), the body continues as if mirrored. A fit of the stress from one side alone
+//! would ignore what is known about the other side, and would move a maximum on the plane away from
+//! it.
 
 use super::{ContactSurface, Model, Pair, Slot};
 use crate::mesh::Facet;
 use crate::space::{Vector, along, cross, difference, direction, dot, length as length_of};
 use std::collections::BTreeSet;
 
-/// Sine of the angle up to which directions, and share of a facet's length up to which places, are
-/// the same.
+/// Sine of the angle up to which directions count as equal, and share of a facet's length up to
+/// which positions do.
 const SAME: f64 = 1e-9;
-/// Share of a facet's length up to which a pair lies on a plane.
+/// Share of a facet's length within which a pair counts as lying on a plane.
 const ON_PLANE: f64 = 1e-6;
 
 /// Directions across the contact normal in which the node of a pair is held.
@@ -33,15 +33,15 @@ pub struct Mirror {
 }
 
 impl Mirror {
-    /// The plane with a unit normal away from the body.
+    /// Makes the plane with a unit normal that points away from the body.
     #[cfg(test)]
     pub(super) fn new(normal: Vector, offset: f64) -> Self {
         Mirror { normal, offset }
     }
 
-    /// The planes of symmetry on which each contact ends: an end of its surface lies on them, and
-    /// they bound all its bodies. A node that is held by itself, so that a body stays in place,
-    /// bounds nothing.
+    /// Finds the planes of symmetry on which each contact ends: an end of its surface lies on the
+    /// plane, and the plane bounds all bodies of the contact. A single node that is held to keep a
+    /// body in place is no plane of symmetry.
     pub(super) fn of_contacts(model: &Model) -> Vec<Vec<Mirror>> {
         let of_contact = |contact| Self::of_contact(model, contact);
         model.contacts.iter().map(of_contact).collect()
@@ -51,7 +51,7 @@ impl Mirror {
         let (mut out, mut known) = (Vec::new(), Vec::<Mirror>::new());
         for pair in &model.pairs[contact.range.clone()] {
             let x = model.mesh.point(pair.slave);
-            // Round-off of places on one plane is far below the size of a facet.
+            // The round-off of positions on one plane is far below the size of a facet.
             let near = ON_PLANE * contact.facet_length;
             for normal in held(model, pair.slave) {
                 let mirror = Mirror {
@@ -77,8 +77,9 @@ impl Mirror {
         out
     }
 
-    /// The plane with its normal away from a contact that ends on it: its pairs lie on one side,
-    /// and in a solid an edge of a face lies in it.
+    /// Orients the plane's normal away from a contact that ends on it: all pairs lie on one side,
+    /// and in a solid an edge of a face lies in the plane. `None` if the contact does not end
+    /// there.
     fn at_end(self, model: &Model, contact: &ContactSurface, near: f64) -> Option<Mirror> {
         let beyond = |k: usize| self.beyond(model.mesh.point(model.pairs[k].slave));
         let mut off = contact
@@ -100,9 +101,9 @@ impl Mirror {
             .then_some(mirror)
     }
 
-    /// Whether a body ends on the plane, with all that it has of it held across. Whatever else acts
-    /// there acts on the mirror image alike; but where a facet does not move along the plane,
-    /// either, the body is clamped there, unless the scene declares a symmetry.
+    /// Whether a body ends on the plane and is held across it everywhere on it. Anything else that
+    /// acts there acts on the mirror image in the same way. But if a facet does not move along the
+    /// plane either, the body is clamped there, unless the scene declares a symmetry.
     fn bounds(&self, model: &Model, body: u32, near: f64) -> bool {
         let mesh = &model.mesh;
         let ours = |element: &usize| mesh.element_body[*element] == body;
@@ -139,12 +140,12 @@ impl Mirror {
         there.peek().is_some() && (model.scene.symmetry > 1 || is_axis || !there.any(is_clamped))
     }
 
-    /// The unit vector across it.
+    /// Unit normal of the plane, away from the body.
     pub fn normal(&self) -> Vector {
         self.normal
     }
 
-    /// The mirror image of a point.
+    /// Mirror image of a point in the plane.
     pub fn image(&self, x: Vector) -> Vector {
         along(x, -2.0 * self.beyond(x), self.normal)
     }
@@ -154,7 +155,7 @@ impl Mirror {
         length_of(cross(self.normal, other.normal)) < SAME
     }
 
-    /// Whether a point lies on it, beside facets of a length.
+    /// Whether a point lies on the plane, up to a small share of the length of facets there.
     pub fn holds(&self, x: Vector, facet_length: f64) -> bool {
         self.beyond(x).abs() <= ON_PLANE * facet_length
     }
@@ -165,18 +166,18 @@ impl Mirror {
     }
 }
 
-/// What a plane of symmetry must be free of, node by node.
+/// Conditions at the nodes that decide whether a facet can lie on a plane of symmetry.
 pub struct Conditions {
-    /// Nodes on which forces, pressures or tractions act.
+    /// For each node, whether forces, pressures or tractions act on it.
     loaded: Vec<bool>,
-    /// Nodes in equations.
+    /// For each node, whether it occurs in an equation.
     in_equation: Vec<bool>,
-    /// How many nodes have each free freedom: those of a surface held plane share one.
+    /// Number of nodes that have each free freedom: nodes of a surface held plane share one.
     n_owners: Vec<u32>,
 }
 
 impl Conditions {
-    /// The conditions of a model.
+    /// Collects the conditions of a model.
     pub fn of(model: &Model) -> Self {
         let n_nodes = model.mesh.n_nodes();
         let marked = |sets: &mut dyn Iterator<Item = &String>| {
@@ -206,7 +207,7 @@ impl Conditions {
         }
     }
 
-    /// Whether a slot does not move at all.
+    /// Whether the displacement of a slot is zero.
     fn is_held(model: &Model, slot: Slot) -> bool {
         match slot {
             Slot::Fixed => true,
@@ -215,7 +216,7 @@ impl Conditions {
         }
     }
 
-    /// What stands in the direction `along` of a node, if that is one of its axes.
+    /// Slot in the direction `along` of a node; `None` if the direction is not one of its axes.
     fn slot(model: &Model, node: usize, along: Vector) -> Option<Slot> {
         let axes = model.freedoms.local(node);
         let slots = model.freedoms.of_node(node);
@@ -223,7 +224,7 @@ impl Conditions {
         Some(slots[at])
     }
 
-    /// Whether something keeps a slot from moving as it likes.
+    /// Whether something keeps a slot from moving freely.
     fn is_bound(&self, slot: Slot) -> bool {
         match slot {
             Slot::Free(freedom) => self.n_owners[freedom as usize] > 1,
@@ -231,14 +232,14 @@ impl Conditions {
         }
     }
 
-    /// Whether something pushes a node, or keeps it from moving as it likes.
+    /// Whether something pushes a node or keeps it from moving freely.
     fn act_on(&self, model: &Model, node: usize) -> bool {
         let mut slots = model.freedoms.of_node(node).iter();
         self.loaded[node] || slots.any(|slot| self.is_bound(*slot))
     }
 
-    /// Whether a node does not move in a direction: that lies among its held axes, as where planes
-    /// meet at an angle.
+    /// Whether a node does not move in a direction. The direction must lie in the span of its held
+    /// axes, as where planes meet at an angle.
     fn hold_node(model: &Model, node: usize, direction: Vector) -> bool {
         let slots = model.freedoms.of_node(node).iter();
         let axes = slots.zip(model.freedoms.local(node));
@@ -255,7 +256,7 @@ impl Conditions {
         nodes.all(|&node| Self::hold_node(model, node, normal))
     }
 
-    /// Whether two sides that are held across keep a node from moving along an axis.
+    /// Whether two sides that are held across their planes keep a node from moving along an axis.
     fn hold_between(model: &Model, normal: Vector, other: &MirrorSide, axis: Vector) -> bool {
         let plane = |mirror: &Mirror| cross(normal, mirror.normal);
         other.mirror.as_ref().is_some_and(|mirror| {
@@ -265,8 +266,8 @@ impl Conditions {
         })
     }
 
-    /// Whether what binds a slot along an axis binds a whole side alike: it is tied, or held or
-    /// kept plane across.
+    /// Whether the condition of a slot along an axis holds on the whole side: the side is tied
+    /// throughout, or held or kept plane across.
     fn go_on(&self, model: &Model, side: &MirrorSide, slot: Slot, axis: Vector) -> bool {
         let is_tied = matches!(slot, Slot::Sum(_));
         let is_held = Self::is_held(model, slot);
@@ -280,8 +281,8 @@ impl Conditions {
     }
 }
 
-/// The planes of symmetry on which elements have a facet. The whole of what the elements have of a
-/// plane must be one: the stress goes on as its mirror image if every condition there does.
+/// Planes of symmetry on which elements have a facet. All facets of the elements on a plane must be
+/// symmetric: the stress continues as its mirror image only if every condition there does.
 pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Vec<Mirror> {
     let sides = ActingSides::of(model, conditions, elements);
     let planes = || {
@@ -293,7 +294,7 @@ pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Ve
             && dot(a.normal, b.normal) > 0.0
             && length_of(cross(a.normal, b.normal)) < SAME
     };
-    // Few facets are held: most of what elements have is inside the body.
+    // Few facets are held, since most facets of the elements are inside the body.
     let mut out: Vec<Mirror> = Vec::new();
     for (side, mirror) in planes() {
         if Conditions::hold(model, side, mirror.normal)
@@ -312,7 +313,7 @@ pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Ve
     out
 }
 
-/// The bodies in a contact.
+/// Numbers of the bodies that take part in a contact.
 fn bodies_at(model: &Model, contact: &ContactSurface) -> BTreeSet<u32> {
     let mut in_contact = vec![false; model.mesh.n_nodes()];
     let pairs = &model.pairs[contact.range.clone()];
@@ -335,10 +336,10 @@ fn bodies_at(model: &Model, contact: &ContactSurface) -> BTreeSet<u32> {
     bodies.collect()
 }
 
-/// A facet of an element.
+/// Facet of an element that may lie on a plane of symmetry.
 struct MirrorSide {
     nodes: Vec<usize>,
-    /// The plane that it lies in, if it is plane.
+    /// Plane in which the facet lies; `None` if the facet is curved.
     mirror: Option<Mirror>,
     length: f64,
 }
@@ -364,14 +365,14 @@ impl MirrorSide {
         }
     }
 
-    /// Whether the side lies in a plane with this normal.
+    /// Whether the side lies in a plane with the given normal.
     fn is_across(&self, normal: Vector) -> bool {
         let across = |mirror: &Mirror| length_of(cross(mirror.normal, normal)) < SAME;
         self.mirror.as_ref().is_some_and(across)
     }
 }
 
-/// The facets of some elements on which something acts.
+/// Facets of some elements on which a support or load acts.
 struct ActingSides(Vec<MirrorSide>);
 
 impl ActingSides {
@@ -390,9 +391,9 @@ impl ActingSides {
         ActingSides(elements.iter().flat_map(of_element).collect())
     }
 
-    /// Whether the conditions along a side are those of a plane of symmetry: its nodes move along
-    /// it as they like and nothing pushes them. At its rim another surface may be loaded, tied, or
-    /// held or kept plane across its own normal: that goes on beyond the plane.
+    /// Whether the conditions along a side are those of a plane of symmetry: its nodes move freely
+    /// along it and nothing pushes them. At its rim another surface may be loaded, tied, or held or
+    /// kept plane across its own normal, since such a condition continues beyond the plane.
     fn are_symmetric(
         &self,
         side: &MirrorSide,
@@ -430,7 +431,7 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// A block that is held across its left and bottom sides, pushed along the left one.
+    /// Number of planes of symmetry of a block held across its left and bottom sides, with a load.
     fn n_mirrors(load: &str) -> usize {
         let text = format!(
             r#"
@@ -454,7 +455,8 @@ mod tests {
         mirrors(&model, &Conditions::of(&model), &all).len()
     }
 
-    /// A load on the whole top goes on beyond the plane at its rim; one on the corner does not.
+    /// A load on the whole top continues beyond the plane at its rim; a load on the corner does
+    /// not.
     #[test]
     fn a_load_at_the_rim_goes_on_where_all_of_a_side_bears_it() {
         assert_eq!(n_mirrors(r#"{ on = "block.top", pressure = 1.0 }"#), 2);

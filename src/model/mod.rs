@@ -1,7 +1,7 @@
 //! The validated model: freedoms, contact pairs, materials and loads, resolved from scene and mesh.
 //!
-//! Here names become indices and every inconsistency between scene and mesh is found. What comes
-//! after works with numbers only.
+//! Names become indices here, and every inconsistency between scene and mesh is found. Later
+//! modules work with numbers only.
 
 mod alike;
 mod body_forces;
@@ -75,52 +75,53 @@ use std::ops::Deref;
 /// A model ready to be assembled.
 #[derive(Debug, Clone)]
 pub struct Model {
-    /// The scene it was made from.
+    /// Scene from which the model was made.
     pub scene: Scene,
-    /// Mesh and materials; the model is read as this too.
+    /// Mesh and materials, to which the model dereferences.
     pub continuum: Continuum,
     /// Freedom numbering, local axes and supports.
     pub freedoms: Freedoms,
-    /// Contact pairs, contact by contact, along each surface.
+    /// Contact pairs, contact by contact, ordered along each surface.
     pub pairs: Vec<Pair>,
     /// Contact rows of the pairs on the free freedoms.
     pub rows: ContactRows,
-    /// The contacts of the scene.
+    /// Contacts of the scene, each with its range of pairs.
     pub contacts: Vec<ContactSurface>,
     /// Loads of the model, with their factors over the program.
     pub loads: Vec<LoadCase>,
-    /// Loads whose factors are always equal, as lists of places among the loads: each list acts on
-    /// the structure as one load vector.
+    /// Loads whose factors are always equal, as lists of load numbers: each list acts on the
+    /// structure as one load vector.
     pub alike: Vec<Vec<usize>>,
-    /// Which bodies are held by contact alone.
+    /// Bodies that contact alone holds, and their rigid motions.
     pub floating: FloatingBodies,
-    /// How many copies of the model make the whole (loads and results named `load` are the
-    /// whole's).
+    /// Number of copies of the model that make the whole. Loads, and results named `load`, are
+    /// those of the whole.
     pub symmetry: f64,
-    /// Things the user should know.
+    /// Warnings for the user, found while the model was made.
     pub warnings: Vec<String>,
-    /// The state that a run starts from, once an [`crate::analysis::Analysis`] has read it; `None`
-    /// where that is a virgin one.
+    /// State from which a run starts, once an [`crate::analysis::Analysis`] has read it; `None` for
+    /// a virgin state.
     pub start: Option<EndState>,
     origin: Origin,
 }
 
-/// Where a model came from.
+/// Source of a model, from which it can be made again.
 #[derive(Debug, Clone)]
 enum Origin {
-    /// The scene, which makes the model again.
+    /// The scene alone, which makes the model again.
     Scene,
-    /// A mesh, and what was stated node by node, was handed over.
+    /// A mesh and data stated node by node, which were handed over in memory.
     Arrays(Given),
 }
 
 impl Model {
-    /// The load that the results are reported by: the first that varies, else the first.
+    /// Number of the load by which results are reported: the first that varies, otherwise the
+    /// first.
     pub fn leading_load(&self) -> Option<usize> {
         loads::leading(&self.loads)
     }
 
-    /// The factor of each list of loads that change alike, from the factors of all loads.
+    /// Factor of each list of loads that change alike, from the factors of all loads.
     pub fn factors_of_alike<'a>(&'a self, factors: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.alike.iter().map(|loads| factors[loads[0]])
     }
@@ -129,13 +130,13 @@ impl Model {
     ///
     /// # Errors
     /// Input errors naming the scene entry and the node, body or set; [`crate::ErrorKind::Unheld`]
-    /// where a body can move freely and the loads do work on that motion.
+    /// if a body can move freely and the loads do work on that motion.
     pub fn new(scene: &Scene) -> Result<Self> {
         let made = build_mesh(scene).and_then(|mesh| Self::resolve(scene, mesh, Origin::Scene));
         made.map_err(|error| words::of_deck(scene, error))
     }
 
-    /// The model of a scene on a given mesh (its `mesh` entry is ignored).
+    /// Builds the model of a scene on a given mesh (the scene's `mesh` entry is ignored).
     ///
     /// ```
     /// use brinell::{mesh::gmsh, model::Model, scene::Scene};
@@ -152,7 +153,7 @@ impl Model {
     /// ```
     ///
     /// # Errors
-    /// As [`Model::new`].
+    /// Errors of [`Model::new`].
     pub fn from_mesh(scene: &Scene, mesh: Mesh) -> Result<Self> {
         Self::resolve(scene, mesh, Origin::Arrays(Given::default()))
     }
@@ -266,7 +267,7 @@ impl Model {
         Ok(model)
     }
 
-    /// Whether each contact freedom is the motion of a rigid surface.
+    /// For each contact freedom, whether it is the motion of a rigid surface.
     pub(crate) fn rigid_contact(&self) -> Vec<bool> {
         let owner = |&freedom: &usize| self.freedoms.owners[freedom].0 as usize;
         let nodes = self.rows.freedoms.iter().map(owner);
@@ -311,11 +312,11 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
             scene.places.in_front(&key, error)
         })?;
     }
-    // With the shapes of the sets that they are parts of.
+    // The shapes that sets declare for their surfaces are needed here.
     mesh.name_parts(scene.set_names());
     let times = scene.mesh.subdivisions;
     if times > 0 {
-        // What is wrong with the file is stated by its own numbers.
+        // Errors in the file are reported with the file's own numbers.
         mesh::validate(&mesh)?;
         mesh = mesh::subdivided(mesh, times, &scene.contact)?;
         mesh::validate(&mesh).map_err(|e| {
@@ -333,7 +334,7 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
     solid.map_err(|error| scene.places.in_front(key, error.within(key)))
 }
 
-/// Sets that targets and the history name are looked up before the way to them begins.
+/// Checks that sets named by targets and the history exist, before a run starts.
 fn check_targets(scene: &Scene, mesh: &Mesh) -> Result<()> {
     for (index, target) in scene.program.targets.iter().enumerate() {
         if let Some(goal) = &target.displacement {
@@ -360,7 +361,7 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
     let mut may_yield = Vec::new();
     for name in &mesh.bodies {
         if scene.rigid.contains_key(name) {
-            // Never strained: any material will do, and like moduli round off alike.
+            // Never strained, so any material will do; similar moduli give similar round-off.
             materials.extend(materials.first().cloned());
             may_yield.push(false);
             continue;
@@ -385,7 +386,7 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
     Ok((materials, may_yield))
 }
 
-/// How each body is integrated; empty where all are reduced.
+/// Integration of each body; empty if all bodies have reduced integration.
 fn integration(scene: &Scene, mesh: &Mesh) -> Vec<Integration> {
     let of = |name: &String| scene.bodies.get(name).map(|body| body.integration);
     let of_bodies = mesh.bodies.iter().map(|name| of(name).unwrap_or_default());
@@ -416,7 +417,7 @@ fn warn_of_locking(mesh: &Mesh, may_yield: &[bool], warnings: &mut Vec<String>) 
     }
 }
 
-/// A plane mesh in a solid scene, or the reverse.
+/// Refuses a plane mesh in a solid scene, or the reverse.
 fn check_dimension(scene: &Scene, mesh: &Mesh) -> Result<()> {
     if mesh.dimension == scene.kind.dimension() {
         return Ok(());
@@ -435,7 +436,7 @@ fn check_dimension(scene: &Scene, mesh: &Mesh) -> Result<()> {
     Err(scene.places.in_front("kind", error))
 }
 
-/// A reference for a place that lies in none of the elements.
+/// Refuses a reference for a point that lies in no element.
 fn check_places(scene: &Scene, mesh: &Mesh) -> Result<()> {
     for (index, entry) in scene.reference.iter().enumerate() {
         let Some(place) = entry.place() else { continue };

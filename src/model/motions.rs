@@ -9,18 +9,19 @@ use crate::space::{self, RigidMotion, Space, Vector, unit};
 use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Singular values below this, relative to the largest, are free motions.
+/// Singular values below this share of the largest belong to free motions.
 pub(super) const FREE: f64 = 1e-7;
-/// A block of the motions that is definite by this much of its largest entry has none that is free:
-/// well above the square of [`FREE`] and the round-off of a factorisation of some thousand rows.
+/// Share of the largest entry by which a block of the motions must be definite to have no free
+/// motion: well above the square of [`FREE`] and the round-off of a factorisation of some thousand
+/// rows.
 const HELD: f64 = 1e-11;
 
-/// Groups of bodies that share nodes move together: rigid motions are counted per group.
+/// Rigid motions of groups; a group is a set of bodies that share nodes and move together.
 pub(super) struct Motions<'a> {
     space: Space,
     mesh: &'a Mesh,
     basis: ContactBasis,
-    /// Group of each node.
+    /// Number of the group of each node.
     pub(super) group_of_node: Vec<usize>,
     center: Vec<Vector>,
     size: Vec<f64>,
@@ -30,31 +31,31 @@ pub(super) struct Motions<'a> {
     nodes: Vec<Vec<usize>>,
 }
 
-/// A rigid motion of some groups. Its cost depends on these groups alone, not on how many other
+/// A rigid motion of some groups. Its storage depends on these groups alone, not on how many other
 /// bodies there are.
 #[derive(Clone)]
 pub(super) struct Mode {
-    /// Group and rigid motion, as `per_group * group + motion`, ascending; whole groups.
+    /// Group and rigid motion as `per_group * group + motion`, ascending; groups are complete.
     rows: Vec<usize>,
     values: DVector<f64>,
 }
 
 impl Mode {
-    /// The entry of a row; 0 where the group does not move.
+    /// Entry of a row; 0 if the group of the row does not move.
     fn at(&self, row: usize) -> f64 {
         let place = self.rows.binary_search(&row);
         place.map_or(0.0, |k| self.values[k])
     }
 
-    /// Largest entry of the motion, without its sign.
+    /// Largest absolute value of the entries of the motion.
     pub(super) fn largest(&self) -> f64 {
         self.values.amax()
     }
 }
 
-/// The nodal forces of all loads, by the group that they act on.
+/// Nodal forces of all loads, by the group on which they act.
 pub(super) struct Forces {
-    /// Load, node and force of each group.
+    /// Load number, node and force, for each group.
     of_group: Vec<Vec<(usize, usize, Vector)>>,
 }
 
@@ -119,13 +120,13 @@ impl<'a> Motions<'a> {
         }
     }
 
-    /// Rigid motions of a group.
+    /// Number of rigid motions of a group.
     pub(super) fn per_group(&self) -> usize {
         self.space.rigid_motions().len()
     }
 
-    /// Displacement of a node along `axis`, for each rigid motion of its group;
-    /// rotations are about the group's centre, scaled to its size.
+    /// Displacement of a node along `axis` in each rigid motion of its group. Rotations are about
+    /// the group's centre, scaled to its size.
     fn row(&self, node: usize, axis: Vector) -> Vec<f64> {
         let group = self.group_of_node[node];
         let x = self.basis.at_control(node, |node| self.mesh.point(node));
@@ -137,15 +138,15 @@ impl<'a> Motions<'a> {
             .collect()
     }
 
-    /// Motions that supports and (bilateral) pairs leave free: unit vectors, one entry per rigid
-    /// motion of each group that nothing but these conditions couples.
+    /// Finds the motions that supports and (bilateral) pairs leave free, as unit vectors with one
+    /// entry per rigid motion of each group in a block that these conditions couple.
     pub(super) fn free(&self, freedoms: &Freedoms, pairs: &[Pair]) -> Vec<Mode> {
         let per = self.per_group();
         let gram = self.gram(freedoms, pairs);
         let largest = gram.largest_diagonal().max(1.0);
         let mut free: Vec<Plain> = Vec::new();
         for block in gram.uncoupled(per) {
-            // Most are held: that takes no more than a factorisation.
+            // Most blocks are held, which takes no more than a factorisation to find out.
             if !gram.is_definite(&block, HELD * largest) {
                 let (rows, vectors) = gram.null_vectors(&block, FREE * FREE * largest);
                 free.extend(plain(&rows, vectors, per));
@@ -155,7 +156,7 @@ impl<'a> Motions<'a> {
         free.into_iter().map(|motion| motion.mode).collect()
     }
 
-    /// Sum of the squares of all conditions that supports and pairs put on the motions.
+    /// Sum of the squares of all conditions that supports and pairs impose on the motions.
     fn gram(&self, freedoms: &Freedoms, pairs: &[Pair]) -> Gram {
         let per = self.per_group();
         let mut gram = Gram::new(per * self.names.len());
@@ -228,7 +229,7 @@ impl<'a> Motions<'a> {
         gram
     }
 
-    /// The groups that move, ascending.
+    /// Numbers of the groups that move in a mode, ascending.
     pub(super) fn moved(&self, mode: &Mode) -> Vec<usize> {
         let per = self.per_group();
         let round_off = 1e-6 * mode.largest();
@@ -239,8 +240,8 @@ impl<'a> Motions<'a> {
         groups
     }
 
-    /// The part of the model that each group belongs to: groups that a free motion moves together
-    /// are one.
+    /// Number of the part to which each group belongs; groups that a free motion moves together
+    /// form one part.
     pub(super) fn parts(&self, modes: &[Mode]) -> Vec<usize> {
         let mut classes = Classes::new(self.names.len());
         for mode in modes {
@@ -251,8 +252,8 @@ impl<'a> Motions<'a> {
         classes.firsts()
     }
 
-    /// Share of a mode in the displacement along `axis` of a node, with shares up to `round_off`
-    /// left out.
+    /// Displacement of a node along `axis` in a mode, without shares of rigid motions up to
+    /// `round_off`.
     pub(super) fn along(&self, mode: &Mode, node: usize, axis: Vector, round_off: f64) -> f64 {
         let group = self.group_of_node[node];
         let row = self.row(node, axis);
@@ -266,7 +267,7 @@ impl<'a> Motions<'a> {
             .sum()
     }
 
-    /// The nodes of the groups that a mode has entries for, ascending.
+    /// Nodes of the groups for which a mode has entries, ascending.
     fn nodes_of(&self, mode: &Mode) -> Vec<usize> {
         let groups = mode.rows.iter().step_by(self.per_group());
         let nodes = groups.flat_map(|row| &self.nodes[row / self.per_group()]);
@@ -275,8 +276,8 @@ impl<'a> Motions<'a> {
         nodes
     }
 
-    /// A motion on the free freedoms; `owned` are those that each node owns, with the axis of each
-    /// ([`owned`]).
+    /// Displacements of a mode on the free freedoms. `owned` are the freedoms that each node owns,
+    /// with their local axes ([`owned`]).
     pub(super) fn on_freedoms(
         &self,
         mode: &Mode,
@@ -298,7 +299,7 @@ impl<'a> Motions<'a> {
         values
     }
 
-    /// The nodal forces of the loads by groups.
+    /// Sorts the nodal forces of the loads by groups.
     pub(super) fn forces(&self, loads: &[LoadCase]) -> Forces {
         let mut of_group = vec![Vec::new(); self.names.len()];
         for (load, case) in loads.iter().enumerate() {
@@ -309,7 +310,7 @@ impl<'a> Motions<'a> {
         Forces { of_group }
     }
 
-    /// Sum of the sizes of the components of a load on the groups of a mode.
+    /// Sum of the absolute values of a load's components on the groups of a mode.
     pub(super) fn size(&self, mode: &Mode, forces: &Forces, load: usize) -> f64 {
         let per = self.per_group();
         let groups = mode.rows.iter().step_by(per).map(|row| row / per);
@@ -318,7 +319,7 @@ impl<'a> Motions<'a> {
         own.flat_map(|(.., force)| force).map(|f| f.abs()).sum()
     }
 
-    /// The work of each load that has forces on the groups of a mode, by the loads' numbers.
+    /// Work of each load with forces on the groups of a mode, by load number.
     pub(super) fn work(&self, mode: &Mode, forces: &Forces) -> BTreeMap<usize, f64> {
         let per = self.per_group();
         let mut work = BTreeMap::new();
@@ -334,8 +335,8 @@ impl<'a> Motions<'a> {
         work
     }
 
-    /// The free freedom, not of a contact normal (`contact` has the nodes), that moves most in a
-    /// motion.
+    /// The free freedom that moves most in a mode, apart from contact normals (at the nodes in
+    /// `contact`).
     pub(super) fn largest(
         &self,
         mode: &Mode,
@@ -377,7 +378,7 @@ impl<'a> Motions<'a> {
 }
 
 impl Motions<'_> {
-    /// What a mode does to a group.
+    /// Describes the motion of a group in a mode.
     fn in_words(&self, mode: &Mode, group: usize) -> String {
         let motions = self.space.rigid_motions();
         let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
@@ -392,7 +393,7 @@ impl Motions<'_> {
         let (size, s) = (self.size[group], 2.0 / self.size[group]);
         let angle = space::length(turn);
         if angle > 1e-6 * mode.largest() {
-            // The point nearest to the centre that the turn leaves in its place, or moves along its
+            // Point nearest to the centre that the rotation leaves in place or moves along its
             // axis.
             let arm = space::cross(turn, shift).map(|x| x / (s * angle * angle));
             let at: Vec<String> = (0..axes.len())
@@ -427,7 +428,7 @@ impl Motions<'_> {
     }
 }
 
-/// A coordinate without the round-off of a body of this size.
+/// Sets a coordinate to zero if it is only round-off for a body of this size.
 fn tidy(coordinate: f64, size: f64) -> f64 {
     if coordinate.abs() < 1e-9 * size {
         0.0
@@ -438,13 +439,13 @@ fn tidy(coordinate: f64, size: f64) -> f64 {
 
 /// A motion of a basis that can be described in words.
 struct Plain {
-    /// The entry that is its own: 0 in all others.
+    /// Row in which this motion alone, of all motions of the basis, is not zero.
     pivot: usize,
     mode: Mode,
 }
 
-/// Motions turned into a basis of the same space that can be described in words: rotations are
-/// taken out of all vectors but as many as it takes, then motions along y, then along x (reduced
+/// Transforms motions to a basis of the same space that can be described in words: rotations are
+/// eliminated from all but as few vectors as possible, then motions along y, then along x (reduced
 /// echelon form).
 fn plain(rows: &[usize], mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plain> {
     let mut pivots = Vec::new();
@@ -480,7 +481,7 @@ fn plain(rows: &[usize], mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plai
         .collect()
 }
 
-/// The free freedoms that each node owns, with the place of each in the node's axes.
+/// Free freedoms that each node owns, with the number of the local axis of each.
 pub(super) fn owned(freedoms: &Freedoms, n_nodes: usize) -> Vec<Vec<(u32, u8)>> {
     let mut owned = vec![Vec::new(); n_nodes];
     let of_nodes = freedoms.n - freedoms.springs.len();

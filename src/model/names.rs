@@ -1,20 +1,20 @@
-//! Names of sets that the entries of a scene give, looked up in the mesh.
+//! Names of sets in the entries of a scene, looked up in the mesh.
 
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Surface};
 use crate::scene::{Scene, closest};
 
-/// An entry of a scene, for messages about it.
+/// An entry of a scene, for messages about the entry.
 pub(super) struct Entry<'s> {
     scene: &'s Scene,
-    /// Key path of the entry, `load.0`.
+    /// Key path of the entry, such as `load.0`.
     key: String,
-    /// Name of the entry in messages, `load 1`.
+    /// Name of the entry in messages, such as `load 1`.
     what: String,
 }
 
 impl<'s> Entry<'s> {
-    /// Entry `index` of one of the scene's lists.
+    /// Makes entry `index` of one of the scene's lists.
     pub(super) fn of_list(scene: &'s Scene, list: &str, index: usize) -> Self {
         Entry {
             scene,
@@ -23,7 +23,7 @@ impl<'s> Entry<'s> {
         }
     }
 
-    /// The displacement that target `index` waits for.
+    /// Makes the entry of the displacement for which target `index` waits.
     pub(super) fn of_target(scene: &'s Scene, index: usize) -> Self {
         Entry {
             scene,
@@ -32,7 +32,7 @@ impl<'s> Entry<'s> {
         }
     }
 
-    /// Set `index` that the history follows.
+    /// Makes the entry of set `index` that the history follows.
     pub(super) fn of_history(scene: &'s Scene, index: usize) -> Self {
         Entry {
             scene,
@@ -41,29 +41,29 @@ impl<'s> Entry<'s> {
         }
     }
 
-    /// The nodes of the set that it is the name of.
+    /// Finds the nodes of the set whose name the entry itself is.
     pub(super) fn named(&self, mesh: &Mesh, name: &str) -> Result<Vec<usize>> {
         let nodes = self.found(mesh, &self.what, name);
         nodes.map_err(|error| self.refused(error))
     }
 
-    /// Puts the entry's place in front of what is wrong with it.
+    /// Prefixes an error with the place of the entry.
     pub(super) fn refused(&self, error: Error) -> Error {
         self.scene.places.in_front(&self.key, error)
     }
 
-    /// The entry and what it acts on, in words: load 1 on `block.top`.
+    /// The entry and the set on which it acts, in words: load 1 on `block.top`.
     pub(super) fn on(&self, name: &str) -> String {
         format!("{} on `{name}`", self.what)
     }
 
-    /// The nodes of the set that its key `on` names.
+    /// Finds the nodes of the set that the entry's key `on` names.
     pub(super) fn nodes(&self, mesh: &Mesh, name: &str) -> Result<Vec<usize>> {
         let nodes = self.found(mesh, &format!("{} on", self.what), name);
         nodes.map_err(|error| self.refused_at("on", error))
     }
 
-    /// The nodes of a set, for messages about `what`.
+    /// Finds the nodes of a set, with `what` for messages.
     fn found(&self, mesh: &Mesh, what: &str, name: &str) -> Result<Vec<usize>> {
         match mesh.set_nodes(name) {
             Some(nodes) if !nodes.is_empty() => Ok(nodes),
@@ -72,7 +72,7 @@ impl<'s> Entry<'s> {
         }
     }
 
-    /// The surface that one of its keys names.
+    /// Finds the surface that one of the entry's keys names.
     pub(super) fn surface<'m>(&self, mesh: &'m Mesh, key: &str, name: &str) -> Result<&'m Surface> {
         mesh.surfaces.get(name).ok_or_else(|| {
             let names: Vec<&str> = mesh.surfaces.keys().map(String::as_str).collect();
@@ -88,7 +88,7 @@ impl<'s> Entry<'s> {
     }
 }
 
-/// A name that the mesh does not have, with the one that may be meant.
+/// Error for a name that the mesh does not have, with the name that was probably meant.
 fn unknown(what: &str, name: &str, mesh: &Mesh, known: &[&str]) -> Error {
     let has = known.join(", ");
     if let Some((_, set)) = mesh.body_and_set(name) {

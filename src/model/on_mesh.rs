@@ -10,10 +10,10 @@ use crate::space::{Vector, in_words};
 use std::collections::HashMap;
 use std::path::Path;
 
-/// A field with the mesh that it is read on.
+/// A field together with the mesh on which it is evaluated.
 pub(super) struct OnMesh<'a> {
     mesh: &'a Mesh,
-    /// Name of the field, for messages.
+    /// Name of the field for messages.
     name: &'static str,
     values: FieldValues<'a>,
 }
@@ -25,10 +25,10 @@ enum FieldValues<'a> {
 }
 
 impl<'a> OnMesh<'a> {
-    /// The field `name` of a scene on its mesh.
+    /// Reads the field `name` of a scene on its mesh.
     ///
     /// # Errors
-    /// `Input` where a formula is none, or a file of values cannot be read or is that of another
+    /// `Input` if a formula is invalid, or if a file of values cannot be read or belongs to another
     /// mesh.
     pub fn new(
         field: &'a Field,
@@ -56,7 +56,7 @@ impl<'a> OnMesh<'a> {
     /// Value of the field at a node.
     ///
     /// # Errors
-    /// `Input` naming the node, where the formula is not finite or the file has no value.
+    /// `Input` naming the node, if the formula is not finite or the file has no value.
     pub fn at_node(&self, node: usize) -> Result<f64> {
         let label = || {
             let (label, place) = (self.mesh.node_label(node), self.mesh.place(node));
@@ -77,7 +77,8 @@ impl<'a> OnMesh<'a> {
     /// Value of the field at the control point of a node.
     ///
     /// # Errors
-    /// As [`at_node`](Self::at_node), of the ends of the edge in whose middle the node lies too.
+    /// Errors of [`at_node`](Self::at_node), also at the ends of the edge if the node is the middle
+    /// of one.
     pub fn at_control(&self, node: usize, basis: &ContactBasis) -> Result<f64> {
         let own = self.at_node(node)?;
         let (Some([a, b]), None) = (basis.ends(node), self.uniform()) else {
@@ -91,7 +92,7 @@ impl<'a> OnMesh<'a> {
         }))
     }
 
-    /// The number, where it is the same everywhere.
+    /// Value of a uniform field; `None` for other fields.
     fn uniform(&self) -> Option<f64> {
         match &self.values {
             FieldValues::Uniform(value) => Some(*value),
@@ -99,11 +100,11 @@ impl<'a> OnMesh<'a> {
         }
     }
 
-    /// Value of the field at a point of a facet with these nodes: what a formula has there, or what
-    /// lies between the values at nodes by the shape functions.
+    /// Value of the field at a point of a facet with these nodes: that of the formula at the point,
+    /// or the interpolation of the values at nodes by the shape functions.
     ///
     /// # Errors
-    /// As [`at_node`](Self::at_node); a formula names the point.
+    /// Errors of [`at_node`](Self::at_node); for a formula the message names the point.
     pub fn at_point(&self, nodes: &[usize], point: &FacetPoint) -> Result<f64> {
         match &self.values {
             FieldValues::Uniform(value) => Ok(*value),
@@ -132,10 +133,10 @@ impl<'a> OnMesh<'a> {
         )))
     }
 
-    /// Refuses a value below zero.
+    /// Value at a node, refused if it is below zero.
     ///
     /// # Errors
-    /// `Input` naming the node, with what is to be given `instead`.
+    /// `Input` naming the node, with the alternative `instead`.
     pub fn not_negative(&self, node: usize, instead: &str) -> Result<f64> {
         let value = self.at_node(node)?;
         if value >= 0.0 {
@@ -151,12 +152,12 @@ impl<'a> OnMesh<'a> {
     }
 }
 
-/// A coordinate to six digits behind its first: where it is, not its round-off.
+/// Rounds a coordinate to seven significant digits, which drops its round-off.
 fn rounded(coordinate: f64) -> f64 {
     format!("{coordinate:.6e}").parse().unwrap_or(coordinate)
 }
 
-/// Values that a file gives by node, and of no node that the mesh does not have.
+/// Reads values by node from a file, refusing nodes that the mesh does not have.
 fn nodal(path: &Path, name: &str, mesh: &Mesh) -> Result<Vec<Option<f64>>> {
     let given = node_values::read(path)?;
     let index: HashMap<u64, usize> = (0..mesh.n_nodes())

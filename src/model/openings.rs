@@ -1,4 +1,4 @@
-//! Gaps that loads change.
+//! Openings: changes of the gaps of contacts by loads.
 
 use super::ContactSurface;
 use super::contact_basis::ContactBasis;
@@ -8,17 +8,17 @@ use crate::mesh::Mesh;
 use crate::scene::{Field, Load, Scene};
 use std::collections::BTreeMap;
 
-/// Distance by which a load at factor 1 takes the surfaces of a contact apart.
+/// Distance by which a load at factor 1 moves the surfaces of a contact apart.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Opening {
-    /// One opening for the whole contact.
+    /// One value for the whole contact.
     Uniform(f64),
-    /// Openings at the nodes of the slaves, or at their control points.
+    /// Values at the nodes of the slaves, or at their control points.
     At(BTreeMap<usize, f64>),
 }
 
 impl Opening {
-    /// Opening at a slave node.
+    /// Value of the opening at a slave node.
     pub fn at(&self, node: usize) -> f64 {
         match self {
             Opening::Uniform(gap) => *gap,
@@ -26,7 +26,7 @@ impl Opening {
         }
     }
 
-    /// Largest size of the opening.
+    /// Largest absolute value of the opening.
     pub fn largest(&self) -> f64 {
         match self {
             Opening::Uniform(gap) => gap.abs(),
@@ -34,7 +34,7 @@ impl Opening {
         }
     }
 
-    /// Restates the openings of nodes in the middle of edges in terms of their control points.
+    /// Converts the openings of middle nodes of edges to their control points.
     pub(super) fn restate(&mut self, basis: &ContactBasis) {
         if let Opening::At(gaps) = self {
             let nodal = gaps.clone();
@@ -46,7 +46,7 @@ impl Opening {
     }
 }
 
-/// The contacts of a surface whose gaps a load changes, and by how much.
+/// Finds the contacts of a surface whose gaps a load changes, and the openings.
 pub(super) fn opened(
     load: &Load,
     (scene, contacts): (&Scene, &[ContactSurface]),

@@ -1,6 +1,7 @@
-//! Contact pairs: a node of one surface, the slave, and what it faces on the other (paper 2.1).
+//! Contact pairs: a node of one surface, the slave, with the nodes it faces on the other (paper
+//! 2.1).
 //!
-//! Where nodes face each other that is one node; else it is some nodes, the masters, with weights
+//! If nodes face each other, a slave has one master; otherwise it has several masters with weights
 //! ([`mortar`]). The gap of a pair is `g = delta - (u_slave - sum_k w_k u_k) . n >= 0` with `delta`
 //! the distance along `n`, the unit vector from the slave's body to the other.
 
@@ -27,37 +28,38 @@ use covered::{Covered, Pieces, extent};
 use stated::Stated;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Relative error of a coordinate of a mesh: it was rounded some times on its way through rotations
-/// and files of sixteen digits, and once more in the integrals over a facet.
+/// Relative error of a coordinate of a mesh: it was rounded several times by rotations and files of
+/// sixteen digits, and once more in the integrals over a facet.
 const ROUND_OFF: f64 = 256.0 * f64::EPSILON;
 
-/// A node and what it may touch.
+/// A slave node with the masters that it may touch.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pair {
     /// Index of the scene's contact entry.
     pub contact: usize,
-    /// The node: of the second surface, unless the scene says that the first is the slave.
+    /// Slave node, of the second surface unless the scene says that the first is the slave.
     pub slave: usize,
-    /// Nodes of the other surface with their weights: one of weight 1 where it faces the slave.
+    /// Nodes of the other surface with their weights: a single node of weight 1 if it faces the
+    /// slave.
     pub masters: Vec<(usize, f64)>,
     /// Unit vector from the slave's body to the other.
     pub normal: Vector,
-    /// Initial gap delta, interference not yet taken off.
+    /// Initial gap delta, from which the interference is not subtracted.
     pub gap: f64,
     /// Interference: the overlap that contact has to push apart.
     pub interference: f64,
-    /// What a gap of 1 all over the contact is of the pair: 1, or at a control point of a quadratic
-    /// face what the normals round it leave of it.
+    /// Change of the pair's gap for a gap of 1 all over the contact: 1, or at a control point of a
+    /// quadratic face the value that the surrounding normals give.
     pub unit_gap: f64,
-    /// Area that belongs to the pair: integral of the slave's shape function over what of its
-    /// surface faces the other.
+    /// Area that belongs to the pair: integral of the slave's shape function over the part of its
+    /// surface that faces the other surface.
     pub area: f64,
     /// Distance along the slave's surface from its start; 0 in a solid model.
     pub arc: f64,
 }
 
 impl Pair {
-    /// The only node of the other surface, where one faces the slave.
+    /// The only node of the other surface, if a single node faces the slave.
     pub(crate) fn faced(&self) -> Option<usize> {
         match self.masters[..] {
             [(node, 1.0)] => Some(node),
@@ -65,8 +67,8 @@ impl Pair {
         }
     }
 
-    /// A gap that is no more than what the coordinates of the nodes are rounded by is none: the
-    /// pairs of surfaces that fit would close one after the other.
+    /// Sets a gap to zero if it is no more than the round-off of the nodes' coordinates. Otherwise
+    /// the pairs of matching surfaces would close one after the other.
     fn take_off_round_off(&mut self, mesh: &Mesh) {
         let places = self.nodes().flat_map(|node| mesh.point(node));
         let size = places.fold(0.0f64, |most, x| most.max(x.abs()));
@@ -76,7 +78,7 @@ impl Pair {
         }
     }
 
-    /// Makes an overlap in the mesh an interference, and returns it; 0 where there is none.
+    /// Converts an overlap in the mesh to an interference and returns it; 0 if there is none.
     fn overlap_interferes(&mut self) -> f64 {
         let overlap = (-self.gap).max(0.0);
         self.gap += overlap;
@@ -84,58 +86,58 @@ impl Pair {
         overlap
     }
 
-    /// The nodes of both surfaces.
+    /// Nodes of the pair on both surfaces.
     pub fn nodes(&self) -> impl Iterator<Item = usize> + '_ {
         let masters = self.masters.iter().map(|&(node, _)| node);
         masters.chain([self.slave])
     }
 }
 
-/// A contact of the scene.
+/// A contact of the scene with its pairs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSurface {
-    /// Names of the first and second surface.
+    /// Names of the first and the second surface.
     pub names: [String; 2],
-    /// Which of the two has the slaves: 0 or 1.
+    /// Number of the surface with the slaves: 0 or 1.
     pub slave: usize,
-    /// Whether the other one is rigid and has no mesh: its displacement is that of a body.
+    /// Whether the other surface is rigid and has no mesh: it moves as a body.
     pub is_rigid: bool,
     /// Pairs of the contact: `pairs[range]`.
     pub range: std::ops::Range<usize>,
-    /// Centre and radius of the surface, where it is known to be a circle.
+    /// Centre and radius of the surface, if it is known to be a circle.
     pub circle: Option<([f64; 2], f64)>,
-    /// Pressure over overlap of soft contact.
+    /// Stiffness of soft contact, as pressure over overlap; `None` for hard contact.
     pub stiffness: Option<f64>,
-    /// Length of the longest facet, the resolution of positions.
+    /// Length of the longest facet, which limits the resolution of positions.
     pub facet_length: f64,
-    /// The nodes on the axis of revolution that carry no force.
+    /// The pair on the axis of revolution, if the axis carries no force.
     pub axis: Option<AxisPoint>,
-    /// Pairs at which the candidates end although both bodies go on there: material beyond could
-    /// touch too.
+    /// Pairs at which the contact surface ends although both bodies go on there: material beyond
+    /// could touch too.
     pub goes_on: Vec<usize>,
-    /// In a solid model the pairs at the corners of each piece of a face of the slave surface, in
-    /// order.
+    /// Pairs at the corners of each piece of a face of the slave surface, in order; in a solid
+    /// model only.
     pub faces: Vec<Vec<usize>>,
-    /// Polygons that the other surface covers, for each piece that it does not cover wholly, by the
+    /// Polygons that the other surface covers on each piece that it covers only partly, by the
     /// number of the piece.
     pub covered: BTreeMap<usize, Vec<Vec<Vector>>>,
-    /// Pieces some of whose nodes face too little to be pairs: the pairs nearest in the face, and
+    /// Pieces with nodes that face too little to be pairs: the nearest pairs in the face, and the
     /// polygons that the other surface covers.
     pub slivers: Vec<(Vec<usize>, Vec<Vec<Vector>>)>,
     /// Arc lengths along the slave surface of a plane model between which the other surface covers
-    /// it, where that is not known from the pairs.
+    /// it, if the pairs do not show them.
     pub extent: Option<[f64; 2]>,
-    /// Length of the slave surface of a plane model where it is closed and all its nodes have
-    /// pairs.
+    /// Length of the slave surface of a plane model, if the surface is closed and all its nodes
+    /// have pairs.
     pub turn: Option<f64>,
-    /// Nodes of slaves that supports hold, and of what they face.
+    /// Slave nodes that supports hold, and the nodes that they face.
     pub(super) held: Vec<usize>,
-    /// Planes of symmetry on which it ends.
+    /// Planes of symmetry on which the contact ends.
     pub(crate) mirrors: Vec<Mirror>,
 }
 
 impl ContactSurface {
-    /// The planes of symmetry on which it ends at a place.
+    /// Planes of symmetry on which the contact ends at a point.
     pub(crate) fn mirrors_at(&self, x: Vector) -> impl Iterator<Item = &Mirror> {
         let is_on = move |mirror: &&Mirror| mirror.holds(x, self.facet_length);
         self.mirrors.iter().filter(is_on)
@@ -143,36 +145,37 @@ impl ContactSurface {
 }
 
 /// A pair on the axis of revolution whose slave belongs to a quadratic element. Its consistent
-/// force is zero whatever the pressure, so the condition that slave and master keep apart has no
-/// weight there. It is left out of the model's pairs, and the pressure there continues that of its
-/// neighbours evenly.
+/// force is zero whatever the pressure, so the condition that slave and master stay apart has no
+/// weight there. The pair is left out of the model's pairs, and the pressure on the axis is
+/// extrapolated smoothly from its neighbours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisPoint {
-    /// The slave, what it faces, and how far that is.
+    /// The pair left out, with its slave, masters and gap.
     pub pair: Pair,
-    /// Whether the surface begins on the axis (else it ends there).
+    /// Whether the surface starts on the axis (otherwise it ends there).
     pub begins: bool,
 }
 
-/// Share of its neighbour's area below which a node on the axis carries no force: 0 for quadratic
-/// elements but for curvature, 1/6 for linear ones.
+/// Share of its neighbour's area below which a node on the axis carries no force. The share is 0
+/// for quadratic elements apart from curvature, and 1/6 for linear ones.
 const NO_AREA: f64 = 0.02;
 
-/// What a contact is resolved from.
+/// Data from which a contact is resolved.
 struct ContactInput<'a> {
     index: usize,
     contact: Contact,
     stated: &'a Stated<'a>,
-    /// First and second.
+    /// First and second surface of the contact.
     surfaces: [&'a Surface; 2],
     mesh: &'a Mesh,
     space: Space,
-    /// Whether the scene is that of a deck, whose faces have numbers.
+    /// Whether the scene comes from an input deck, whose faces have numbers.
     is_of_deck: bool,
 }
 
 impl ContactInput<'_> {
-    /// A direction from the second body to the first, as one from the slave's body to the other.
+    /// Converts a direction from the second body to the first to one from the slave's body to the
+    /// other.
     fn towards_master(&self, normal: Vector, slave: usize) -> Vector {
         match slave {
             0 => normal.map(|n| -n),
@@ -180,7 +183,7 @@ impl ContactInput<'_> {
         }
     }
 
-    /// A given direction that leads into the second body, not out of it.
+    /// Refuses a given normal that leads into the second body instead of out of it.
     fn check_normal(&self) -> Result<()> {
         let [_, second] = self.surfaces;
         let Some(normal) = self.contact.normal.map(|n| direction(n.vector())) else {
@@ -189,7 +192,7 @@ impl ContactInput<'_> {
         let nodes = surface::nodes(self.mesh, second)?;
         let outward = surface::normals(self.mesh, second, &nodes);
         let along: f64 = outward.iter().map(|n| dot(*n, normal)).sum();
-        // All around a ring the sum vanishes.
+        // For a closed ring the sum vanishes.
         if along >= -0.5 * outward.len() as f64 {
             return Ok(());
         }
@@ -263,8 +266,8 @@ pub(super) fn resolve(
         entries.check_normal().map_err(refused)?;
         let mut own_notes = Vec::new();
         let (mut found, mut shared) = find(&entries, &mut own_notes).map_err(refused)?;
-        // Nodes that two contacts share are slaves of one; faces that both have on either side
-        // they would both hold.
+        // Nodes that two contacts share may be slaves in only one of them. Faces that both contacts
+        // have on the same surfaces would be held twice.
         let is_twice = |(_, other): &(usize, usize)| {
             held::are_same(mesh, entries.surfaces, &scene.contact[*other])
         };
@@ -279,7 +282,7 @@ pub(super) fn resolve(
                 _ => {}
             }
         }
-        // A slave whose support bears what presses on it needs no pair; better, it is a master.
+        // A slave whose support carries what presses on it needs no pair; it is better as a master.
         let n_held = |found: &Found| found.pairs.iter().filter(|pair| is_held(pair)).count();
         if n_held(&found) > 0 && contact.slave == SlaveSide::Auto {
             entries.contact.slave = [SlaveSide::Second, SlaveSide::First][found.slave];
@@ -328,10 +331,10 @@ pub(super) fn resolve(
     Ok((pairs, contacts))
 }
 
-/// The pairs of a contact.
+/// Pairs found for a contact, with the choice of the slave surface.
 struct Found {
     pairs: Vec<Pair>,
-    /// Which surface has the slaves.
+    /// Number of the surface with the slaves.
     slave: usize,
     facet_length: f64,
     covered: Covered,
@@ -339,7 +342,7 @@ struct Found {
     held: Vec<usize>,
 }
 
-/// The contact of the pairs from `start` on.
+/// Makes the contact surface of the pairs from `start` on.
 fn surface_of(
     entries: &ContactInput,
     found: &Found,
@@ -380,7 +383,7 @@ fn surface_of(
     }
 }
 
-/// [`ContactSurface::turn`].
+/// Length of a closed slave surface, for [`ContactSurface::turn`].
 fn turn(mesh: &Mesh, surface: &Surface, pairs: &[Pair]) -> Option<f64> {
     let nodes = surface.facets.iter().flat_map(|&f| mesh.facet_nodes(f));
     let nodes: BTreeSet<usize> = nodes.collect();
@@ -397,7 +400,7 @@ fn turn(mesh: &Mesh, surface: &Surface, pairs: &[Pair]) -> Option<f64> {
     closed.then(|| last.arc - first.arc + length(way))
 }
 
-/// Takes the pair on the axis that can carry no force out of the pairs from `start` on.
+/// Removes the pair on the axis that can carry no force from the pairs from `start` on.
 fn take_axis_pair(
     entries: &ContactInput,
     pairs: &mut Vec<Pair>,
@@ -421,7 +424,7 @@ fn take_axis_pair(
     None
 }
 
-/// The numbers of some nodes, in words.
+/// Lists the numbers of some nodes in words.
 fn list(mesh: &Mesh, nodes: &[usize]) -> String {
     let mut out: Vec<String> = nodes
         .iter()

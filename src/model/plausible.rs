@@ -1,21 +1,22 @@
-//! What a scene says that is probably not meant.
+//! Warnings about entries of a scene that are probably mistakes.
 
 use super::Model;
 use super::mirror::{Conditions, mirrors};
 use crate::number::{exact, significant};
 use crate::scene::Scene;
 
-/// Strains at yield, of lead and of elastomers: M. F. Ashby, *Materials Selection in Mechanical
-/// Design*, 4th ed. (2011), chart of strength over modulus, with a decade to either side.
+/// Strains at yield, from lead to elastomers: M. F. Ashby, *Materials Selection in Mechanical
+/// Design*, 4th ed. (2011), chart of strength over modulus, with a margin of a decade on either
+/// side.
 const YIELD_STRAINS: [f64; 2] = [1e-6, 1.0];
-/// Logarithmic plastic strain beyond which no test goes: a bar drawn to seven times its length.
+/// Logarithmic plastic strain that no test exceeds: a bar drawn to seven times its length.
 const LARGEST_STRAIN: f64 = 2.0;
 
-/// Elements up to which planes of symmetry are looked for to warn of none: each facet of a held
-/// surface is compared with all planes that were found.
+/// Number of elements up to which planes of symmetry are searched for: each facet of a held surface
+/// is compared with all planes found so far.
 const MOST_ELEMENTS: usize = 100_000;
 
-/// Warnings of materials in units that contradict each other.
+/// Warnings about materials whose values are in contradictory units.
 pub(super) fn of_materials(scene: &Scene) -> Vec<String> {
     let mut out = Vec::new();
     for (name, material) in &scene.materials {
@@ -44,7 +45,7 @@ pub(super) fn of_materials(scene: &Scene) -> Vec<String> {
     out
 }
 
-/// A warning of a symmetry that the model does not have.
+/// Warning about a declared symmetry that the model does not have.
 pub(super) fn of_symmetry(model: &Model) -> Option<String> {
     let n = model.mesh.n_elements();
     if model.scene.symmetry < 2 || n > MOST_ELEMENTS {
@@ -97,7 +98,7 @@ program.targets = [{ load_factor = 1.0 }]
         for sound in [
             "yield_stress = 300.0, plastic_modulus = 1000.0",
             "hardening_table = [[0.0, 300.0], [1.0, 600.0]]",
-            // Lead, and a rubber.
+            // Values of lead and of a rubber.
             "yield_stress = 2.0",
             "yield_stress = 5e4",
         ] {

@@ -1,4 +1,4 @@
-//! What a model was made from, as data: of a model that no scene alone makes again.
+//! Data from which a model can be made again if no scene alone describes it.
 
 use super::given::Given;
 use super::{Model, Origin};
@@ -8,7 +8,7 @@ use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 
-/// Scene, mesh, and what arrays state besides them.
+/// Scene, mesh, and further data given as arrays.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Recipe<'a> {
@@ -18,7 +18,7 @@ pub(crate) struct Recipe<'a> {
 }
 
 impl Model {
-    /// What [`Model::from_recipe`] makes this model of.
+    /// The data from which [`Model::from_recipe`] makes this model again.
     pub(crate) fn recipe(&self) -> Recipe<'_> {
         Recipe {
             scene: Cow::Borrowed(&self.scene),
@@ -30,10 +30,10 @@ impl Model {
         }
     }
 
-    /// The model again.
+    /// Makes the model again.
     ///
     /// # Errors
-    /// Errors of [`Model::new`]: what was read from a file may be damaged.
+    /// Errors of [`Model::new`], since a recipe read from a file may be damaged.
     pub(crate) fn from_recipe(recipe: Recipe<'_>) -> Result<Self> {
         recipe.scene.validate_without_mesh()?;
         let (mesh, given) = (recipe.mesh.into_owned(), recipe.given.into_owned());

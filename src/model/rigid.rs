@@ -1,9 +1,9 @@
 //! Rigid surfaces in the model: each is a body of one element, all of whose nodes move alike.
 //!
-//! The element carries nothing: its nodes share one displacement, along the push, and are held
-//! across it, so that it is never strained. Where it lies says nothing of the surface, whose
-//! distance from any point is known ([`Form`]). As a body like others it takes part in all that is
-//! asked of bodies: contact rows, loads, supports and the motions that contact alone holds.
+//! The element has no mechanical effect: its nodes share one displacement, along the push, and are
+//! held across it, so that it is never strained. Its position has no meaning for the surface, whose
+//! distance from any point is known ([`Form`]). As a body, it is treated like any other in contact
+//! rows, loads, supports and the motions that contact alone holds.
 
 mod form;
 mod heights;
@@ -19,44 +19,44 @@ use crate::space::{Vector, along, direction, dot, length, unit};
 pub(super) use form::Form;
 use std::ops::Range;
 
-/// Cosine of the angle up to which directions are one.
+/// Cosine of the angle up to which directions count as equal.
 const ALIKE: f64 = 1.0 - 1e-12;
-/// Half the side of an element, as a share of the size of the mesh: small enough to be told from
-/// the bodies in a picture, large enough to be seen.
+/// Half the side of an element, as a share of the size of the mesh: small enough to be
+/// distinguished from the bodies in a picture, large enough to be seen.
 const SIDE: f64 = 0.02;
 
-/// The rigid surfaces of a scene, in the order of their names.
+/// Rigid surfaces of a scene, in the order of their names.
 #[derive(Debug, Default)]
 pub(super) struct RigidBodies {
     bodies: Vec<RigidBody>,
 }
 
-/// A rigid surface.
+/// A rigid surface with its form, its motion and its element.
 #[derive(Debug)]
 pub(super) struct RigidBody {
     pub name: String,
     pub form: Form,
     motion: Motion,
-    /// The nodes of its element.
+    /// Nodes of the element that represents the surface.
     nodes: Range<usize>,
 }
 
-/// How a rigid surface moves.
+/// Motion that a rigid surface can make.
 #[derive(Debug, PartialEq)]
 enum Motion {
     /// The surface does not move.
     Held,
-    /// A prescribed displacement along these axes.
+    /// Moves by a prescribed displacement along these axes.
     Given([bool; 3]),
-    /// Freely along a direction.
+    /// Moves freely along a direction.
     Free(Vector),
 }
 
 impl RigidBodies {
-    /// The rigid surfaces of a scene; adds an element of each to its mesh.
+    /// Resolves the rigid surfaces of a scene, and adds one element for each to its mesh.
     ///
     /// # Errors
-    /// A name that the mesh has already; forces along several directions.
+    /// A name that the mesh already has; forces along several directions.
     pub fn add(scene: &Scene, mesh: &mut Mesh) -> Result<Self> {
         let mut bodies = Vec::new();
         let size = size(mesh);
@@ -81,18 +81,18 @@ impl RigidBodies {
         Ok(RigidBodies { bodies })
     }
 
-    /// The rigid surface of a name.
+    /// Finds the rigid surface with a name.
     pub fn named(&self, name: &str) -> Option<&RigidBody> {
         self.bodies.iter().find(|body| body.name == name)
     }
 
-    /// The first node of rigid surfaces: all from there on are theirs.
+    /// First node of rigid surfaces; all nodes from it on belong to rigid surfaces.
     pub fn first_node(&self) -> Option<usize> {
         self.bodies.first().map(|body| body.nodes.start)
     }
 
-    /// Holds the nodes of each but along its push. Returns the nodes and places among their axes
-    /// that share a displacement, with the number of the surface.
+    /// Holds the nodes of each surface except along its push. Returns the nodes and local axes that
+    /// share a displacement, with the number of the surface.
     pub fn hold(&self, freedoms: &mut Freedoms) -> Vec<((usize, usize), usize)> {
         let mut shared = Vec::new();
         for (k, body) in self.bodies.iter().enumerate() {
@@ -116,8 +116,8 @@ impl RigidBodies {
         shared
     }
 
-    /// Lets prescribed displacements of rigid surfaces change the gaps of what they may touch: by
-    /// `n . d`, with the normal `n` from the slave towards the surface that moves by `d`.
+    /// Lets prescribed displacements of rigid surfaces change the gaps of the pairs that face them:
+    /// by `n . d`, with the normal `n` from the slave towards the surface that moves by `d`.
     pub fn open(
         &self,
         scene: &Scene,
@@ -146,14 +146,14 @@ impl RigidBodies {
 }
 
 impl RigidBody {
-    /// What faces a slave: all nodes of the element alike, of which none faces it alone.
+    /// Masters of a slave that faces the surface: all nodes of the element, with equal weights.
     pub fn masters(&self) -> Vec<(usize, f64)> {
         let share = 1.0 / self.nodes.len() as f64;
         self.nodes.clone().map(|node| (node, share)).collect()
     }
 }
 
-/// How the loads of a scene move a rigid surface.
+/// Motion that the loads of a scene give a rigid surface.
 fn motion(scene: &Scene, name: &str) -> Result<Motion> {
     let mut motion = Motion::Held;
     for (index, load) in scene.load.iter().enumerate().filter(|(_, l)| l.on == name) {
@@ -192,7 +192,7 @@ fn motion(scene: &Scene, name: &str) -> Result<Motion> {
     Ok(motion)
 }
 
-/// The force of a load, of which a rigid surface feels the sum.
+/// Total force of a load on a rigid surface.
 fn force(load: &Load) -> Vector {
     match (&load.force, &load.plane_force) {
         (Some(force), _) => force.vector(),
@@ -201,7 +201,7 @@ fn force(load: &Load) -> Vector {
     }
 }
 
-/// The longest side of the box around the nodes.
+/// Longest side of the bounding box of the nodes.
 fn size(mesh: &Mesh) -> f64 {
     let sides = (0..mesh.dimension).map(|d| {
         let along = mesh.coordinates.iter().skip(d).step_by(mesh.dimension);
@@ -212,7 +212,7 @@ fn size(mesh: &Mesh) -> f64 {
     sides.fold(0.0, f64::max)
 }
 
-/// A point at a depth below the place of a rigid surface that is closest to what it may touch.
+/// Point at a depth below the place on a rigid surface that is closest to what it may touch.
 fn behind(scene: &Scene, mesh: &Mesh, name: &str, form: &Form, depth: f64) -> Vector {
     let touching = scene.contact.iter().filter_map(|contact| {
         [
@@ -230,8 +230,8 @@ fn behind(scene: &Scene, mesh: &Mesh, name: &str, form: &Form, depth: f64) -> Ve
     })
 }
 
-/// Adds the element of a rigid surface as a body, and all of its boundary as a surface of that
-/// name; returns its nodes.
+/// Adds the element of a rigid surface as a body, and its boundary as a surface with the same name;
+/// returns its nodes.
 fn add_element(mesh: &mut Mesh, name: &str, form: &Form, half: f64, scene: &Scene) -> Range<usize> {
     let mut center = behind(scene, mesh, name, form, 2.0 * half);
     if scene.kind.is_axisymmetric() {

@@ -1,11 +1,11 @@
-//! Contact rows: what each pair restricts, on free freedoms.
+//! Contact rows: the constraint of each pair, expressed by free freedoms.
 //!
 //! ```text
 //!     u_slave . n - sum_k w_k u_k . n = sum_i b_i u_i <= delta
 //! ```
 //!
-//! Nodes that face each other give two coefficients, -1 and 1; surfaces that do not match give one
-//! of 1 and several of the masters.
+//! Nodes that face each other give the two coefficients -1 and 1; surfaces that do not match give
+//! the coefficient 1 of the slave and several of the masters.
 
 use super::freedoms::{Freedoms, Slot};
 use super::pairs::Pair;
@@ -14,30 +14,30 @@ use crate::mesh::Mesh;
 use crate::space::dot;
 use std::collections::BTreeMap;
 
-/// Share of a weight up to which a master's direction is at right angles to the normal.
+/// Cosine up to which a master's direction counts as orthogonal to the normal.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
-/// The rows of all pairs.
+/// Contact rows of all pairs.
 #[derive(Debug, Clone, Default)]
 pub struct ContactRows {
-    /// The free freedoms that rows act on: those of masters in the order of the pairs, overlaps of
-    /// soft contact, then the slaves' normal ones.
+    /// Free freedoms on which rows act: freedoms of masters in the order of the pairs, then
+    /// overlaps of soft contact, then the normal freedoms of the slaves.
     pub freedoms: Vec<usize>,
     /// Places in `freedoms` and coefficients `b` of each pair; the last is the slave's, 1.
     pub entries: Vec<Vec<(usize, f64)>>,
     /// Number of rows that act on each contact freedom.
     rows_at: Vec<u32>,
-    /// Places of the overlaps among the freedoms.
+    /// Range of the overlaps within `freedoms`.
     overlaps: std::ops::Range<usize>,
     /// Whether no two rows share a freedom and all coefficients are -1 and 1.
     are_apart: bool,
 }
 
 impl ContactRows {
-    /// The rows of pairs.
+    /// Builds the rows of the pairs.
     ///
     /// # Errors
-    /// A slave whose normal displacement is held, a master that a load moves.
+    /// A slave whose normal displacement is held, or a master that a load moves.
     pub(super) fn of(mesh: &Mesh, freedoms: &Freedoms, pairs: &[Pair]) -> Result<Self> {
         let held = |node: usize| {
             Error::input(format!(
@@ -110,12 +110,12 @@ impl ContactRows {
         self.freedoms.len()
     }
 
-    /// Displacement of a row `sum b_i u_i`, for those of the contact freedoms.
+    /// Displacement of a row, `sum b_i u_i`, for displacements of the contact freedoms.
     pub fn slip(&self, row: usize, contact: impl Fn(usize) -> f64) -> f64 {
         self.entries[row].iter().map(|&(i, b)| b * contact(i)).sum()
     }
 
-    /// Adds what forces of the rows, compressive positive, do to the contact freedoms: `-B' r`.
+    /// Adds the forces `-B' r` on the contact freedoms for row forces `r`, compressive positive.
     pub(crate) fn add_forces(&self, forces: &[f64], mut add: impl FnMut(usize, f64)) {
         for (row, force) in self.entries.iter().zip(forces) {
             for &(i, b) in row {
@@ -124,7 +124,7 @@ impl ContactRows {
         }
     }
 
-    /// Displacement along the normal of what faces the slave, and of the slave.
+    /// Displacements along the normal of the masters' side and of the slave.
     pub(crate) fn both_sides(&self, row: usize, contact: &[f64]) -> [f64; 2] {
         let [masters @ .., slave] = self.entries[row].as_slice() else {
             return [0.0; 2];
@@ -134,16 +134,16 @@ impl ContactRows {
         [faced, contact[slave.0]]
     }
 
-    /// The freedoms on which no other row acts and this one with its whole force, with the sign of
-    /// their coefficients.
+    /// Freedoms on which no other row acts and on which this row acts with its whole force, with
+    /// the sign of their coefficients.
     pub fn own(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let entries = self.entries[row].iter().copied();
         entries.filter(|&(i, b)| b.abs() == 1.0 && self.rows_at[i] == 1)
     }
 
-    /// Takes the forces that rows alone carry off a load on the contact freedoms and adds them, as
-    /// compressive forces of the rows, to `carried`: of a pair of nodes what is left is the same on
-    /// both, else nothing is left on the slave. Open rows are passed over.
+    /// Moves the part of a load on the contact freedoms that rows can carry to `carried`, as
+    /// compressive forces of the rows. In a pair of nodes the remaining loads of both are equal; in
+    /// other pairs the slave has no load left. Open rows are left out.
     pub(crate) fn take_carried(&self, contact: &mut [f64], carried: &mut [f64], open: &[bool]) {
         if self.are_apart {
             let (first, second) = contact.split_at_mut(carried.len());
@@ -157,7 +157,8 @@ impl ContactRows {
             }
             return;
         }
-        // A slave may be the master of another row: a chain of bodies is as long as there are rows.
+        // A slave may be the master of another row: a chain of bodies is at most as long as the
+        // rows.
         for _ in 0..self.entries.len() {
             let mut changed = false;
             let closed = self
@@ -188,7 +189,7 @@ impl ContactRows {
     }
 }
 
-/// Coefficients of a pair's row on the freedoms of its masters; `None` where a load moves one.
+/// Coefficients of a pair's row on the freedoms of its masters; `None` if a load moves a master.
 fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
     let mut row: Vec<(usize, f64)> = Vec::new();
     let mut is_moved = false;
@@ -196,7 +197,7 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
         let axes = freedoms.local(node);
         let along_normal = axes[0] == pair.normal;
         for (local, slot) in freedoms.of_node(node).iter().enumerate() {
-            // The axis that is the normal counts one, to the last bit.
+            // The axis that is the normal has the coefficient 1 to the last bit.
             let share = match (along_normal, local) {
                 (true, 0) => 1.0,
                 (true, _) => continue,
@@ -214,7 +215,7 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
                         None => row.push((freedom, b)),
                     }
                 }
-                // What moves a rigid surface changes the gaps instead.
+                // A prescribed motion of a rigid surface changes the gaps instead.
                 Slot::Prescribed(_) => is_moved |= is_sum && !freedoms.is_rigid(node),
                 Slot::Fixed | Slot::Sum(_) => {}
             });

@@ -1,12 +1,13 @@
-//! The displacement of a node as a sum over freedoms, in global axes:
+//! Displacement of a node as a sum over freedoms, in global axes:
 //!
 //! ```text
 //!     u_node = sum_k v_k d_k      d_k a free freedom or a prescribed displacement
 //! ```
 //!
-//! Turned axes, control points of quadratic faces, surfaces held plane, ties and equations differ
-//! in the vectors `v` only: assembly and analysis know this one form. Of an element's displacements
-//! it is `u = C d`; its stiffness on the `d` is `C' K C`, forces on them are `C' f`.
+//! Rotated axes, control points of quadratic faces, surfaces held plane, ties and equations differ
+//! only in the vectors `v`: assembly and analysis know this one form. For an element's
+//! displacements the form is `u = C d`; its stiffness on `d` is `C' K C`, the forces on `d` are
+//! `C' f`.
 
 use super::Model;
 use super::freedoms::{Freedoms, Slot};
@@ -15,8 +16,8 @@ use crate::space::{Vector, along};
 use serde::{Deserialize, Serialize};
 
 impl Freedoms {
-    /// Visits the terms of a node's displacement: free freedoms and prescribed displacements with
-    /// their vectors.
+    /// Calls `of` with the terms of a node's displacement: free freedoms and prescribed
+    /// displacements with their vectors.
     #[inline]
     pub fn each_term(&self, node: usize, mut of: impl FnMut(Slot, Vector)) {
         self.basis.each_control(node, |control, weight| {
@@ -26,7 +27,7 @@ impl Freedoms {
         });
     }
 
-    /// Whether the displacements of a node along the global axes are its own slots.
+    /// Whether the displacements of a node along the global axes are directly its own slots.
     #[inline]
     pub fn is_plain(&self, node: usize) -> bool {
         let follows = |slot: &Slot| matches!(slot, Slot::Sum(_));
@@ -56,12 +57,12 @@ impl Freedoms {
     }
 }
 
-/// The displacements of an element's nodes as sums: `u_i = sum_k c_ik d_k`.
+/// Displacements of an element's nodes as sums: `u_i = sum_k c_ik d_k`.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct Sums {
-    /// The `d`: free freedoms and prescribed displacements.
+    /// Slots `d` of the sums: free freedoms and prescribed displacements.
     pub slots: Vec<Slot>,
-    /// `i` among the displacements of the nodes, node by node, `k` among the slots, and `c_ik`.
+    /// Number `i` of a nodal displacement, node by node, number `k` of a slot, and `c_ik`.
     parts: Vec<(usize, usize, f64)>,
 }
 
@@ -75,9 +76,9 @@ impl Sums {
         self.parts.push((own, k, coefficient));
     }
 
-    /// `C' K C` of a stiffness of `n` displacements; both are packed lower triangles.
+    /// Computes `C' K C` from a stiffness of `n` displacements; both are packed lower triangles.
     pub fn stiffness(&self, n: usize, stiffness: &[f64], out: &mut [f64]) {
-        // `C' K`, slot by slot.
+        // First `C' K`, slot by slot.
         let mut shared = vec![0.0; self.slots.len() * n];
         for &(i, k, c) in &self.parts {
             for (j, shared) in shared[k * n..(k + 1) * n].iter_mut().enumerate() {
@@ -94,7 +95,7 @@ impl Sums {
 }
 
 impl Model {
-    /// The displacements of an element's nodes as sums, where they are not simply the slots of its
+    /// Displacements of an element's nodes as sums; `None` if they are directly the slots of its
     /// nodes.
     pub fn sums_of(&self, element: usize) -> Option<Sums> {
         let (nodes, freedoms) = (self.mesh.nodes(element), &self.freedoms);
@@ -114,7 +115,7 @@ impl Model {
         Some(sums)
     }
 
-    /// What an element's stiffness acts on: free freedoms, and what is held or prescribed.
+    /// Slots on which an element's stiffness acts: free, held and prescribed ones.
     pub fn slots_of(&self, element: usize) -> Vec<Slot> {
         match self.sums_of(element) {
             Some(sums) => sums.slots,

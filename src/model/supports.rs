@@ -1,4 +1,4 @@
-//! What holds each node, and what that makes of contact normals.
+//! Supports of each node, and their effect on contact normals.
 
 use super::names::Entry;
 use super::pairs::Pair;
@@ -8,19 +8,20 @@ use crate::scene::Scene;
 use crate::space::{Vector, along, direction, dot, unit};
 use std::collections::BTreeMap;
 
-/// A support within 30 degrees of a contact's tangent is meant to lie in it: the normal of the
-/// discretised surface is then turned into the symmetry plane.
+/// Sine of the angle between a support and a contact's tangent below which the support is meant to
+/// lie in the tangent, 30 degrees: the normal of the discretised surface is then rotated into the
+/// symmetry plane.
 const NEARLY_TANGENT: f64 = 0.5;
 
 /// A direction in which a node is held.
 pub(super) struct Held {
     pub(super) direction: Vector,
-    /// Index of the support; `None` on the axis of revolution, which holds by itself.
+    /// Index of the support; `None` for the axis of revolution.
     pub(super) support: Option<usize>,
 }
 
 impl Held {
-    /// What holds the node.
+    /// Name of the support for messages.
     pub(super) fn by(&self, scene: &Scene) -> String {
         match self.support {
             Some(index) => format!("support {} on `{}`", index + 1, scene.support[index].on),
@@ -36,7 +37,7 @@ impl Held {
     }
 }
 
-/// What holds each node, in the order of the scene.
+/// Held directions of each node, in the order of the scene.
 pub(super) struct Supports {
     pub(super) of_node: BTreeMap<usize, Vec<Held>>,
 }
@@ -72,14 +73,14 @@ impl Supports {
 }
 
 impl Supports {
-    /// Whether a node is held along a direction, not only nearly at right angles to it.
+    /// Whether a node is held along a direction, and not only nearly at right angles to it.
     pub(super) fn hold_along(&self, node: usize, direction: Vector) -> bool {
         let mut held = self.of_node.get(&node).into_iter().flatten();
         held.any(|held| dot(direction, held.direction).abs() >= NEARLY_TANGENT)
     }
 }
 
-/// A normal that is nearly at right angles to a support is meant to be.
+/// Rotates normals that are nearly at right angles to a support to exact right angles.
 pub(super) fn turn_normals_into_supports(pairs: &mut [Pair], supports: &Supports) {
     for pair in pairs {
         for node in pair.faced().into_iter().chain([pair.slave]) {

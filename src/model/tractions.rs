@@ -1,4 +1,4 @@
-//! Consistent nodal forces of what acts on surfaces: `f = int N' t dA` over their facets.
+//! Consistent nodal forces of loads on surfaces: `f = int N' t dA` over their facets.
 
 use super::names::Entry;
 use super::on_mesh::OnMesh;
@@ -10,10 +10,10 @@ use crate::space::{Space, Vector, length};
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 
-/// Forces at nodes, ascending.
+/// Nodal forces, nodes ascending.
 type NodeForces = Vec<(usize, Vector)>;
 
-/// A load of a scene that acts on a surface by a pressure or a traction.
+/// Load of a scene that acts on a surface by a pressure or a traction.
 pub(super) struct Tractions<'a> {
     scene: &'a Scene,
     mesh: &'a Mesh,
@@ -31,11 +31,11 @@ impl<'a> Tractions<'a> {
         }
     }
 
-    /// Forces of a pressure, positive into the body, and its largest size at a node or an
+    /// Forces of a pressure, positive into the body, and its largest absolute value at a node or an
     /// integration point.
     ///
     /// # Errors
-    /// `Input` where the pressure is not known somewhere.
+    /// `Input` if the pressure is not known everywhere.
     pub fn of_pressure(&self, pressure: &Field, surface: &Surface) -> Result<(NodeForces, f64)> {
         let field = OnMesh::new(pressure, "pressure", self.scene, self.mesh);
         let found = field.and_then(|field| {
@@ -51,7 +51,7 @@ impl<'a> Tractions<'a> {
     /// Forces of a traction, and its largest size at a node or an integration point.
     ///
     /// # Errors
-    /// `Input` where a component is not known somewhere.
+    /// `Input` if a component is not known everywhere.
     pub fn of_vector(
         &self,
         traction: &VectorField,
@@ -76,7 +76,7 @@ impl<'a> Tractions<'a> {
         found.map_err(|error| self.refused(error))
     }
 
-    /// Forces of a traction that is known with its size, and the largest size.
+    /// Forces of a traction that is given with its size, and the largest size.
     fn integrate(
         &self,
         surface: &Surface,
@@ -89,7 +89,7 @@ impl<'a> Tractions<'a> {
             largest = largest.max(size);
             Ok::<_, Error>(traction)
         })?;
-        // A formula need not be finite at a node: no force comes from there.
+        // A formula need not be finite at a node, since forces come from integration points only.
         let at_nodes = forces.iter().filter_map(|(node, _)| size_at(*node).ok());
         let largest = at_nodes.fold(largest, f64::max);
         Ok((forces, largest))
@@ -114,7 +114,7 @@ pub(super) fn integrate(
     forces
 }
 
-/// As [`integrate`], for a traction that needs the nodes of the facet and may not be known.
+/// Integrates as [`integrate`] does, for a traction that needs the facet's nodes and may fail.
 fn try_integrate<E>(
     space: Space,
     mesh: &Mesh,

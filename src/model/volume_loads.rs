@@ -34,7 +34,7 @@ pub(super) fn resolve(
         let text = format!("needs the {what} of the body; give materials.{material}.{key}");
         value.ok_or_else(|| refused(text))
     };
-    // Of a load by temperature the volumes of the nodes alone.
+    // A temperature load needs only the volumes of the nodes.
     let density = match load.temperature {
         Some(_) => 1.0,
         None => needed("mass", "density", data.density)?,
@@ -88,13 +88,13 @@ pub(super) fn resolve(
         let mass = scene.symmetry as f64 * density * volume;
         case.set_size(a.map(|a| mass * a), Magnitude::Force);
     } else {
-        // Forces by rotation have no direction as a whole: their sizes are added up.
+        // Forces of rotation have no common direction: their sizes are added.
         case.magnitude = scene.symmetry as f64 * case.size();
     }
     Ok(case)
 }
 
-/// The change of temperature at every node of the mesh, zero at nodes of other bodies.
+/// Change of temperature at every node of the mesh; zero at nodes of other bodies.
 fn changes(field: &Field, scene: &Scene, mesh: &Mesh, nodes: &[usize]) -> Result<Vec<f64>> {
     let field = OnMesh::new(field, "temperature", scene, mesh)?;
     let mut out = vec![0.0; mesh.n_nodes()];

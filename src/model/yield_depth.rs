@@ -1,4 +1,4 @@
-//! Yield stress by depth below a surface: case hardening. It is straight between the rows of the
+//! Yield stress by depth below a surface, for case hardening: linear between the rows of the
 //! profile and constant beyond.
 
 use super::depth::{self, Simplices};
@@ -12,33 +12,33 @@ use crate::space::Vector;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// The yield stress of a body that depends on the depth.
+/// Yield stress of a body as a function of depth.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct YieldByDepth {
-    /// (depth, yield stress), depths ascending.
+    /// Rows (depth, yield stress), depths ascending.
     rows: Vec<[f64; 2]>,
     surface: Arc<Simplices>,
 }
 
 impl YieldByDepth {
-    /// The yield stress at a place.
+    /// Yield stress at a point.
     pub fn at(&self, place: Vector) -> f64 {
         interpolate(&self.rows, self.surface.distance(place))
     }
 
-    /// The yield stress, if it is the same everywhere.
+    /// Yield stress if it is the same at all depths.
     fn constant(&self) -> Option<f64> {
         let first = self.rows[0][1];
         self.rows.iter().all(|row| row[1] == first).then_some(first)
     }
 }
 
-/// The yield stress by depth of each body that has one. Bodies that would have their material's
-/// everywhere have none.
+/// Resolves the yield stress by depth of each body that has a profile. A body whose profile equals
+/// the material's yield stress everywhere gets `None`.
 ///
 /// # Errors
-/// A surface that the mesh does not have or that is another body's; a body without a contact
-/// surface that names none.
+/// A surface that the mesh does not have or that belongs to another body; no `depth_from` in a body
+/// without a contact surface.
 pub(super) fn resolve(
     scene: &Scene,
     mesh: &Mesh,

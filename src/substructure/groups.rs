@@ -1,10 +1,10 @@
-//! The tied structure by groups of pairs: bodies that nothing joins with others are tied, and
-//! solved, apart from them.
+//! The tied structure by groups of pairs: bodies that nothing joins with others are tied and solved
+//! separately.
 //!
-//! Pairs belong to one group where their nodes are coupled by the condensed stiffness (the nodes of
+//! Pairs belong to one group if their nodes are coupled by the condensed stiffness (as the nodes of
 //! one body are) or by a rigid motion. A group of `p` pairs costs `p^3` operations once and `p^2`
-//! numbers from then on, whatever other groups there are: the cost of many separate joints is the
-//! sum over the joints.
+//! stored numbers from then on, whatever other groups there are: the cost of many separate joints
+//! is the sum over the joints.
 
 use super::rows::{RowEntries, Rows};
 use super::tied::{SplitSlip, Tied, Trace};
@@ -17,26 +17,26 @@ use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// All groups of tied pairs.
+/// All groups of tied pairs of a structure.
 pub(super) struct Groups {
     groups: Vec<TiedGroup>,
     n_pairs: usize,
     n_motions: usize,
 }
 
-/// Tied pairs that feel one another.
+/// One group of tied pairs, coupled by stiffness or by rigid motions.
 struct TiedGroup {
-    /// The pairs of the group, ascending.
+    /// Numbers of the pairs of the group, ascending.
     pairs: Vec<usize>,
-    /// The contact freedoms of the pairs, ascending.
+    /// Contact freedoms of the pairs, ascending.
     contact: Vec<usize>,
-    /// The rigid motions of the model that move the pairs.
+    /// Rigid motions of the model that move these pairs.
     motions: Vec<usize>,
     tied: Tied,
 }
 
-/// What groups are made from: the contact rows, the free freedom and the part of each contact
-/// freedom, and whether that is the motion of a rigid surface.
+/// Contact rows from which groups are made; for each contact freedom the free freedom, the part it
+/// belongs to, and whether it is the motion of a rigid surface.
 #[derive(Clone, Copy)]
 pub(super) struct Contact<'a> {
     pub rows: &'a [RowEntries],
@@ -46,8 +46,8 @@ pub(super) struct Contact<'a> {
 }
 
 impl Groups {
-    /// Tied structures and contact matrix for the condensed stiffness and the rigid motions of
-    /// floating parts.
+    /// Builds the tied structures and the contact matrix from the condensed stiffness and the rigid
+    /// motions of floating parts.
     ///
     /// # Errors
     /// Errors of [`Tied::new`].
@@ -92,7 +92,8 @@ impl Groups {
             let traces = traces(motions, &of_group, &own_freedoms);
             let own_row = |&k: &usize| of.rows[k].iter().map(|&(i, b)| (place[i].1, b)).collect();
             let entries: Vec<RowEntries> = pairs.iter().map(own_row).collect();
-            // What is rigid leads: it counts as stiff as the stiffest.
+            // Freedoms of rigid surfaces lead: each counts as stiff as the stiffest contact
+            // freedom.
             let diagonals = (0..contact.len()).map(|i| stiffness.diagonal(i));
             let stiffest = diagonals.fold(0.0, f64::max);
             let diagonal = |i: usize| match of.rigid[contact[i]] {
@@ -120,8 +121,8 @@ impl Groups {
         Ok((groups, PairMatrix::new(blocks)))
     }
 
-    /// As [`Tied::eliminate`]; what is left for [`Groups::recover`] stands in the places of the
-    /// pairs of each group.
+    /// Eliminates each group as [`Tied::eliminate`] does. The unknowns that [`Groups::recover`]
+    /// needs are left in the places of the contact freedoms of each group.
     pub(super) fn eliminate(&self, contact: &mut [f64], forces: &mut [f64]) {
         if let [only] = self.groups.as_slice() {
             return only.tied.eliminate(contact, forces);
@@ -139,7 +140,7 @@ impl Groups {
         }
     }
 
-    /// As [`Tied::recover`].
+    /// Recovers the displacements of each group as [`Tied::recover`] does.
     pub(super) fn recover(&self, contact: &mut [f64], slip: &[f64]) {
         if let [only] = self.groups.as_slice() {
             return only.tied.recover(contact, slip);
@@ -151,7 +152,8 @@ impl Groups {
         }
     }
 
-    /// As [`Tied::split_slip`], amplitudes of all rigid motions of the model.
+    /// Splits slips as [`Tied::split_slip`] does, with amplitudes of all rigid motions of the
+    /// model.
     pub(super) fn split_slip(&self, slip: &[f64]) -> SplitSlip {
         let mut rest = DVector::zeros(self.n_pairs);
         let mut motions = DVector::zeros(self.n_motions);
@@ -167,8 +169,8 @@ impl Groups {
         SplitSlip { rest, motions }
     }
 
-    /// As [`Tied::split`]: displacements go to `contact`, amplitudes of rigid motions are added to
-    /// `motions`.
+    /// Splits displacements as [`Tied::split`] does. The displacements go to `contact`; the
+    /// amplitudes of rigid motions are added to `motions`.
     pub(super) fn split(&self, contact: &mut [f64], slip: &[f64], motions: &mut [f64]) {
         for group in &self.groups {
             let own = take(group, contact);
@@ -180,8 +182,8 @@ impl Groups {
         }
     }
 
-    /// The pairs of each group asked for that rigid motions move, and the displacements of these
-    /// pairs that they give (`pairs x motions`, orthonormal).
+    /// For each group that `asked_for` selects and that rigid motions move: the pairs of the group,
+    /// and their displacements in the rigid motions (`pairs x motions`, orthonormal).
     pub(super) fn rigid_slips(
         &self,
         asked_for: impl Fn(&[usize]) -> bool,
@@ -192,8 +194,8 @@ impl Groups {
             .collect()
     }
 
-    /// Makes forces on the pairs do the work on rigid motions that is known of each motion of the
-    /// model.
+    /// Corrects forces on the pairs so that their work on each rigid motion of the model is the
+    /// known `work`.
     pub(super) fn balance(&self, forces: &mut [f64], work: impl Fn(usize) -> Work) {
         for group in &self.groups {
             let work = |motion: usize| work(group.motions[motion]);
@@ -201,13 +203,13 @@ impl Groups {
         }
     }
 
-    /// Multiplications that putting leaders and followers together took.
+    /// Number of multiplications that combining leaders and followers took.
     pub(super) fn multiplications(&self) -> usize {
         let groups = self.groups.iter();
         groups.map(|group| group.tied.multiplications).sum()
     }
 
-    /// Numbers that the tied structures hold.
+    /// Number of values that the tied structures hold.
     pub(super) fn n_entries(&self) -> usize {
         self.groups.iter().map(|group| group.tied.n_entries()).sum()
     }
@@ -227,7 +229,7 @@ fn of_pairs(group: &TiedGroup, values: &[f64]) -> Vec<f64> {
     group.pairs.iter().map(|&k| values[k]).collect()
 }
 
-/// The rigid motions of a group on its contact freedoms.
+/// Restricts the rigid motions of a group to its contact freedoms.
 fn traces(motions: &[RigidMotion], of_group: &[usize], freedoms: &[usize]) -> Vec<Trace> {
     let own = of_group.iter().enumerate();
     own.map(|(j, &motion)| {
@@ -241,8 +243,9 @@ fn traces(motions: &[RigidMotion], of_group: &[usize], freedoms: &[usize]) -> Ve
     .collect()
 }
 
-/// The group of each row, numbered in the order of their first rows: rows are in one where freedoms
-/// of theirs are of one part, or where a list of `coupled` contact freedoms has some of both.
+/// Returns the group of each row; groups are numbered in the order of their first rows. Two rows
+/// are in one group if they have freedoms of one part, or if a list of `coupled` contact freedoms
+/// has some of both.
 pub(super) fn groups<'a>(
     rows: &[RowEntries],
     part: &[usize],
@@ -284,7 +287,7 @@ mod tests {
     #[test]
     fn pairs_are_joined_by_parts_and_by_stiffness() {
         // Four pairs on six parts: 0 and 2 share part 5; the first nodes of 1 and 3 are coupled
-        // though of different parts.
+        // although they belong to different parts.
         let part = [0, 1, 5, 3, 5, 2, 4, 6];
         let rows: Vec<RowEntries> = (0..4).map(|k| vec![(k, -1.0), (4 + k, 1.0)]).collect();
         assert_eq!(groups(&rows, &part, std::iter::empty()), [0, 1, 0, 2]);

@@ -1,18 +1,19 @@
-//! Displacements of the contact rows that rigid motions of floating bodies give: they cost nothing.
+//! Displacements of the contact rows in rigid motions of floating bodies, which take no force.
 
 use super::rows::Rows;
 use super::tied::Trace;
 use nalgebra::{DMatrix, DVector};
 
-/// The displacement of the rows under a rigid motion: one of an orthonormal set.
+/// Displacement of the rows in a rigid motion, one of an orthonormal set.
 pub(super) struct RigidSlip {
     pub(super) values: DVector<f64>,
     pub(super) of_motion: DVector<f64>,
 }
 
-/// Puts `T s = 0` in exactly where `s` is rigid: elimination leaves a share of the order of its
-/// round-off times the condition, and a body that nothing but the first bit of load holds would be
-/// driven off by it. Scaled to a unit diagonal, so that the digits of soft rows are kept.
+/// Enforces `T s = 0` exactly for every rigid `s`. Elimination leaves an error of the order of its
+/// round-off times the condition, and would let a body that nothing but the first bit of load holds
+/// drift away. The matrix is scaled to a unit diagonal meanwhile, so that soft rows keep their
+/// digits.
 pub(super) fn take_rigid_slips(matrix: &mut DMatrix<f64>, slips: &[RigidSlip]) {
     if slips.is_empty() {
         return;
@@ -43,7 +44,7 @@ fn scale_rows_and_columns(matrix: &mut DMatrix<f64>, factors: &DVector<f64>) {
     }
 }
 
-/// The displacements of the rows that rigid motions give, orthonormal.
+/// Returns an orthonormal basis of the displacements of the rows in rigid motions.
 pub(super) fn rigid_slips(rigid: &[Trace], rows: &Rows) -> Vec<RigidSlip> {
     let mut out: Vec<RigidSlip> = Vec::new();
     for trace in rigid {

@@ -1,8 +1,8 @@
 //! Contact rows as coordinates of the contact freedoms.
 //!
 //! A row is a relative displacement `s_j = sum_i b_ji u_i` of contact freedoms: of the two nodes of
-//! a pair, of a node and a point between others. Each has a freedom of its own that follows; the
-//! others lead:
+//! a pair, or of a node and a point between others. Each row has one freedom of its own that
+//! follows; all other freedoms lead:
 //!
 //! ```text
 //!     u_lead = v,     u_follow = G v + H s,     H = B_follow^-1,     G = -H B_lead
@@ -14,37 +14,39 @@ use super::Trace;
 use crate::error::{Error, Result};
 use nalgebra::{DMatrix, DVector};
 
-/// Places and coefficients of a sparse row.
+/// Sparse row of a matrix: column numbers and coefficients.
 pub(crate) type RowEntries = Vec<(usize, f64)>;
 
-/// A slave leads only where it is stiffer than its masters by this factor: for like bodies the
-/// paper's choice stands.
+/// Factor by which a slave must be stiffer than its masters to lead. For bodies of similar
+/// stiffness the paper's choice stands: the slave follows.
 const STIFFER: f64 = 4.0;
-/// What elimination leaves of a row that depends on the others, as a share of it.
+/// Share of a row that elimination leaves at most if the row depends on the others.
 const DEPENDENT: f64 = 1e-10;
 
-/// Contact rows with their followers.
+/// Contact rows with their leaders and followers.
 pub(crate) struct Rows {
-    /// `B`, by rows: contact freedoms and coefficients.
+    /// Matrix `B` by rows: contact freedoms and coefficients.
     pub entries: Vec<RowEntries>,
-    /// Contact freedoms that lead.
+    /// Contact freedoms that lead, in the order of `v`.
     pub lead: Vec<usize>,
-    /// Contact freedom of each row that follows.
+    /// Contact freedom that follows, for each row.
     pub follow: Vec<usize>,
-    /// `G`, by rows: places among the leaders, and weights.
+    /// Matrix `G` by rows: numbers of leaders, and weights.
     pub carried: Vec<RowEntries>,
-    /// `H`, by rows: rows, and weights.
+    /// Matrix `H` by rows: numbers of rows, and weights.
     pub of_slip: Vec<RowEntries>,
-    /// `P = [1; G]`, by leaders: the contact freedoms that move with it, and weights.
+    /// Matrix `P = [1; G]` by leaders: the contact freedoms that move with each leader, and
+    /// weights.
     pub moved: Vec<RowEntries>,
 }
 
 impl Rows {
-    /// The rows of a model's contact, for the diagonal of the condensed stiffness. The last freedom
-    /// of each is the slave's. It follows, unless masters are softer by more than [`STIFFER`].
+    /// Builds the rows of a model's contact. The last freedom of each row is the slave's; the slave
+    /// follows, unless masters are softer by more than [`STIFFER`]. `diagonal` is that of the
+    /// condensed stiffness.
     ///
     /// # Errors
-    /// As [`Rows::any`].
+    /// Errors of [`Rows::any`].
     pub(crate) fn of_contact(
         entries: Vec<RowEntries>,
         n_contact: usize,
@@ -95,7 +97,7 @@ impl Rows {
         })
     }
 
-    /// Rows `u_j - u_i` that share no freedom; `leads` states whether `j` leads.
+    /// Builds rows `u_j - u_i` that share no freedom; `leads` states whether `j` leads.
     fn of_pairs(entries: Vec<RowEntries>, leads: impl Fn(&RowEntries) -> bool) -> Self {
         let ends = |row: &RowEntries| {
             let [i, j] = [row[0].0, row[1].0];
@@ -118,11 +120,12 @@ impl Rows {
         }
     }
 
-    /// Any rows on `n_contact` freedoms, for the diagonal of the condensed stiffness. Elimination
-    /// with complete pivoting picks the followers: large coefficients on soft freedoms.
+    /// Builds arbitrary rows on `n_contact` freedoms, with the diagonal of the condensed stiffness.
+    /// Elimination with complete pivoting picks the followers: soft freedoms with large
+    /// coefficients.
     ///
     /// # Errors
-    /// `Input` where the rows depend on each other.
+    /// `Input` if the rows depend on each other.
     pub(crate) fn any(
         entries: Vec<RowEntries>,
         n_contact: usize,
@@ -161,19 +164,19 @@ impl Rows {
         self.follow.len()
     }
 
-    /// Slip `B u` of each row.
+    /// Slip `B u` of each row for the displacements `u` of the contact freedoms.
     pub(super) fn slip(&self, u: &DVector<f64>) -> DVector<f64> {
         let of = |row: &RowEntries| row.iter().map(|&(freedom, b)| b * u[freedom]).sum();
         DVector::from_iterator(self.len(), self.entries.iter().map(of))
     }
 
-    /// `H s`: how followers move against what carries them.
+    /// Displacement `H s` of the followers relative to the leaders that carry them.
     pub(super) fn apart(&self, slip: &[f64]) -> DVector<f64> {
         let of = |row: &RowEntries| row.iter().map(|&(k, h)| h * slip[k]).sum();
         DVector::from_iterator(self.len(), self.of_slip.iter().map(of))
     }
 
-    /// `H' f`: forces of the rows for forces of the followers.
+    /// Forces of the rows, `H' f`, for the forces `f` of the followers.
     pub(super) fn forces(&self, of_followers: impl Fn(usize) -> f64, forces: &mut [f64]) {
         forces.fill(0.0);
         for (j, row) in self.of_slip.iter().enumerate() {
@@ -184,7 +187,7 @@ impl Rows {
         }
     }
 
-    /// `X` becomes `H' X H`, in place where `H` is diagonal.
+    /// Transforms a matrix `X` to `H' X H`, in place if `H` is diagonal.
     pub(super) fn congruence(&self, matrix: DMatrix<f64>) -> DMatrix<f64> {
         let single = |(j, row): (usize, &RowEntries)| match row.as_slice() {
             [(k, h)] if *k == j => Some(*h),
@@ -209,13 +212,14 @@ impl Rows {
         h.tr_mul(&(matrix * &h))
     }
 
-    /// `P' f`: what the leaders feel of a load on all contact freedoms.
+    /// Load on the leaders, `P' f`, for a load `f` on all contact freedoms.
     pub(super) fn on_leaders(&self, contact: &[f64]) -> DVector<f64> {
         let of = |moved: &RowEntries| moved.iter().map(|&(freedom, w)| w * contact[freedom]).sum();
         DVector::from_iterator(self.lead.len(), self.moved.iter().map(of))
     }
 
-    /// `u` for `v` and the followers' way apart `H s`.
+    /// Writes the displacements `u` for the leaders' `v` and the followers' relative displacements
+    /// `H s`.
     pub(super) fn spread(&self, v: &DVector<f64>, apart: &DVector<f64>, contact: &mut [f64]) {
         for (&freedom, v) in self.lead.iter().zip(v.iter()) {
             contact[freedom] = *v;
@@ -227,9 +231,10 @@ impl Rows {
         }
     }
 
-    /// A rigid motion as motion of the leaders: their own, or one that carries the part's followers
-    /// along. Where each leader carries one that is its motion; else it is found by conjugate
-    /// gradients, and the followers are moved to round-off.
+    /// Returns the displacements of the leaders that give a rigid motion: the motion itself on
+    /// leaders of the part, and values that carry the part's followers along. If each leader
+    /// carries a single follower, these values are known at once; otherwise they are found by
+    /// conjugate gradients, up to round-off.
     pub(super) fn motion_of_leaders(&self, trace: &Trace, part: &[usize]) -> DVector<f64> {
         let n = self.lead.len();
         let mut v = DVector::from_fn(n, |leader, _| self.motion_of_leader(trace, part, leader));
@@ -273,7 +278,8 @@ impl Rows {
         v
     }
 
-    /// The leader's own part of a rigid motion, or the mean of the followers' that it carries.
+    /// The rigid motion of a leader of the part itself; for other leaders the mean motion of the
+    /// followers that it carries.
     fn motion_of_leader(&self, trace: &Trace, part: &[usize], leader: usize) -> f64 {
         let moved = self.moved[leader].iter();
         let own = |freedom: usize| part[freedom] == trace.part;
@@ -289,7 +295,7 @@ impl Rows {
     }
 }
 
-/// Freedoms that move with each leader: itself and its followers.
+/// Returns the freedoms that move with each leader: the leader itself and its followers.
 fn moved(lead: &[usize], follow: &[usize], carried: &[RowEntries]) -> Vec<RowEntries> {
     let mut moved: Vec<RowEntries> = lead.iter().map(|&freedom| vec![(freedom, 1.0)]).collect();
     for (row, &freedom) in carried.iter().zip(follow) {
@@ -300,7 +306,7 @@ fn moved(lead: &[usize], follow: &[usize], carried: &[RowEntries]) -> Vec<RowEnt
     moved
 }
 
-/// The follower of each row.
+/// Chooses the freedom that follows for each row.
 fn followers(b: &DMatrix<f64>, diagonal: impl Fn(usize) -> f64) -> Result<Vec<usize>> {
     let (n, m) = b.shape();
     let stiffness = DVector::from_fn(m, |i, _| diagonal(i).max(0.0));
@@ -311,7 +317,7 @@ fn followers(b: &DMatrix<f64>, diagonal: impl Fn(usize) -> f64) -> Result<Vec<us
             column /= stiffness.max(least).sqrt();
         }
     }
-    // Rows, so that elimination goes along columns of memory.
+    // The matrix is transposed so that elimination works along contiguous memory.
     let mut rest = rest.transpose();
     let sizes: Vec<f64> = rest.column_iter().map(|row| row.amax()).collect();
     let mut follow = vec![usize::MAX; n];
@@ -351,7 +357,7 @@ fn dependent() -> Error {
     )
 }
 
-/// The entries that are not zero, by rows.
+/// Returns the nonzero entries of a matrix, by rows.
 fn sparse(matrix: &DMatrix<f64>) -> Vec<RowEntries> {
     let of_row = |j: usize| {
         let row = matrix.row(j);

@@ -1,10 +1,10 @@
 //! Factors that runs of one elastic structure share, one run after the other on one thread.
 //!
-//! A factor depends on the stiffness, on where the contact freedoms are and on which freedoms were
-//! factored as zone; not on yield stresses, hardening or loads. Within [`sharing_factors`] one that
-//! is no longer used is kept, and taken by the next run with the same matrix whose zone lies within
-//! the factored one. A run whose zone does not makes a factor of both zones, so that runs of
-//! different demands end up with one factor that serves all.
+//! A factor depends on the stiffness, on the positions of the contact freedoms and on which
+//! freedoms were factored as zone; it does not depend on yield stresses, hardening or loads. Within
+//! [`sharing_factors`] a factor that is no longer used is kept. The next run with the same matrix
+//! takes it if its zone lies within the factored one. Otherwise the run makes a factor of both
+//! zones, so that runs with different zones end up with one factor that serves all.
 
 use crate::error::{Error, Result};
 use crate::linalg::{Backend, Condensed, Partition, Symmetric};
@@ -13,32 +13,33 @@ use std::ops::Deref;
 use std::sync::Arc;
 use xxhash_rust::xxh3::Xxh3;
 
-/// Factors that are kept at most: of a run and of the meshes by which its errors are estimated.
+/// Largest number of kept factors: for a run and for the meshes that estimate its errors.
 const MOST: usize = 4;
 
 thread_local! {
-    /// What is kept on this thread, the last one used at the end; `None` outside of
+    /// Factors kept on this thread, the last one used at the end; `None` outside of
     /// [`sharing_factors`].
     static KEPT: RefCell<Option<Vec<KeptFactor>>> = const { RefCell::new(None) };
 }
 
-/// A factor that nobody uses.
+/// A kept factor that no run uses at present.
 struct KeptFactor {
     home: Home,
     condensed: Arc<dyn Condensed>,
 }
 
-/// Where a factor is kept.
+/// Identity under which a factor is kept.
 #[derive(Clone)]
 struct Home {
-    /// Stands for all that it depends on besides its zone.
+    /// Hash of everything on which the factor depends apart from its zone.
     key: u128,
-    /// Zone freedoms that were factored as such.
+    /// Freedoms that were factored as zone.
     zone: Vec<usize>,
 }
 
-/// Does something in which runs share factors. Figures are those of runs that do not, to round-off;
-/// a run that factors nothing counts none ([`crate::results::Counts::factorizations`]).
+/// Runs `body`, in which runs of one structure share factors. Results are those of runs without
+/// sharing, up to round-off; a run that factors nothing reports no factorisation
+/// ([`crate::results::Counts::factorizations`]).
 pub fn sharing_factors<T>(body: impl FnOnce() -> T) -> T {
     let before = KEPT.with(|kept| kept.replace(Some(Vec::new())));
     let out = body();
@@ -46,14 +47,14 @@ pub fn sharing_factors<T>(body: impl FnOnce() -> T) -> T {
     out
 }
 
-/// A factor with its zone freedoms from now on, and whether it was made for this.
+/// A factor, the freedoms that are its zone from now on, and whether the factor is new.
 pub(super) struct Condensation {
     pub condensed: HeldFactor,
     pub zone: Vec<usize>,
     pub is_new: bool,
 }
 
-/// Factors and condenses a matrix, or takes a kept factor of it.
+/// Factors and condenses a matrix, or takes over a kept factor of the matrix.
 ///
 /// # Errors
 /// Errors of [`Symmetric::condense`].
@@ -92,7 +93,7 @@ pub(super) fn condense(
     };
     let (condensed, zone) = match matrix.condense(backend, &wider, shift) {
         Ok(condensed) => (condensed, wider.zone),
-        // Kept factors may be what the memory lacks, or the wider zone.
+        // Kept factors may take up the memory that is lacking, or the wider zone may need it.
         Err(_) => {
             clear();
             let condensed = matrix.condense(backend, partition, shift)?;
@@ -132,7 +133,7 @@ fn take(key: u128) -> Option<HeldFactor> {
     })
 }
 
-/// Ascending freedoms of both.
+/// Returns the ascending freedoms that are in either list.
 fn union(a: &[usize], b: &[usize]) -> Vec<usize> {
     let mut both = [a, b].concat();
     both.sort_unstable();
@@ -140,7 +141,8 @@ fn union(a: &[usize], b: &[usize]) -> Vec<usize> {
     both
 }
 
-/// What a factor depends on besides its zone; `None` of a matrix that lies on several ranks.
+/// Hash of everything on which a factor depends apart from its zone; `None` for a matrix that is
+/// distributed over several ranks.
 fn key(matrix: &Symmetric, backend: Backend, partition: &Partition, shift: &[f64]) -> Option<u128> {
     let matrix = match matrix {
         Symmetric::Whole(matrix) => matrix,
@@ -166,14 +168,14 @@ fn key(matrix: &Symmetric, backend: Backend, partition: &Partition, shift: &[f64
     Some(hash.digest128())
 }
 
-/// A factor in use, which is kept when it is no longer, where runs share factors.
+/// A factor in use. If runs share factors, the factor is kept when it is no longer used.
 pub(super) struct HeldFactor {
     condensed: Arc<dyn Condensed>,
     home: Option<Home>,
 }
 
 impl HeldFactor {
-    /// One that no other run takes over.
+    /// Holds a factor that no other run takes over.
     pub(super) fn alone(condensed: Box<dyn Condensed>) -> Self {
         HeldFactor {
             condensed: Arc::from(condensed),
@@ -181,7 +183,7 @@ impl HeldFactor {
         }
     }
 
-    /// [`Condensed::choose_zone`].
+    /// Chooses a zone within the factored one ([`Condensed::choose_zone`]).
     ///
     /// # Errors
     /// Errors of [`Condensed::choose_zone`].
@@ -192,7 +194,7 @@ impl HeldFactor {
         }
     }
 
-    /// Frees the factor: its zone and another.
+    /// Frees the factor and returns the union of its zone and another.
     fn give_up(mut self, zone: &[usize]) -> Vec<usize> {
         let own = self.home.take().map_or(Vec::new(), |home| home.zone);
         union(&own, zone)
@@ -211,7 +213,7 @@ impl Drop for HeldFactor {
     fn drop(&mut self) {
         let Some(home) = self.home.take() else { return };
         let condensed = Arc::clone(&self.condensed);
-        // None where the thread ends.
+        // The thread-local value no longer exists when the thread ends.
         let _ = KEPT.try_with(|kept| {
             if let Ok(mut kept) = kept.try_borrow_mut()
                 && let Some(kept) = kept.as_mut()

@@ -1,4 +1,4 @@
-//! Where a stiffness is singular, in words.
+//! Error message that names the place where a stiffness is singular.
 
 use crate::error::Error;
 use crate::linalg::NotDefinite;
@@ -6,7 +6,7 @@ use crate::model::Model;
 use crate::shape::Shape;
 use crate::space::Space;
 
-/// The error with the place where the stiffness is singular, and the likely cause.
+/// Adds to the error the place where the stiffness is singular, and the likely cause.
 pub(super) fn name_freedom(error: Error, model: &Model) -> Error {
     let freedom = std::error::Error::source(&error)
         .and_then(|s| s.downcast_ref::<NotDefinite>())
@@ -15,7 +15,7 @@ pub(super) fn name_freedom(error: Error, model: &Model) -> Error {
         Some(freedom) => {
             let place = model.freedoms.describe(&model.mesh, freedom);
             let cause = match shape_with_zero_energy_modes(model, freedom) {
-                // Rigid motions were looked for before, and are held.
+                // Rigid motions have been checked before, and are held.
                 Some(shape) => format!(
                     "elements of the shape {} have ways to deform that their Gauss points do not \
                      see, and nothing here holds them; give the body `integration = \"full\"`, two \
@@ -31,8 +31,8 @@ pub(super) fn name_freedom(error: Error, model: &Model) -> Error {
     }
 }
 
-/// The shape of an element at a freedom's node that has fewer strains at its Gauss points than ways
-/// to deform.
+/// The shape of an element at the freedom's node that has fewer strains at its Gauss points than
+/// modes of deformation.
 fn shape_with_zero_energy_modes(model: &Model, freedom: usize) -> Option<Shape> {
     let (node, _) = *model.freedoms.owners.get(freedom)?;
     let n_strains = match model.kind {

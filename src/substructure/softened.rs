@@ -1,4 +1,5 @@
-//! The structure with less stiffness in the zone, eliminated and recovered as the structure itself.
+//! The structure with less stiffness in the zone, with the elimination and recovery of the
+//! structure itself.
 
 use super::groups::Groups;
 use super::{Substructure, Trailing, tie};
@@ -6,9 +7,9 @@ use crate::contact::PairMatrix;
 use crate::linalg::{ChangedFactor, ZonePart};
 use crate::model::Model;
 
-/// The condensed structure whose stiffness on zone and contact freedoms is `S - K`, `K` a sum over
-/// elements, as that of a plastic tangent. Elements have no stiffness against rigid motions to
-/// lose: floating bodies float as before.
+/// Condensed structure whose stiffness on zone and contact freedoms is `S - K`, where `K` is a sum
+/// over elements, such as the stiffness lost to plastic flow. `K` takes nothing from rigid motions,
+/// so floating bodies keep their rigid motions.
 pub(crate) struct Softened {
     factor: Box<dyn ChangedFactor>,
     n_pairs: usize,
@@ -24,24 +25,24 @@ impl Softened {
         }
     }
 
-    /// Floating point operations of a factorisation, and of a solve.
+    /// Floating point operations of one factorisation, and of one solve.
     pub(crate) fn flops(&self) -> [f64; 2] {
         self.factor.flops()
     }
 
-    /// Begins another stiffness: that of the structure.
+    /// Begins a new stiffness, at first that of the unchanged structure.
     pub(crate) fn begin(&mut self) {
         self.factor.begin();
     }
 
-    /// Takes a symmetric matrix off the stiffness, whose rows are these zone freedoms and, numbered
-    /// on, contact freedoms.
+    /// Subtracts a symmetric matrix from the stiffness. Its rows are zone freedoms, followed in the
+    /// numbering by contact freedoms.
     pub(crate) fn take_off(&mut self, places: &[u32], matrix: &[f64]) {
         self.factor.take_off(places, matrix);
     }
 
-    /// Factors the stiffness: the contact matrix. `None` where the stiffness is not positive
-    /// definite, also with all pairs closed.
+    /// Factors the stiffness and returns the contact matrix. `None` if the stiffness is not
+    /// positive definite even with all pairs closed.
     pub(crate) fn factor(&mut self, model: &Model, of: &Substructure) -> Option<PairMatrix> {
         if !self.factor.factor() {
             return None;
@@ -55,7 +56,7 @@ impl Softened {
         Some(matrix)
     }
 
-    /// As [`Substructure::eliminate`].
+    /// Eliminates zone and tied contact freedoms as [`Substructure::eliminate`] does.
     pub(crate) fn eliminate(&self, load: &mut Trailing, forces: &mut [f64]) {
         self.factor
             .eliminate_zone(&mut load.zone, &mut load.contact);
@@ -64,7 +65,7 @@ impl Softened {
         }
     }
 
-    /// As [`Substructure::recover_part`].
+    /// Recovers displacements in a part of the zone as [`Substructure::recover_part`] does.
     pub(crate) fn recover_part(&self, part: &ZonePart, load: &mut Trailing, slip: &[f64]) {
         if let Some(tied) = &self.tied {
             tied.recover(&mut load.contact, slip);

@@ -1,18 +1,19 @@
-//! The structure with all contact rows closed, and the contact matrix, free of cancellation.
+//! The structure with all contact rows closed, and the contact matrix without cancellation.
 //!
 //! The stiffer freedoms of a row lead and the softest follows ([`Rows`]): `v` are the displacements
-//! of the leaders, `s` those of the rows, and `s` is what is left after elimination. The other way
-//! round the contact matrix, no stiffer than the softer body, would be the difference of two
-//! matrices as large as the stiffer one. With `P = [1; G]` (leaders, followers)
+//! of the leaders, `s` those of the rows, and the leaders are eliminated. The other way round, the
+//! contact matrix, which is no stiffer than the softer body, would be the difference of two
+//! matrices as large as the stiffer body's. With `P = [1; G]` (leaders, followers)
 //!
 //! ```text
 //!     [ P'S P   P'S H  ] [ v ]   [ P' f         ]
 //!     [ H'S P   H'S H  ] [ s ] = [ H' f - r     ]       r = t - T s
 //! ```
 //!
-//! A floating body that is stiff compared with what it rests on hardly deforms. Its rigid motions
-//! cost the soft stiffness alone, which the round-off of its own stiffness swamps. Those motions
-//! are known exactly (`R`, from the geometry), so they are unknowns in their own right:
+//! A floating body that is stiff compared with its supports hardly deforms. Its rigid motions meet
+//! the soft stiffness of the supports alone, which the round-off of the body's own stiffness
+//! swamps. The rigid motions are known exactly (`R`, from the geometry), so they are unknowns in
+//! their own right:
 //!
 //! ```text
 //!     v = R a + Z w      Z: unit vectors of all leaders but as many as there are motions
@@ -22,8 +23,8 @@
 //!                                             exactly where r is a rigid motion of that body
 //! ```
 //!
-//! Cholesky's method does not care how rows are scaled: its error in each entry is a share of the
-//! geometric mean of the two diagonal entries.
+//! Cholesky's method is insensitive to the scaling of rows: its error in each entry is a share of
+//! the geometric mean of the two diagonal entries.
 //!
 //! # Source
 //! C. Farhat, F.-X. Roux (1991), doi:10.1002/nme.1620320604 (floating subdomains and their rigid
@@ -39,18 +40,18 @@ use crate::model::Work;
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn};
 use rayon::prelude::*;
 
-/// A rigid motion on the contact freedoms.
+/// A rigid motion restricted to the contact freedoms.
 #[derive(Debug, Clone)]
 pub(crate) struct Trace {
-    /// The part of the model that moves.
+    /// Number of the part of the model that moves.
     pub part: usize,
     /// Displacement of each contact freedom.
     pub values: DVector<f64>,
-    /// Amplitude of each rigid motion of the model that it stands for.
+    /// Amplitude of each rigid motion of the model that this trace represents.
     pub of_motion: DVector<f64>,
 }
 
-/// Displacements of the contact freedoms, rigid motions of floating bodies apart.
+/// Displacements of the contact freedoms with the rigid motions of floating bodies split off.
 pub(super) struct Split {
     /// Displacements of the contact freedoms without the rigid motions.
     pub contact: Vec<f64>,
@@ -58,50 +59,51 @@ pub(super) struct Split {
     pub motions: DVector<f64>,
 }
 
-/// A displacement of the rows, rigid motions of floating bodies apart: these cost nothing.
+/// A displacement of the rows with the rigid motions of floating bodies split off, as these take no
+/// force.
 pub(super) struct SplitSlip {
-    /// What deforms the bodies.
+    /// Part of the displacement that deforms the bodies.
     pub rest: DVector<f64>,
-    /// Amplitude of each rigid motion of the model that gives what is left out.
+    /// Amplitude of each rigid motion of the model, which together give the part split off.
     pub motions: DVector<f64>,
 }
 
-/// Share of a motion that is left when the rest is taken away, below which it is round-off.
+/// Share of a motion below which the remainder after orthogonalisation counts as round-off.
 const ROUND_OFF: f64 = 1e-11;
 
-/// The tied structure.
+/// The tied structure, factored: all contact rows closed.
 pub(crate) struct Tied {
     rows: Rows,
     /// Leaders whose `w` is an unknown.
     kept: Vec<usize>,
-    /// `leaders x motions`.
+    /// Rigid motions of the leaders, `leaders x motions`.
     motions: DMatrix<f64>,
-    /// The motions on all contact freedoms, without what is rigid in each part
-    /// (`n_contact x motions`).
+    /// Rigid motions of the leaders spread to all contact freedoms, without the rigid motion of
+    /// each part (`n_contact x motions`).
     lifted: DMatrix<f64>,
-    /// Rigid part of the traces: amplitude of each trace (`traces x motions`).
+    /// Rigid motion of each part that `lifted` leaves out: amplitudes, `traces x motions`.
     rigid_share: DMatrix<f64>,
-    /// Orthonormal rigid traces of each part.
+    /// Traces of the rigid motions, orthonormal within each part.
     rigid: Vec<Trace>,
-    /// Orthonormal displacements of the rows that rigid motions give.
+    /// Orthonormal displacements of the rows in rigid motions.
     rigid_slips: Vec<RigidSlip>,
-    /// Part of each contact freedom.
+    /// Number of the part to which each contact freedom belongs.
     part: Vec<usize>,
-    /// `L L' = [Z R]' P'S P [Z R]`.
+    /// Cholesky factor `L` of the tied stiffness, `L L' = [Z R]' P'S P [Z R]`.
     factor: Cholesky<f64, Dyn>,
-    /// `L^-1 [Z R]' P'S`, unknowns by followers.
+    /// Coupling `L^-1 [Z R]' P'S` of unknowns (rows) with followers (columns).
     coupling: DMatrix<f64>,
-    /// Multiplications that putting leaders and followers together took.
+    /// Number of multiplications that combining leaders and followers took.
     pub(super) multiplications: usize,
 }
 
 impl Tied {
-    /// The tied structure and the contact matrix `T` (force of each row over displacement of each
-    /// row, as in `r = t - T s`) for the condensed stiffness, the rigid motions of floating parts
-    /// and the part of each contact freedom.
+    /// Builds the tied structure and the contact matrix `T` (force of each row over displacement of
+    /// each row, as in `r = t - T s`) from the condensed stiffness, the rigid motions of floating
+    /// parts and the part of each contact freedom.
     ///
     /// # Errors
-    /// `Unheld`, where the tied structure is not held.
+    /// `Unheld`, if the tied structure is not held.
     pub(crate) fn new(
         stiffness: &ContactStiffness,
         rows: Rows,
@@ -111,7 +113,7 @@ impl Tied {
         let (n, n_contact) = (rows.len(), stiffness.n_contact());
         let rigid = orthonormal(traces);
         let (motions, kept) = basis(&rigid, &rows, part);
-        // The motions on all contact freedoms, and the forces they cost.
+        // Rigid motions on all contact freedoms, and the forces that they take.
         let mut lifted = DMatrix::zeros(n_contact, motions.ncols());
         let mut rigid_share = DMatrix::zeros(rigid.len(), motions.ncols());
         let apart = DVector::zeros(n);
@@ -136,7 +138,7 @@ impl Tied {
         let mut coupling = leaders.coupling.resize_vertically(n_w + n_a, 0.0);
         let of_motions = forces.select_rows(&rows.follow).transpose();
         coupling.rows_mut(n_w, n_a).copy_from(&of_motions);
-        // The product of many motions is that of matrices, which has a kernel of its own.
+        // All products at once are one matrix product, which has a fast kernel.
         let energy = lifted.transpose() * &forces;
         tied.view_mut((n_w, n_w), (n_a, n_a)).copy_from(&energy);
         let factor = blocked::cholesky(tied).ok_or_else(|| {
@@ -148,7 +150,7 @@ impl Tied {
         })?;
         blocked::solve_lower(&factor, &mut coupling);
         let factor = Cholesky::pack_dirty(factor);
-        // S_ff - C' C, its lower triangle.
+        // Lower triangle of S_ff - C' C.
         let mut row_of = vec![None; n_contact];
         for (j, &freedom) in rows.follow.iter().enumerate() {
             row_of[freedom] = Some(j);
@@ -164,7 +166,7 @@ impl Tied {
                 }
             }
         });
-        // Symmetric to the last bit.
+        // The matrix is made symmetric to the last bit.
         matrix.fill_upper_triangle_with_lower_triangle();
         let mut matrix = rows.congruence(matrix);
         matrix.fill_upper_triangle_with_lower_triangle();
@@ -186,15 +188,16 @@ impl Tied {
         Ok((tied, matrix))
     }
 
-    /// Displacements of the rows that rigid motions give (`rows x motions`, orthonormal).
+    /// Displacements of the rows in rigid motions (`rows x motions`, orthonormal); `None` without
+    /// any.
     pub(super) fn rigid_slips(&self) -> Option<DMatrix<f64>> {
         let columns: Vec<_> = self.rigid_slips.iter().map(|s| s.values.clone()).collect();
         (!columns.is_empty()).then(|| DMatrix::from_columns(&columns))
     }
 
-    /// Makes the forces on the rows, which are those of `pairs`, do the work on rigid motions that
-    /// is known of each motion of the group: elimination leaves a share of the order of its
-    /// round-off times the condition, and a body would be driven by it.
+    /// Corrects the forces on the rows, numbered by `pairs`, so that their work on each rigid
+    /// motion of the group is the known `work`. Elimination leaves an error of the order of its
+    /// round-off times the condition, which would set a body in motion.
     pub(super) fn balance(
         &self,
         pairs: &[usize],
@@ -212,7 +215,7 @@ impl Tied {
         }
     }
 
-    /// Numbers that the dense matrices hold.
+    /// Number of values that the dense matrices hold.
     pub(crate) fn n_entries(&self) -> usize {
         self.factor.l_dirty().len()
             + self.coupling.len()
@@ -221,9 +224,9 @@ impl Tied {
             + self.rigid_share.len()
     }
 
-    /// Eliminates the tied structure. On entry `contact` holds forces on the contact freedoms; on
-    /// return its first places hold the unknowns of the tied structure under them, and `forces`
-    /// what each row then carries.
+    /// Eliminates the tied structure. On entry `contact` holds forces on the contact freedoms. On
+    /// return its first places hold the unknowns of the tied structure under these forces, and
+    /// `forces` holds the force that each row then carries.
     pub(crate) fn eliminate(&self, contact: &mut [f64], forces: &mut [f64]) {
         let total = self.rows.on_leaders(contact);
         let n_w = self.kept.len();
@@ -244,18 +247,19 @@ impl Tied {
         contact[..unknowns.len()].copy_from_slice(unknowns.as_slice());
     }
 
-    /// Displacements for displacements of the rows, of what [`Tied::eliminate`] left.
+    /// Recovers displacements from displacements of the rows and from what [`Tied::eliminate`] left
+    /// in `contact`.
     pub(crate) fn recover(&self, contact: &mut [f64], slip: &[f64]) {
         let apart = self.rows.apart(slip);
         let v = self.spread(&self.unknowns(contact, &apart));
         self.rows.spread(&v, &apart, contact);
     }
 
-    /// Takes the rigid motions of floating bodies out of a displacement of the rows. They cost
-    /// nothing: forces and strains of a gap that is large compared with the deformation are those
-    /// of the rest, and do not drown in its round-off. What is rigid to round-off leaves nothing,
-    /// so that a body which an interference lifts off another feels no force, rather than one whose
-    /// sign is chance.
+    /// Splits the rigid motions of floating bodies off a displacement of the rows. Rigid motions
+    /// take no force: forces and strains follow from the rest alone, and so do not drown in the
+    /// round-off of a gap that is large compared with the deformation. A rest that is only
+    /// round-off is set to zero, so that a body which an interference lifts off another feels no
+    /// force, rather than a force of random sign.
     pub(super) fn split_slip(&self, slip: &[f64]) -> SplitSlip {
         let mut rest = DVector::from_column_slice(slip);
         let n_motions = self.rigid.first().map_or(0, |t| t.of_motion.len());
@@ -268,7 +272,7 @@ impl Tied {
                 motions.axpy(along, &rigid.of_motion, 1.0);
             }
         }
-        // Each subtraction leaves a rounding error of what it is made from.
+        // Each subtraction leaves a rounding error of its operands.
         let round_off = 4.0 * (self.rigid_slips.len() + 1) as f64 * f64::EPSILON * whole;
         if rest.norm() <= round_off {
             rest.fill(0.0);
@@ -276,8 +280,9 @@ impl Tied {
         SplitSlip { rest, motions }
     }
 
-    /// As [`Tied::recover`], with rigid motions apart: the deformation of a stiff body keeps its
-    /// digits compared with a motion that is larger by orders.
+    /// Recovers displacements as [`Tied::recover`] does, with rigid motions split off: the
+    /// deformation of a stiff body keeps its digits even if the motion is larger by orders of
+    /// magnitude.
     pub(super) fn split(&self, contact: &[f64], slip: &[f64]) -> Split {
         let apart = self.rows.apart(slip);
         let unknowns = self.unknowns(contact, &apart);
@@ -309,7 +314,8 @@ impl Tied {
         }
     }
 
-    /// `[w a]` for what [`Tied::eliminate`] left and the followers' way apart.
+    /// Unknowns `[w a]` for what [`Tied::eliminate`] left and the followers' relative
+    /// displacements.
     fn unknowns(&self, contact: &[f64], apart: &DVector<f64>) -> DVector<f64> {
         let mut change = DVector::zeros(self.coupling.nrows());
         for (j, &way) in apart.iter().enumerate().filter(|(_, way)| **way != 0.0) {
@@ -320,7 +326,7 @@ impl Tied {
         DVector::from_column_slice(&contact[..change.len()]) - change
     }
 
-    /// `v = R a + Z w`.
+    /// Displacements of the leaders, `v = R a + Z w`.
     fn spread(&self, unknowns: &DVector<f64>) -> DVector<f64> {
         let n_w = self.kept.len();
         let mut v = &self.motions * unknowns.rows(n_w, self.motions.ncols());
@@ -331,7 +337,7 @@ impl Tied {
     }
 }
 
-/// The traces of each part made orthonormal; motions that leave no trace on the contact freedoms
+/// Makes the traces of each part orthonormal; motions that leave no trace on the contact freedoms
 /// are left out.
 fn orthonormal(traces: &[Trace]) -> Vec<Trace> {
     let mut out: Vec<Trace> = Vec::new();
@@ -356,8 +362,8 @@ fn orthonormal(traces: &[Trace]) -> Vec<Trace> {
     out
 }
 
-/// Motions of the leaders (`leaders x motions`, independent ones), and the leaders that remain
-/// unknowns: Gaussian elimination with complete pivoting picks for each motion the leader that
+/// Returns independent motions of the leaders (`leaders x motions`) and the leaders that remain
+/// unknowns. Gaussian elimination with complete pivoting picks for each motion the leader that
 /// distinguishes it best from the others.
 fn basis(rigid: &[Trace], rows: &Rows, part: &[usize]) -> (DMatrix<f64>, Vec<usize>) {
     let n = rows.lead.len();
@@ -367,8 +373,8 @@ fn basis(rigid: &[Trace], rows: &Rows, part: &[usize]) -> (DMatrix<f64>, Vec<usi
     }
     let mut rest = all.clone();
     let scale = all.amax();
-    // Row and size of the largest entry of each column: a pivot changes the columns of motions of
-    // the same pairs only.
+    // Row and size of the largest entry of each column. They are kept, since a pivot changes only
+    // the columns of motions of the same pairs.
     let largest = |column: DVectorView<f64>| {
         let row = if column.is_empty() { 0 } else { column.iamax() };
         (row, column.get(row).map_or(0.0, |entry| entry.abs()))
@@ -404,9 +410,9 @@ fn basis(rigid: &[Trace], rows: &Rows, part: &[usize]) -> (DMatrix<f64>, Vec<usi
     (all.select_columns(&columns), kept)
 }
 
-/// Takes the rigid motions of each part out of a displacement of all contact freedoms and adds
-/// their amplitudes to `share`. What is rigid to round-off leaves nothing: it costs nothing,
-/// exactly.
+/// Splits the rigid motions of each part off a displacement of all contact freedoms and adds their
+/// amplitudes to `share`. A remainder that is only round-off is set to zero, so that a rigid motion
+/// takes exactly no force.
 fn take_rigid(column: &mut [f64], share: &mut [f64], rigid: &[Trace], part: &[usize]) {
     let mut parts: Vec<usize> = rigid.iter().map(|t| t.part).collect();
     parts.dedup();
@@ -414,7 +420,7 @@ fn take_rigid(column: &mut [f64], share: &mut [f64], rigid: &[Trace], part: &[us
     for (value, &part) in column.iter().zip(part) {
         is_moved[part] |= *value != 0.0;
     }
-    // Of many parts a displacement moves few.
+    // A displacement moves few of many parts.
     let is_moved = |part: &usize| is_moved.get(*part).copied().unwrap_or(false);
     for own in parts.into_iter().filter(is_moved) {
         let size = |column: &[f64]| {

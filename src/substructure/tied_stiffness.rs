@@ -7,25 +7,26 @@
 //!     P'S P = S_ll + V G + (V G)'           V = (S_lf + C_lf) / 2
 //! ```
 //!
-//! Two products with `G`. Summed entry by entry, each entry of `S` would be met once for each pair
-//! of leaders that carry its row and its column: the square of the entries of `G`.
+//! These are two products with `G`. Summed entry by entry, each entry of `S` would be needed once
+//! for each pair of leaders that carry its row and its column: the square of the number of entries
+//! of `G`.
 
 use super::rows::{RowEntries, Rows};
 use crate::linalg::{ContactStiffness, blocked};
 use nalgebra::DMatrix;
 
-/// What leaders feel where the rows are closed.
+/// Condensed stiffness of the leaders with the contact rows closed.
 pub(super) struct TiedStiffness {
-    /// `P'S P`, leaders by leaders; its lower triangle.
+    /// Matrix `P'S P`, leaders by leaders; its lower triangle.
     pub(super) matrix: DMatrix<f64>,
-    /// `P'S` on the followers, leaders by followers.
+    /// Matrix `P'S` on the followers, leaders by followers.
     pub(super) coupling: DMatrix<f64>,
-    /// Multiplications of the products with `G`.
+    /// Number of multiplications of the products with `G`.
     pub(super) multiplications: usize,
 }
 
 impl TiedStiffness {
-    /// The stiffness on some of the leaders, given by their places among them.
+    /// Builds the stiffness on some of the leaders, given by their numbers.
     pub(super) fn new(stiffness: &ContactStiffness, rows: &Rows, leaders: &[usize]) -> Self {
         let lead: Vec<usize> = leaders.iter().map(|&leader| rows.lead[leader]).collect();
         let carried = carried_by(rows, leaders);
@@ -46,7 +47,7 @@ impl TiedStiffness {
     }
 }
 
-/// `G` by columns: the followers that each leader carries, with their weights.
+/// Matrix `G` by columns: the followers that each leader carries, with their weights.
 fn carried_by(rows: &Rows, leaders: &[usize]) -> Vec<RowEntries> {
     let mut column_of = vec![None; rows.lead.len()];
     for (column, &leader) in leaders.iter().enumerate() {
@@ -70,7 +71,7 @@ mod tests {
     use crate::linalg::tests::Numbers;
 
     /// Two bodies with random stiffnesses of condition below 4 (diagonally dominant) on `first` and
-    /// `second` contact freedoms, the second body's `stiffer` times as stiff.
+    /// `second` contact freedoms; the second body is `stiffer` times as stiff.
     fn two_bodies([first, second]: [usize; 2], stiffer: f64, seed: u64) -> ContactStiffness {
         let mut numbers = Numbers::new(seed);
         let mut block = |freedoms: std::ops::Range<usize>, scale: f64| {
@@ -86,7 +87,7 @@ mod tests {
         ContactStiffness::new(blocks)
     }
 
-    /// Rows that hold each freedom of the second body to some of the first.
+    /// Rows that tie each freedom of the second body to some freedoms of the first.
     fn rows(stiffness: &ContactStiffness, [first, second]: [usize; 2], masters: usize) -> Rows {
         let mut numbers = Numbers::new(11);
         let row = |k: usize| {
@@ -98,7 +99,7 @@ mod tests {
         Rows::of_contact(entries, first + second, |i| stiffness.diagonal(i)).unwrap()
     }
 
-    /// `P` of all leaders.
+    /// Matrix `P` of all leaders, as a dense one.
     fn moved(rows: &Rows, n: usize) -> DMatrix<f64> {
         let mut moved = DMatrix::zeros(n, rows.lead.len());
         for (leader, entries) in rows.moved.iter().enumerate() {
@@ -109,16 +110,16 @@ mod tests {
         moved
     }
 
-    /// Slaves that follow their masters; hard ones that lead, so that softer masters follow all of
-    /// them: both as the products of full matrices, whatever the number of threads, with no more
-    /// multiplications than two products of full matrices take.
+    /// Slaves that follow their masters, and hard slaves that lead, so that softer masters follow
+    /// all of them. Both equal the products of full matrices, whatever the number of threads, with
+    /// no more multiplications than two products of full matrices take.
     #[test]
     fn what_leaders_feel_is_the_sum_over_all_that_moves() {
         let sizes = [120, 50];
         for (stiffer, masters) in [(1.0, 1), (1.0, 4), (1e5, 9), (1e5, 25)] {
             let stiffness = two_bodies(sizes, stiffer, 3);
             let rows = rows(&stiffness, sizes, masters);
-            // Followers that depend on all leaders, where slaves lead.
+            // Where slaves lead, each follower depends on all leaders.
             let entries: usize = rows.carried.iter().map(Vec::len).sum();
             assert_eq!(entries > 50 * 25, stiffer > 1.0, "{entries}");
             let leaders: Vec<usize> = (0..rows.lead.len()).filter(|k| k % 7 != 2).collect();

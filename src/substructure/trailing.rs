@@ -2,7 +2,7 @@
 
 use crate::linalg;
 
-/// A load (or displacement) on zone and contact freedoms, these in the order of
+/// A load or displacement on zone and contact freedoms. The contact freedoms are in the order of
 /// [`crate::model::ContactRows::freedoms`].
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Trailing {
@@ -13,7 +13,7 @@ pub struct Trailing {
 }
 
 impl Trailing {
-    /// The zero vector of these sizes.
+    /// Returns a zero vector with the given numbers of freedoms.
     pub fn zeros(n_zone: usize, n_contact: usize) -> Self {
         Trailing {
             zone: vec![0.0; n_zone],
@@ -21,17 +21,17 @@ impl Trailing {
         }
     }
 
-    /// Both parts, one after the other.
+    /// Iterates over the zone's values, then over the contact's.
     pub fn iter(&self) -> impl Iterator<Item = &f64> {
         self.zone.iter().chain(&self.contact)
     }
 
-    /// Both parts, one after the other.
+    /// Iterates mutably over the zone's values, then over the contact's.
     pub fn iter_mut(&mut self) -> impl Iterator<Item = &mut f64> {
         self.zone.iter_mut().chain(&mut self.contact)
     }
 
-    /// `self += factor * other`.
+    /// Adds a multiple of another vector: `self += factor * other`.
     pub fn add(&mut self, factor: f64, other: &Trailing) {
         if factor != 0.0 {
             let add = |own: &mut [f64], other: &[f64]| {
@@ -44,7 +44,7 @@ impl Trailing {
         }
     }
 
-    /// `self = other + factor * self`.
+    /// Scales this vector and adds another: `self = other + factor * self`.
     pub(crate) fn scale_and_add(&mut self, factor: f64, other: &Trailing) {
         for (own, other) in self.iter_mut().zip(other.iter()) {
             *own = other + factor * *own;
@@ -57,7 +57,7 @@ impl Trailing {
         sum(&self.zone, &other.zone) + sum(&self.contact, &other.contact)
     }
 
-    /// Largest absolute value; NaN where there is one.
+    /// Largest absolute value; NaN if any value is NaN.
     pub fn largest(&self) -> f64 {
         let [zone, contact] = [&self.zone, &self.contact].map(|part| linalg::largest(part));
         if zone > contact || zone.is_nan() {
@@ -67,13 +67,13 @@ impl Trailing {
         }
     }
 
-    /// Takes over the values of another vector of the same size.
+    /// Copies the values of another vector of the same size.
     pub(crate) fn copy_from(&mut self, other: &Trailing) {
         self.zone.copy_from_slice(&other.zone);
         self.contact.copy_from_slice(&other.contact);
     }
 
-    /// Sets all values.
+    /// Sets all values to `value`.
     pub fn fill(&mut self, value: f64) {
         self.zone.fill(value);
         self.contact.fill(value);

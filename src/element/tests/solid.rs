@@ -1,4 +1,4 @@
-//! The kernel in space.
+//! Tests of the kernel in three dimensions.
 
 use super::*;
 
@@ -9,7 +9,7 @@ fn steel() -> Lame {
     super::steel(Space::PlaneStrain)
 }
 
-/// A hexahedron with the gradients of B-bar or plain ones.
+/// A hexahedron with the gradients of B-bar or with plain gradients.
 fn solid(has_mean: bool, x: &[[f64; 3]; 20]) -> Solid {
     let mut solid = Kernel::solid().gauss((Shape::Hex8, Integration::Reduced), x);
     solid.has_mean = has_mean;
@@ -71,7 +71,8 @@ fn a_linear_field_is_exact_and_a_rigid_motion_free() {
     }
 }
 
-/// `K u` is the force of the stress of the strain of u, with and without a mean dilatation.
+/// `K u` is the nodal force of the stress for the strain of `u`, with and without a mean
+/// dilatation.
 #[test]
 fn the_stiffness_is_force_of_stress_of_strain() {
     for has_mean in [false, true] {
@@ -91,7 +92,7 @@ fn the_stiffness_is_force_of_stress_of_strain() {
         {
             assert!((f - k).abs() < 1e-12, "{f} {k}");
         }
-        // The work of the forces in another motion is that of the stresses.
+        // The work of the nodal forces in another motion equals the work of the stresses.
         let other = moved(2.1);
         let of_other = solid.strains(&other);
         let work: f64 = (0..8)
@@ -106,7 +107,7 @@ fn the_stiffness_is_force_of_stress_of_strain() {
     }
 }
 
-/// A `quad4` extruded by its thickness 1 in plane strain: the forces of both layers together are
+/// A `quad4` in plane strain, extruded by a thickness of 1: the forces of both layers together are
 /// those of the plane element.
 #[test]
 fn an_extruded_plane_element_is_the_plane_element() {

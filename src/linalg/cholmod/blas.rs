@@ -1,11 +1,11 @@
-//! Which BLAS does the work, and on how many threads.
+//! BLAS in use, and its number of threads.
 //!
-//! CHOLMOD spends its time in BLAS: without an optimised one it is several times slower.
+//! CHOLMOD spends its time in BLAS: without an optimised BLAS it is several times slower.
 //!
-//! OpenBLAS takes a work buffer of up to 128 MB of address space for each thread, and asks for it
-//! again without end where the system refuses. So where the address space is limited (`ulimit -v`),
-//! one caller at a time enters the BLAS ([`enter`]), and the first makes sure beforehand that there
-//! is room for its buffer.
+//! OpenBLAS takes a work buffer of up to 128 MB of address space for each thread, and repeats the
+//! request endlessly if the system refuses. If the address space is limited (`ulimit -v`),
+//! therefore only one caller at a time enters the BLAS ([`enter`]), and the first caller checks
+//! beforehand that there is room for its buffer.
 
 use crate::error::{Error, Result};
 use crate::memory;
@@ -15,13 +15,13 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 /// bytes).
 const BUFFER: f64 = (32u64 << 22) as f64;
 
-/// The right to call the BLAS; all threads have it at once where the address space has no limit.
+/// Permission to call the BLAS; all threads have it at once if the address space has no limit.
 pub(super) type Entered = Option<MutexGuard<'static, bool>>;
 
-/// Enters the BLAS.
+/// Waits for the permission to call the BLAS.
 ///
 /// # Errors
-/// `Analysis` where the limits of the process leave no room for the work buffer.
+/// `Analysis` if the limits of the process leave no room for the work buffer.
 pub(super) fn enter() -> Result<Entered> {
     static LIMITED: OnceLock<bool> = OnceLock::new();
     static HAS_BUFFER: Mutex<bool> = Mutex::new(false);
@@ -48,15 +48,15 @@ pub(super) fn enter() -> Result<Entered> {
     Ok(Some(has_buffer))
 }
 
-/// Whether the limits of the process leave too little for the work buffers of all threads of the
-/// BLAS, as much for what else they hold, and for the work itself.
+/// Whether the limits of the process leave too little for the work buffers of all BLAS threads, for
+/// as much other data of the threads, and for the work itself.
 pub fn blas_threads_are_too_many() -> bool {
     let threads = blas_threads().unwrap_or(1);
     let needed = 2.0 * BUFFER * (threads as f64 + 1.0);
     threads > 1 && memory::limits().is_some_and(|left| left < needed)
 }
 
-/// Makes OpenBLAS take its work buffer, which it keeps.
+/// Makes OpenBLAS allocate its work buffer, which it keeps.
 fn take_buffer() {
     #[cfg(openblas)]
     {
@@ -76,7 +76,7 @@ mod openblas {
 /// Name, build options, processor kernels and threads of the BLAS in use, for instance
 /// `OpenBLAS 0.3.21 DYNAMIC_ARCH NO_AFFINITY Haswell MAX_THREADS=64 (kernels Haswell, 2 threads)`.
 pub fn blas_name() -> String {
-    // Without OpenBLAS at build time nothing can be asked: the system's BLAS has no name.
+    // Without OpenBLAS at build time the BLAS cannot be asked for its name.
     let (Some(configuration), Some(kernels)) = (configuration(), kernels()) else {
         return String::from("system BLAS, not known to be OpenBLAS");
     };
@@ -85,7 +85,7 @@ pub fn blas_name() -> String {
     format!("{configuration} (kernels {kernels}, {threads} thread{plural})")
 }
 
-/// Version and build options of OpenBLAS; `None` of another BLAS.
+/// Version and build options of OpenBLAS; `None` for another BLAS.
 fn configuration() -> Option<String> {
     #[cfg(openblas)]
     {
@@ -96,7 +96,7 @@ fn configuration() -> Option<String> {
     None
 }
 
-/// The processor whose kernels OpenBLAS uses (`Haswell`); `None` of another BLAS.
+/// Processor whose kernels OpenBLAS uses (`Haswell`); `None` for another BLAS.
 pub fn kernels() -> Option<String> {
     #[cfg(openblas)]
     {
@@ -107,12 +107,12 @@ pub fn kernels() -> Option<String> {
     None
 }
 
-/// Whether this OpenBLAS holds kernels for several processors, to choose from as it is loaded.
+/// Whether this OpenBLAS contains kernels for several processors and chooses among them on loading.
 pub(super) fn has_choice() -> bool {
     configuration().is_some_and(|options| options.contains("DYNAMIC_ARCH"))
 }
 
-/// A text of OpenBLAS' configuration.
+/// Converts a text of OpenBLAS' configuration.
 #[cfg(openblas)]
 fn text(pointer: *mut std::ffi::c_char) -> Option<String> {
     if pointer.is_null() {
@@ -123,7 +123,7 @@ fn text(pointer: *mut std::ffi::c_char) -> Option<String> {
     Some(text.to_string_lossy().trim().to_owned())
 }
 
-/// Threads that the BLAS uses; `None` where the BLAS cannot be asked.
+/// Number of threads that the BLAS uses; `None` if the BLAS cannot be asked.
 pub fn blas_threads() -> Option<usize> {
     #[cfg(openblas)]
     {
@@ -135,7 +135,7 @@ pub fn blas_threads() -> Option<usize> {
     None
 }
 
-/// Sets the threads that the BLAS uses, for the whole process; false where it cannot be set.
+/// Sets the number of BLAS threads for the whole process; returns false if this is not possible.
 pub fn set_blas_threads(threads: usize) -> bool {
     #[cfg(openblas)]
     {

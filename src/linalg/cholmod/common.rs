@@ -13,12 +13,12 @@ pub(super) struct Common {
 // state per thread: what one thread started another may use.
 unsafe impl Send for Common {}
 
-/// Memory that must be there before METIS is called, in multiples of the workspace that CHOLMOD
-/// expects of it.
+/// Memory that must be available before METIS is called, as a multiple of the workspace that
+/// CHOLMOD expects METIS to take.
 const METIS_RESERVE: f64 = 2.0;
 
 impl Common {
-    /// Starts CHOLMOD: silent, one given ordering, left-looking LL'.
+    /// Starts CHOLMOD: no output, one given ordering, left-looking LL'.
     pub(super) fn start() -> Result<Self> {
         super::kernels::warn_of_slow_kernels();
         let mut raw: MaybeUninit<sys::cholmod_common> = MaybeUninit::zeroed();
@@ -32,7 +32,7 @@ impl Common {
                 raw.status
             )));
         }
-        // Failures come back as errors of this crate, never as text on a stream.
+        // Failures are reported as errors of this crate, never as text on a stream.
         raw.print = 0;
         raw.error_handler = None;
         raw.try_catch = 1;
@@ -40,42 +40,42 @@ impl Common {
         raw.nmethods = 1;
         raw.current = 0;
         raw.method[0].ordering = sys::CHOLMOD_GIVEN as i32;
-        // A postorder of the whole elimination tree would mix the groups; `ordering` does it per
-        // group.
+        // A postorder of the whole elimination tree would mix the groups of freedoms; `ordering`
+        // computes one for each group.
         raw.postorder = 0;
         raw.supernodal = sys::CHOLMOD_AUTO as i32;
         raw.final_ll = 1;
         raw.quick_return_if_not_posdef = 1;
         raw.useGPU = 0;
-        // METIS ends the process where its memory runs out: CHOLMOD asks beforehand whether there
-        // is enough.
+        // METIS ends the process if memory runs out, so CHOLMOD checks beforehand whether there is
+        // enough.
         raw.metis_memory = METIS_RESERVE;
         Ok(Common { raw })
     }
 
-    /// Lets CHOLMOD choose and postorder its order, as it does by default.
+    /// Lets CHOLMOD choose and postorder its own ordering, as it does by default.
     pub(super) fn choose_ordering(&mut self) {
         self.raw.nmethods = 0;
         self.raw.postorder = 1;
     }
 
-    /// The object to hand to CHOLMOD.
+    /// Object to pass to CHOLMOD.
     pub(super) fn as_mut(&mut self) -> &mut sys::cholmod_common {
         &mut self.raw
     }
 
-    /// The object to read statistics from.
+    /// Object from which statistics are read.
     pub(super) fn get(&self) -> &sys::cholmod_common {
         &self.raw
     }
 
-    /// The error that the last call left, if any; `what` was being done on `n` freedoms.
+    /// Returns the error of the last call, if any; `what` was being done on `n` freedoms.
     pub(super) fn check(&self, what: &str, n: usize) -> Result<()> {
-        // Order, tree and counts of the columns, as long integers.
+        // Ordering, tree and column counts, as long integers.
         self.check_asking(what, n, 80.0 * n as f64)
     }
 
-    /// As [`Common::check`], where the call needed about so many `bytes`.
+    /// Returns the error like [`Common::check`], for a call that needed about `bytes` bytes.
     pub(super) fn check_asking(&self, what: &str, n: usize, bytes: f64) -> Result<()> {
         let status = self.raw.status;
         if status >= sys::CHOLMOD_OK as i32 {
@@ -109,7 +109,7 @@ impl Common {
         })
     }
 
-    /// Gives the workspace back; the next call that needs it allocates it again.
+    /// Frees the workspace; the next call that needs one allocates it again.
     pub(super) fn free_workspace(&mut self) {
         // SAFETY: `raw` was started and frees what it allocated.
         unsafe { sys::cholmod_l_free_work(&mut *self.raw) };

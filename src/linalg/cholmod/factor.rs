@@ -1,4 +1,4 @@
-//! `cholmod_factor`: analyse, factorise, read columns, solve.
+//! Wrapper of `cholmod_factor`: analyse, factorise, read columns, solve.
 
 use super::blas;
 use super::common::Common;
@@ -10,16 +10,16 @@ use std::ffi::c_void;
 use std::ptr::{NonNull, null_mut};
 use suitesparse_sys as sys;
 
-/// The system that [`Factor::solve`] solves.
+/// Linear system that [`Factor::solve`] solves.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum System {
     /// The whole system `K x = b`.
     Whole,
-    /// `L x = b`, b and x in the order of the factor.
+    /// The system `L x = b`, with b and x in the order of the factor.
     Lower,
 }
 
-/// `P K P' = L L'` with the workspace of its solves.
+/// Factor `P K P' = L L'` with the workspace of its solves.
 pub(super) struct Factor {
     common: Common,
     raw: NonNull<sys::cholmod_factor>,
@@ -32,7 +32,7 @@ pub(super) struct Factor {
 // SAFETY: the factor and its workspace belong to this object alone; see `Common` for threads.
 unsafe impl Send for Factor {}
 
-/// A slice of CHOLMOD's memory.
+/// Converts memory of CHOLMOD to a slice.
 ///
 /// # Safety
 /// `pointer` is null or points to `length` initialised values that outlive `'a`.
@@ -45,7 +45,7 @@ unsafe fn slice<'a, T>(pointer: *const c_void, length: usize) -> &'a [T] {
 }
 
 impl Factor {
-    /// Symbolic analysis for the given order, which is kept exactly, or for one that CHOLMOD finds.
+    /// Analyses a matrix symbolically, with the given ordering or with one that CHOLMOD finds.
     pub(super) fn analyze(
         mut common: Common,
         matrix: &SymmetricView,
@@ -82,8 +82,8 @@ impl Factor {
         Ok(factor)
     }
 
-    /// Allocates the values of a supernodal factor, which its factorisation does otherwise, on
-    /// large pages where there are any.
+    /// Allocates the values of a supernodal factor, on large pages if available; otherwise the
+    /// factorisation would allocate them.
     pub(super) fn allocate(&mut self) -> Result<()> {
         if !self.is_supernodal() {
             return Ok(());
@@ -109,7 +109,7 @@ impl Factor {
         Ok(())
     }
 
-    /// Numerical factorisation of a matrix with the analysed pattern.
+    /// Factors a matrix with the analysed pattern numerically.
     pub(super) fn factorize(&mut self, matrix: &SymmetricView) -> Result<()> {
         let n = self.n();
         // SAFETY: both objects are valid, and the matrix has values.
@@ -143,13 +143,13 @@ impl Factor {
         self.raw().n
     }
 
-    /// True where `L` is kept as dense blocks of columns.
+    /// Whether `L` is stored as dense blocks of columns.
     pub(super) fn is_supernodal(&self) -> bool {
         self.raw().is_super != 0
     }
 
-    /// Bytes of the numerical factor and of what its computation needs: the largest update block,
-    /// and the permuted copy of a matrix with `entries` stored entries.
+    /// Bytes of the numerical factor and of its computation: the largest update block and the
+    /// permuted copy of a matrix with `entries` stored entries.
     fn bytes_within(&self, entries: usize) -> f64 {
         let raw = self.raw();
         let factor = if self.is_supernodal() {
@@ -157,12 +157,12 @@ impl Factor {
         } else {
             16.0 * self.nonzeros
         };
-        // Order, inverse order, counts, pointers, and CHOLMOD's own work of about 6 n.
+        // Ordering, inverse ordering, counts, pointers, and CHOLMOD's own work of about 6 n.
         factor + 16.0 * entries as f64 + 80.0 * raw.n as f64
     }
 
-    /// Solves for one right-hand side. The solution stays in the factor's workspace, which is
-    /// allocated by the first call and used by all later ones.
+    /// Solves for one right-hand side. The solution stays in the factor's workspace, which the
+    /// first call allocates and all later calls use.
     pub(super) fn solve(&mut self, system: System, load: &[f64]) -> Result<&[f64]> {
         let n = self.n();
         debug_assert_eq!(load.len(), n);
@@ -259,7 +259,7 @@ impl LowerFactor for Factor {
     }
 
     fn bytes(&self, entries: usize) -> f64 {
-        // The shifted copy of the values.
+        // The shifted copy of the values adds to that.
         self.bytes_within(entries) + 8.0 * entries as f64
     }
 

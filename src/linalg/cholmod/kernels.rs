@@ -1,33 +1,33 @@
-//! Whether OpenBLAS computes with the vectors that the processor has.
+//! Check whether OpenBLAS uses the vector instructions of the processor.
 //!
-//! OpenBLAS chooses its kernels by the model of the processor as it is loaded. A release that is
-//! older than the processor does not know the model and takes those of an old one, with a half or a
-//! quarter of the speed; `OPENBLAS_CORETYPE`, which it reads at the same moment, names others. So a
-//! program can begin anew with the variable set ([`better_kernels`]), and a library can only say
-//! so.
+//! OpenBLAS chooses its kernels by the processor model when it is loaded. A release that is older
+//! than the processor does not know the model and uses kernels for an old one, with a half or a
+//! quarter of the speed. The environment variable `OPENBLAS_CORETYPE`, read at the same moment,
+//! selects other kernels. A program can therefore restart with the variable set
+//! ([`better_kernels`]); a library can only warn.
 
 use super::blas;
 use std::sync::Once;
 
-/// What names the kernels to OpenBLAS, in the environment of a process as it begins.
+/// Environment variable that selects OpenBLAS' kernels when a process starts.
 pub const KERNEL_SETTING: &str = "OPENBLAS_CORETYPE";
 
-/// How much of a vector one instruction takes, in the order of speed.
+/// Vector instructions, in ascending order of speed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Vectors {
     /// SSE, vectors of 128 bits.
     Bits128,
-    /// AVX, vectors of 256 bits: product and sum apart.
+    /// AVX, vectors of 256 bits, with separate multiplication and addition.
     Bits256,
-    /// AVX2 and FMA, vectors of 256 bits: product and sum in one.
+    /// AVX2 and FMA, vectors of 256 bits, with fused multiplication and addition.
     Fused256,
-    /// AVX-512 with its parts F, CD, BW, DQ and VL.
+    /// AVX-512 with its subsets F, CD, BW, DQ and VL.
     Fused512,
 }
 
 impl Vectors {
-    /// Vectors of OpenBLAS' kernels of a name (`driver/others/dynamic.c`); `None` of a name that is
-    /// not known here, as of releases to come.
+    /// Vector instructions of the OpenBLAS kernels with a name (`driver/others/dynamic.c`); `None`
+    /// for a name that is not known here, such as one of a later release.
     fn of_kernels(name: &str) -> Option<Self> {
         match name {
             "Katmai" | "Coppermine" | "Northwood" | "Prescott" | "Banias" | "Atom" | "Core2"
@@ -40,7 +40,7 @@ impl Vectors {
         }
     }
 
-    /// Vectors of this processor, as far as its system lets programs use them.
+    /// Vector instructions of this processor, as far as its system lets programs use them.
     #[cfg(target_arch = "x86_64")]
     fn of_processor() -> Option<Self> {
         let has_512 = is_x86_feature_detected!("avx512f")
@@ -64,7 +64,7 @@ impl Vectors {
         None
     }
 
-    /// The kernels that every OpenBLAS with a choice has for them.
+    /// Kernels for these instructions that every OpenBLAS with a choice of kernels has.
     fn kernels(self) -> &'static str {
         match self {
             Vectors::Bits128 => "Prescott",
@@ -75,15 +75,15 @@ impl Vectors {
     }
 }
 
-/// The kernels to choose in place of those of a name, by what the processor has; `None` where these
-/// are as good.
+/// Kernels to choose in place of the named ones, according to the processor; `None` if the named
+/// ones are as good.
 fn better(kernels: &str, processor: Vectors) -> Option<&'static str> {
     (Vectors::of_kernels(kernels)? < processor).then(|| processor.kernels())
 }
 
-/// The value of `OPENBLAS_CORETYPE` ([`KERNEL_SETTING`]) with which this process would compute
-/// faster; `None` where OpenBLAS uses what the processor has, has no choice of kernels, or was told
-/// which.
+/// Value of `OPENBLAS_CORETYPE` ([`KERNEL_SETTING`]) with which this process would compute faster.
+/// `None` if OpenBLAS uses the full instructions of the processor, has no choice of kernels, or if
+/// the variable is already set.
 pub fn better_kernels() -> Option<&'static str> {
     let is_told = std::env::var_os(KERNEL_SETTING).is_some();
     if is_told || !blas::has_choice() {
@@ -92,7 +92,7 @@ pub fn better_kernels() -> Option<&'static str> {
     better(&blas::kernels()?, Vectors::of_processor()?)
 }
 
-/// Says once in a process, through its log, that its kernels are slow.
+/// Logs once per process a warning that its kernels are slow.
 pub(super) fn warn_of_slow_kernels() {
     static SAID: Once = Once::new();
     SAID.call_once(|| {
@@ -102,8 +102,8 @@ pub(super) fn warn_of_slow_kernels() {
     });
 }
 
-/// Warning for the user of a library where OpenBLAS computes with less than the processor has: a
-/// process that has started cannot change that.
+/// Warning for the user of a library if OpenBLAS uses slower instructions than the processor has; a
+/// process that is already running cannot change this.
 pub fn slow_kernels() -> Option<String> {
     let better = better_kernels()?;
     Some(format!(

@@ -1,11 +1,11 @@
-//! `cholmod_sparse`: symmetric matrices lent to CHOLMOD without a copy.
+//! Symmetric matrices as `cholmod_sparse`, lent to CHOLMOD without a copy.
 
 use crate::linalg::sparse::Pattern;
 use std::ffi::c_void;
 use std::marker::PhantomData;
 use suitesparse_sys as sys;
 
-/// Upper triangle of a symmetric matrix that lives elsewhere, as CHOLMOD reads it.
+/// View of the upper triangle of a symmetric matrix in the form that CHOLMOD reads.
 pub(super) struct SymmetricView<'a> {
     raw: sys::cholmod_sparse,
     // CHOLMOD reads the arrays of the pattern and the values through `raw`.
@@ -13,12 +13,12 @@ pub(super) struct SymmetricView<'a> {
 }
 
 impl<'a> SymmetricView<'a> {
-    /// The pattern alone.
+    /// Makes a view of the pattern alone.
     pub(super) fn new(pattern: &'a Pattern) -> Self {
         Self::view(pattern, None)
     }
 
-    /// The pattern with one value for each stored entry.
+    /// Makes a view of the pattern with one value for each stored entry.
     pub(super) fn with_values(pattern: &'a Pattern, values: &'a [f64]) -> Self {
         Self::view(pattern, Some(values))
     }
@@ -61,8 +61,8 @@ impl<'a> SymmetricView<'a> {
         self.raw.nzmax
     }
 
-    /// The object to hand to CHOLMOD, which only reads it: the functions called here take a
-    /// `cholmod_sparse *` for want of `const` in their interface.
+    /// Pointer to pass to CHOLMOD, which only reads the matrix: the functions called here take a
+    /// `cholmod_sparse *` because their interface lacks `const`.
     pub(super) fn as_ptr(&self) -> *mut sys::cholmod_sparse {
         &raw const self.raw as *mut sys::cholmod_sparse
     }

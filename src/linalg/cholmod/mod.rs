@@ -1,10 +1,11 @@
 //! CHOLMOD backend: the sparse factor by SuiteSparse, supernodal, in the arithmetic of a BLAS.
 //!
-//! What is done with the factor stands in `linalg::sparse`. Only `common`, `matrix`, `ordering`,
-//! `factor`, `blas` and `openmp` call C.
+//! The use of the factor is in `linalg::sparse`. Only `common`, `matrix`, `ordering`, `factor`,
+//! `blas` and `openmp` call C.
 //!
-//! The same BLAS with the same number of threads gives the same bits in every run; another number
-//! of threads may add in another order and differ by round-off ([`set_blas_threads`]).
+//! The same BLAS with the same number of threads gives the same bits in every run. With another
+//! number of threads the order of sums may differ, and results differ by round-off
+//! ([`set_blas_threads`]).
 //!
 //! # Source
 //! T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006, chapter 4,
@@ -43,7 +44,7 @@ type CholmodCondensed = SparseCondensed<Factor>;
 /// Orders, factors and condenses `matrix + diag(shift)`.
 ///
 /// # Errors
-/// As [`super::condense`].
+/// Errors of [`super::condense`].
 pub fn condense(
     matrix: &SymmetricCsc,
     partition: &Partition,
@@ -52,10 +53,10 @@ pub fn condense(
     condense_with_method(matrix, partition, shift, Method::Automatic)
 }
 
-/// As [`condense`], in an order found by `method`.
+/// Condenses as [`condense`] does, in an ordering found by `method`.
 ///
 /// # Errors
-/// As [`super::condense`].
+/// Errors of [`super::condense`].
 pub fn condense_with_method(
     matrix: &SymmetricCsc,
     partition: &Partition,
@@ -100,15 +101,15 @@ fn with_common(
 /// Predicts the cost of [`condense`] by its ordering and symbolic analysis.
 ///
 /// # Errors
-/// As [`super::predict`].
+/// Errors of [`super::predict`].
 pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Prediction> {
     predict_with_method(matrix, partition, Method::Automatic)
 }
 
-/// As [`predict`], for an order found by `method`.
+/// Predicts the cost as [`predict`] does, for an ordering found by `method`.
 ///
 /// # Errors
-/// As [`super::predict`].
+/// Errors of [`super::predict`].
 pub fn predict_with_method(
     matrix: &SymmetricCsc,
     partition: &Partition,
@@ -120,20 +121,21 @@ pub fn predict_with_method(
     Ok(sparse::prediction(&factor, name, matrix, &groups))
 }
 
-/// Enters the BLAS on behalf of another library, which then has its work buffer.
+/// Enters the BLAS on behalf of another library, so that the BLAS has its work buffer.
 ///
 /// # Errors
-/// `Analysis` where the limits of the process leave no room for it.
+/// `Analysis` if the limits of the process leave no room for the work buffer.
 #[cfg(feature = "mumps")]
 pub(super) fn enter_blas() -> Result<impl Sized> {
     blas::enter()
 }
 
-/// An order of elimination that ends with the supervariables that stay: the first freedom of each
-/// and the number of freedoms, whether it stays, and which couple. With its name.
+/// Finds an elimination ordering that ends with the supervariables that stay, and its name. The
+/// supervariables are given by their first freedoms and the number of freedoms, whether they stay,
+/// and which are coupled.
 ///
 /// # Errors
-/// As [`super::predict`].
+/// Errors of [`super::predict`].
 #[cfg(feature = "mumps")]
 pub(super) fn order(
     first: Vec<usize>,
@@ -148,32 +150,32 @@ pub(super) fn order(
     Ok((order.name, order.permutation))
 }
 
-/// What CHOLMOD alone needs for a matrix.
+/// Cost of CHOLMOD's own factorisation of a matrix, without groups.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unconstrained {
-    /// Figures of the analysis.
+    /// Predicted figures of the symbolic analysis.
     pub prediction: Prediction,
-    /// Seconds for ordering and symbolic analysis.
+    /// Seconds that ordering and symbolic analysis took.
     pub analyse_seconds: f64,
-    /// Seconds for the numerical factorisation.
+    /// Seconds that the numerical factorisation took.
     pub factor_seconds: f64,
-    /// Seconds for a solve with one right-hand side.
+    /// Seconds that a solve with one right-hand side took.
     pub solve_seconds: f64,
 }
 
-/// Analyses and factors `matrix` as CHOLMOD does by itself, without groups, and drops the factor:
-/// what the condensation is measured against.
+/// Analyses and factors `matrix` as CHOLMOD does by default, without groups, and drops the factor.
+/// The condensation is measured against this factorisation.
 ///
 /// # Errors
-/// As [`super::condense`].
+/// Errors of [`super::condense`].
 pub fn factor_unconstrained(matrix: &SymmetricCsc) -> Result<Prediction> {
     Ok(unconstrained(matrix, None)?.prediction)
 }
 
-/// As [`factor_unconstrained`], with one solve, timed.
+/// Factors as [`factor_unconstrained`] does, solves once, and measures the times.
 ///
 /// # Errors
-/// As [`super::condense`]; `Internal` where the load has the wrong length.
+/// Errors of [`super::condense`]; `Internal` if the load has the wrong length.
 pub fn solve_unconstrained(matrix: &SymmetricCsc, load: &[f64]) -> Result<Unconstrained> {
     check::length("load", load.len(), matrix.rows())?;
     unconstrained(matrix, Some(load))
@@ -213,7 +215,7 @@ fn unconstrained(matrix: &SymmetricCsc, load: Option<&[f64]>) -> Result<Unconstr
     })
 }
 
-/// Ordering and symbolic analysis; the groups of the factor's columns are contiguous.
+/// Orders and analyses symbolically; each group occupies contiguous columns of the factor.
 fn analyze(
     mut common: Common,
     pattern: &Pattern,

@@ -1,22 +1,22 @@
-//! CHOLMOD's own parallel loops, switched off.
+//! Switch that turns off CHOLMOD's own parallel loops.
 //!
 //! CHOLMOD 3 copies each supernode in loops of four OpenMP threads, however small the supernode and
 //! however few the processors, in addition to the threads of the BLAS. On two cores these loops
 //! take as long as the factorisation of a plane model itself (`cargo bench --bench history`). The
 //! BLAS keeps its threads.
 
-/// The functions of the OpenMP runtime, from `ffi/openmp.h`.
+/// Functions of the OpenMP runtime, from `ffi/openmp.h`.
 #[cfg(openmp)]
 #[allow(missing_docs)]
 mod runtime {
     include!(concat!(env!("OUT_DIR"), "/openmp.rs"));
 }
 
-/// While it lives, parallel regions that this thread comes to run on this thread alone.
+/// Guard: while it lives, parallel regions entered by this thread run on this thread alone.
 pub(super) struct Serial {
     #[cfg(openmp)]
     levels: std::ffi::c_int,
-    /// The setting is this thread's: it must be taken back where it was made.
+    /// The setting belongs to this thread and must be restored on it.
     _here: std::marker::PhantomData<*const ()>,
 }
 

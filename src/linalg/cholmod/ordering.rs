@@ -1,4 +1,4 @@
-//! The fill-reducing order `[ interior | zone | contact ]`.
+//! Fill-reducing ordering in the groups `[ interior | zone | contact ]`.
 //!
 //! | candidate | how | good for |
 //! |---|---|---|
@@ -16,8 +16,8 @@ use std::ptr::null_mut;
 use std::sync::{Mutex, PoisonError};
 use suitesparse_sys as sys;
 
-/// The second candidate is tried where the first needs more than this many operations per stored
-/// entry of the matrix: below, finding the other order takes longer than it could save.
+/// Number of operations per stored entry of the matrix above which the second candidate is tried:
+/// below it, finding the other ordering takes longer than it could save.
 ///
 /// Measured on two shared cores (`cargo bench --bench trailing -- orders`), zone of 10 %:
 ///
@@ -29,27 +29,27 @@ use suitesparse_sys as sys;
 /// | hex8 | 148 k | 263,000 | 87,000 | 0.5 + 40 s | 1.2 + 13 s |
 const TRY_DISSECTION_ABOVE: f64 = 10_000.0;
 
-/// Number of a freedom that comes last of the zone, after all parts of a dissection.
+/// Part number of a freedom that comes last in the zone, after all parts of a dissection.
 const BORDER: i64 = i64::MAX;
 
-/// METIS draws from the random numbers of the C library, which all threads share: one caller at a
-/// time, so that the same matrix always gets the same order.
+/// Lock for METIS, which draws random numbers from the C library that all threads share. One caller
+/// at a time makes sure that the same matrix always gets the same ordering.
 static METIS: Mutex<()> = Mutex::new(());
 
-/// A fill-reducing order and what it costs.
+/// A fill-reducing ordering with its cost.
 pub(super) struct Ordering {
-    /// Name for reports.
+    /// Name of the ordering in reports.
     pub(super) name: &'static str,
     /// Freedom of each column of the factor.
     pub(super) permutation: Vec<i64>,
     flops: f64,
 }
 
-/// How the order is found.
+/// Method by which the ordering is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
-    /// The candidate with the fewest floating point operations; the expensive one only where it may
-    /// pay.
+    /// The candidate with the fewest floating point operations; the expensive candidate is only
+    /// tried if it may pay.
     #[default]
     Automatic,
     /// Constrained approximate minimum degree.
@@ -58,7 +58,7 @@ pub enum Method {
     Dissection,
 }
 
-/// Finds the order.
+/// Finds the ordering of a matrix with groups.
 pub(super) fn choose(
     common: &mut Common,
     matrix: &Pattern,
@@ -69,7 +69,7 @@ pub(super) fn choose(
     choose_for(common, &compressed, matrix.rows().len() as f64, method)
 }
 
-/// As above, for supervariables and the number of entries of their matrix.
+/// Finds the ordering for supervariables and the number of entries of the whole matrix.
 pub(super) fn choose_for(
     common: &mut Common,
     compressed: &Supervariables,
@@ -77,7 +77,7 @@ pub(super) fn choose_for(
     method: Method,
 ) -> Result<Ordering> {
     let (pattern, groups) = (compressed.pattern(), compressed.groups());
-    // As many operations has the whole matrix for one of the pattern.
+    // Factor from the operations on the pattern of supervariables to those on the whole matrix.
     let scale = compressed.size().powi(3);
     let is_expensive = |order: &Ordering| scale * order.flops > TRY_DISSECTION_ABOVE * entries;
     let mut order = match method {
@@ -94,7 +94,7 @@ pub(super) fn choose_for(
     Ok(order)
 }
 
-/// Puts the groups of an order together, counts its operations, and postorders it.
+/// Gathers the groups of an ordering, counts its operations, and postorders it.
 fn complete(
     common: &mut Common,
     pattern: &Pattern,
@@ -104,7 +104,7 @@ fn complete(
 ) -> Result<Ordering> {
     let n = pattern.n();
     let matrix = SymmetricView::new(pattern);
-    // Rows that CAMD finds dense it orders last whatever their group: sort.
+    // CAMD puts rows that it finds dense last, whatever their group, so the groups are sorted.
     let mut permutation = groups.gather(permutation);
     let mut parent = vec![0i64; n];
     let mut counts = vec![0i64; n];
@@ -137,19 +137,20 @@ fn complete(
     })
 }
 
-/// Approximate minimum degree with the groups as constraint sets.
+/// Finds an approximate minimum degree ordering with the groups as constraint sets.
 fn minimum_degree(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result<Ordering> {
     let mut member = sets(groups, |_| 0);
     let permutation = constrained_degree(common, pattern, &mut member)?;
     complete(common, pattern, groups, "CAMD", &permutation)
 }
 
-/// Nested dissection of interior and zone; then minimum degree within each part, the separators
-/// after the parts they separate, group after group. One elimination runs through all of them, so
-/// that all is ordered by the fill it really gets.
+/// Finds an ordering by nested dissection of interior and zone, followed by minimum degree within
+/// each part; separators come after the parts that they separate, group after group. A single
+/// elimination covers all parts, so that each is ordered by the fill that really occurs.
 ///
-/// The freedoms of the zone that touch the interior are all coupled with one another once that is
-/// gone, whatever the order: they are no part of the dissection and come last of the zone.
+/// Zone freedoms that touch the interior are all coupled with one another once the interior is
+/// eliminated, whatever the ordering: they take no part in the dissection and come last in the
+/// zone.
 fn dissection(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result<Ordering> {
     let border = groups.border(pattern);
     let mut parts = vec![BORDER; pattern.n()];
@@ -177,7 +178,8 @@ fn dissection(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result
     )
 }
 
-/// The part of each column of a matrix by nested dissection, separators after what they separate.
+/// Finds the part of each column of a matrix by nested dissection; separators come after their
+/// parts.
 fn parts_of(common: &mut Common, block: &Pattern) -> Result<Vec<i64>> {
     let n = block.n();
     let block = SymmetricView::new(block);
@@ -187,7 +189,7 @@ fn parts_of(common: &mut Common, block: &Pattern) -> Result<Vec<i64>> {
     let parts = {
         let _alone = METIS.lock().unwrap_or_else(PoisonError::into_inner);
         let method = &mut common.as_mut().method[0];
-        // Only the parts are wanted here: CAMD runs once, on all freedoms.
+        // Only the parts are needed here: CAMD runs once, on all freedoms.
         let camd = std::mem::replace(&mut method.nd_camd, 0);
         // SAFETY: all arrays have length n, the order of `block`.
         let parts = unsafe {
@@ -206,7 +208,7 @@ fn parts_of(common: &mut Common, block: &Pattern) -> Result<Vec<i64>> {
     };
     common.check("nested dissection", n)?;
     if parts < 0 {
-        // METIS has numbers of 32 bits where the distribution built it so.
+        // METIS has 32-bit numbers if the distribution built it that way.
         return Err(Error::analysis(format!(
             "a graph of {n} nodes is too large for METIS: use a coarser mesh"
         )));
@@ -214,8 +216,8 @@ fn parts_of(common: &mut Common, block: &Pattern) -> Result<Vec<i64>> {
     Ok(part)
 }
 
-/// The constraint set of each freedom: the parts of the interior, those of the zone, the contact
-/// freedoms. CAMD wants them numbered without gaps.
+/// Constraint set of each freedom: the parts of the interior, the parts of the zone, the contact
+/// freedoms. CAMD requires numbers without gaps.
 fn sets(groups: &Groups, part: impl Fn(usize) -> i64) -> Vec<i64> {
     let set = |(j, &group): (usize, &u8)| match group {
         2 => (2, 0),
@@ -229,7 +231,7 @@ fn sets(groups: &Groups, part: impl Fn(usize) -> i64) -> Vec<i64> {
     sets.iter().map(number).collect()
 }
 
-/// CAMD: freedoms of a lower set come before those of a higher one.
+/// Orders by CAMD: freedoms of a lower set come before those of a higher set.
 fn constrained_degree(
     common: &mut Common,
     pattern: &Pattern,

@@ -1,4 +1,4 @@
-//! What only the CHOLMOD backend must do; the rest stands in `linalg::sparse::tests`.
+//! Tests of the CHOLMOD backend alone; the common tests are in `linalg::sparse::tests`.
 
 use super::*;
 use crate::linalg::sparse::tests::{
@@ -10,14 +10,14 @@ use suitesparse_sys as sys;
 
 const METHODS: [Method; 3] = [Method::Automatic, Method::MinimumDegree, Method::Dissection];
 
-/// CHOLMOD with the given storage of the factor.
+/// Starts CHOLMOD with the given storage of the factor.
 fn common(storage: u32) -> Common {
     let mut common = Common::start().unwrap();
     common.as_mut().supernodal = storage as i32;
     common
 }
 
-/// CHOLMOD in either storage and in every order.
+/// CHOLMOD with each kind of storage and each ordering.
 pub(in crate::linalg) fn ways() -> Vec<Way> {
     macro_rules! way {
         ($name:literal, $storage:expr, $method:expr) => {

@@ -1,4 +1,4 @@
-//! Elimination tree and column counts of a factor, from the pattern and an order.
+//! Elimination tree and column counts of a factor, from the pattern and an ordering.
 //!
 //! # Source
 //! T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006, sections 4.1 and 4.5:
@@ -7,17 +7,17 @@
 
 use crate::linalg::sparse::Pattern;
 
-/// What an order does to a pattern whose columns stand for several freedoms each.
+/// Elimination of a pattern, whose columns may stand for several freedoms each, in an ordering.
 pub(super) struct Elimination {
-    /// Parent of each column of the order, -1 for a root.
+    /// Parent of each column in the ordering, -1 for a root.
     pub(super) parent: Vec<i64>,
-    /// Freedoms in each column of `L`, for the first freedom of the column.
+    /// Number of freedoms in each column of `L`, for the first freedom of the column.
     pub(super) counts: Vec<i64>,
 }
 
 impl Elimination {
-    /// Elimination of the `pattern` in the order `permutation`; column `j` of the pattern stands
-    /// for `sizes[j]` freedoms.
+    /// Computes the elimination of `pattern` in the ordering `permutation`; column `j` of the
+    /// pattern stands for `sizes[j]` freedoms.
     pub(super) fn new(pattern: &Pattern, sizes: &[i64], permutation: &[i64]) -> Self {
         let n = pattern.n();
         let (starts, rows) = permuted(pattern, permutation);
@@ -42,8 +42,7 @@ impl Elimination {
         Elimination { parent, counts }
     }
 
-    /// Floating point operations of the factorisation: the sum of the squares of all columns'
-    /// counts.
+    /// Floating point operations of the factorisation: the sum of the squares of all column counts.
     pub(super) fn flops(&self, sizes: &[i64], permutation: &[i64]) -> f64 {
         let columns = self.counts.iter().zip(permutation);
         let flops = columns.map(|(&count, &vertex)| {
@@ -54,7 +53,7 @@ impl Elimination {
     }
 }
 
-/// The strict upper triangle in another order, compressed by column; rows in no order.
+/// Strict upper triangle in another ordering, compressed by column, with unsorted rows.
 fn permuted(pattern: &Pattern, permutation: &[i64]) -> (Vec<usize>, Vec<u32>) {
     let n = pattern.n();
     let mut place = vec![0u32; n];

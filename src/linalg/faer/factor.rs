@@ -1,4 +1,4 @@
-//! The factor by faer: analyse, factorise, read columns.
+//! Sparse Cholesky factor by faer: analyse, factorise, read columns.
 
 use super::ordering::Ordering;
 use crate::error::{Error, Result};
@@ -12,17 +12,17 @@ use ::faer::prelude::default;
 use ::faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use ::faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 
-/// One thread: the supernodes of a plane model are too small to share, and the bits stay the same
-/// for any number of threads.
+/// A single thread: the supernodes of a plane model are too small to share, and the result has the
+/// same bits for any number of threads.
 const PARALLELISM: Par = Par::Seq;
 
-/// `P K P' = L L'`.
+/// Factor `P K P' = L L'` with supernodal storage.
 pub(super) struct Factor {
     permutation: Vec<i64>,
     counts: Vec<i64>,
     nonzeros: f64,
     flops: f64,
-    /// Bytes that the factorisation needs besides factor and matrix.
+    /// Bytes that the factorisation needs in addition to factor and matrix.
     workspace: f64,
     starts: Vec<i64>,
     row_starts: Vec<i64>,
@@ -31,11 +31,11 @@ pub(super) struct Factor {
     values: Vec<f64>,
 }
 
-/// faer's own structure of a factor, needed until its values are computed.
+/// Symbolic factor of faer, needed until the values are computed.
 pub(super) struct Symbolic(supernodal::SymbolicSupernodalCholesky<usize>);
 
 impl Factor {
-    /// Symbolic analysis for the given order, which is kept exactly.
+    /// Analyses a matrix symbolically, with exactly the given ordering.
     pub(super) fn analyze(pattern: &Pattern, order: Ordering) -> Result<(Self, Symbolic)> {
         let n = pattern.n();
         let no_memory = || out_of_memory("symbolic analysis", n);
@@ -71,7 +71,7 @@ impl Factor {
         let factor = Factor {
             nonzeros: order.counts.iter().sum::<i64>() as f64,
             flops: order.flops,
-            // The rows of the supernodes by column and by row.
+            // The row lists of the supernodes, by column and by row.
             workspace: scratch.size_bytes() as f64 + 16.0 * below as f64,
             starts: numbers(symbolic.supernode_begin().iter().chain([&n])),
             row_starts: Vec::new(),
@@ -84,7 +84,7 @@ impl Factor {
         Ok((factor.with_rows(&symbolic), Symbolic(symbolic)))
     }
 
-    /// Lists the rows of each supernode, its own columns first.
+    /// Lists the rows of each supernode, beginning with its own columns.
     fn with_rows(mut self, symbolic: &supernodal::SymbolicSupernodalCholesky<usize>) -> Self {
         let n = self.permutation.len();
         self.rows.reserve_exact(n + symbolic.row_idx().len());
@@ -99,7 +99,7 @@ impl Factor {
         self
     }
 
-    /// Numerical factorisation of `matrix`, which has the analysed pattern, with this diagonal.
+    /// Factors `matrix`, which has the analysed pattern, numerically with the given diagonal.
     pub(super) fn factorize(
         &mut self,
         Symbolic(symbolic): Symbolic,
@@ -172,7 +172,7 @@ impl LowerFactor for Factor {
     fn bytes(&self, entries: usize) -> f64 {
         let values = self.value_starts.last().map_or(0, |&length| length);
         let lists = self.rows.len() + 3 * self.starts.len();
-        // The permuted copy of the matrix; order, inverse order, counts, diagonal, pointers.
+        // The permuted copy of the matrix; ordering, inverse ordering, counts, diagonal, pointers.
         8.0 * (values as f64 + lists as f64)
             + self.workspace
             + 16.0 * entries as f64
@@ -204,7 +204,7 @@ fn numbers<'a>(values: impl IntoIterator<Item = &'a usize>) -> Vec<i64> {
     values.into_iter().map(|&value| value as i64).collect()
 }
 
-/// Column of each freedom.
+/// Column of each freedom in the factor.
 fn places(permutation: &[i64]) -> Vec<u32> {
     let mut place = vec![0; permutation.len()];
     for (column, &freedom) in permutation.iter().enumerate() {
@@ -213,15 +213,16 @@ fn places(permutation: &[i64]) -> Vec<u32> {
     place
 }
 
-/// Which triangle of a symmetric matrix is stored.
+/// Triangle in which a symmetric matrix is stored.
 #[derive(Clone, Copy, PartialEq)]
 enum StoredTriangle {
     Upper,
     Lower,
 }
 
-/// A triangle of the permuted matrix, compressed by column, rows in no order: column pointers,
-/// rows, and where there are `values` with a diagonal that replaces theirs, these.
+/// Returns a triangle of the permuted matrix, compressed by column with unsorted rows: column
+/// pointers, rows, and values. The values are empty without `values`, which come with a diagonal
+/// that replaces theirs.
 fn permuted(
     pattern: &Pattern,
     place: &[u32],
@@ -229,7 +230,7 @@ fn permuted(
     values: Option<(&[f64], &[f64])>,
 ) -> (Vec<usize>, Vec<usize>, Vec<f64>) {
     let n = pattern.n();
-    // Row and column in the triangle.
+    // Row and column within the triangle.
     let target = |i: usize, j: usize| {
         let (a, b) = (place[i] as usize, place[j] as usize);
         match triangle {

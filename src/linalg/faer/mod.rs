@@ -1,9 +1,9 @@
-//! faer backend: the sparse factor in Rust alone, without a library of the system and under
-//! permissive licences.
+//! faer backend: the sparse factor in Rust alone, without system libraries and under permissive
+//! licences.
 //!
-//! What is done with the factor stands in `linalg::sparse`. It is computed on one thread, so all
-//! results have the same bits for any number of threads; the solves share their work as with
-//! CHOLMOD.
+//! The use of the factor is in `linalg::sparse`. The factor is computed on one thread, so all
+//! results have the same bits for any number of threads; the solves are shared among threads as
+//! with CHOLMOD.
 //!
 //! # Source
 //! S. El Kazdadi, *faer: linear algebra for Rust*, <https://docs.rs/faer>; T. A. Davis, *Direct
@@ -24,7 +24,7 @@ use ordering::Method;
 /// Orders, factors and condenses `matrix + diag(shift)`.
 ///
 /// # Errors
-/// As [`super::condense`].
+/// Errors of [`super::condense`].
 pub fn condense(
     matrix: &SymmetricCsc,
     partition: &Partition,
@@ -53,7 +53,7 @@ fn with_method(
 /// Predicts the cost of [`condense`] by its ordering and symbolic analysis.
 ///
 /// # Errors
-/// As [`super::predict`].
+/// Errors of [`super::predict`].
 pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Prediction> {
     predict_with_method(matrix, partition, Method::Automatic)
 }
@@ -69,7 +69,7 @@ fn predict_with_method(
     Ok(sparse::prediction(&factor, name, matrix, &groups))
 }
 
-/// Ordering and symbolic analysis; the groups of the factor's columns are contiguous.
+/// Orders and analyses symbolically; each group occupies contiguous columns of the factor.
 fn analyze(
     pattern: &Pattern,
     groups: &Groups,

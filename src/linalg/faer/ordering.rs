@@ -1,14 +1,14 @@
-//! The fill-reducing order `[ interior | zone | contact ]`, found in Rust alone.
+//! Fill-reducing ordering in the groups `[ interior | zone | contact ]`, in Rust alone.
 //!
 //! | candidate | how | good for |
 //! |---|---|---|
 //! | `AMD` | approximate minimum degree of interior and zone | plane meshes |
 //! | `nested dissection` | separators of interior and zone | large and solid meshes |
 //!
-//! Neither knows of groups, so each group is ordered by itself. The freedoms of the zone that touch
-//! the interior come last of it: once the interior is eliminated they are all coupled with one
-//! another, whatever the order. The candidate with the fewest floating point operations is kept.
-//! Both order supervariables ([`Supervariables`]).
+//! Neither method handles groups, so each group is ordered separately. Zone freedoms that touch the
+//! interior come last in the zone: once the interior is eliminated, they are all coupled with one
+//! another, whatever the ordering. The candidate with the fewest floating point operations is kept.
+//! Both candidates order supervariables ([`Supervariables`]).
 //!
 //! # Source
 //! P. R. Amestoy, T. A. Davis, I. S. Duff, *An approximate minimum degree ordering algorithm*,
@@ -21,43 +21,43 @@ use crate::error::{Error, Result};
 use crate::linalg::sparse::{Groups, Pattern, Supervariables};
 use feral_metis::{CscPattern, OrderingError};
 
-/// The second candidate is tried where the first needs more than this many operations per stored
-/// entry of the matrix: below, finding the other order takes longer than it could save. Dissection
-/// takes some 10 microseconds a vertex, as long as 7,000 operations per entry, and saves about a
-/// third of them in plane meshes, two thirds in solid ones.
+/// Number of operations per stored entry of the matrix above which the second candidate is tried:
+/// below it, finding the other ordering takes longer than it could save. Dissection takes some 10
+/// microseconds a vertex, as long as 7,000 operations per entry, and saves about a third of them in
+/// plane meshes, two thirds in solid ones.
 const TRY_DISSECTION_ABOVE: f64 = 20_000.0;
 
-/// How the order is found.
+/// Method by which the ordering is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum Method {
-    /// The candidate with the fewest floating point operations; the expensive one only where it may
-    /// pay.
+    /// The candidate with the fewest floating point operations; the expensive candidate is only
+    /// tried if it may pay.
     #[default]
     Automatic,
-    /// Approximate minimum degree.
+    /// Approximate minimum degree alone.
     #[cfg_attr(not(test), allow(dead_code))]
     MinimumDegree,
-    /// Nested dissection.
+    /// Nested dissection alone.
     #[cfg_attr(not(test), allow(dead_code))]
     Dissection,
 }
 
-/// A fill-reducing order and what it costs.
+/// A fill-reducing ordering with its cost.
 pub(super) struct Ordering {
-    /// Name for reports.
+    /// Name of the ordering in reports.
     pub(super) name: &'static str,
     /// Freedom of each column of the factor.
     pub(super) permutation: Vec<i64>,
-    /// Nonzeros of each column.
+    /// Number of nonzeros of each column.
     pub(super) counts: Vec<i64>,
     /// Floating point operations of the factorisation.
     pub(super) flops: f64,
 }
 
-/// Orders the vertices of a graph.
+/// Function that orders the vertices of a graph.
 type Order = fn(&CscPattern) -> std::result::Result<Vec<i32>, OrderingError>;
 
-/// Finds the order.
+/// Finds the ordering of a matrix with groups.
 pub(super) fn choose(matrix: &Pattern, groups: &Groups, method: Method) -> Result<Ordering> {
     let compressed = Supervariables::find(matrix, groups);
     let entries = matrix.rows().len() as f64;
@@ -79,7 +79,7 @@ fn dissection(compressed: &Supervariables) -> Result<Ordering> {
     by_groups(compressed, "nested dissection", feral_metis::metis_order)
 }
 
-/// The order of the freedoms with each group ordered by `order`, postordered, and its cost.
+/// Orders each group by `order`, postorders the result, and counts its operations.
 fn by_groups(compressed: &Supervariables, name: &'static str, order: Order) -> Result<Ordering> {
     let (pattern, groups) = (compressed.pattern(), compressed.groups());
     let sizes = compressed.sizes();
@@ -95,7 +95,7 @@ fn by_groups(compressed: &Supervariables, name: &'static str, order: Order) -> R
     let flops = elimination.flops(&sizes, &permutation);
     let Elimination { parent, counts } = &elimination;
     let ordered = groups.postorder(&permutation, parent, counts);
-    // The columns of a supervariable are one nonzero shorter each.
+    // Within a supervariable each column has one nonzero less than the one before it.
     let mut of_vertex = vec![0; pattern.n()];
     for (&vertex, &count) in permutation.iter().zip(counts) {
         of_vertex[vertex as usize] = count;
@@ -112,7 +112,7 @@ fn by_groups(compressed: &Supervariables, name: &'static str, order: Order) -> R
     })
 }
 
-/// The vertices that `is_in` holds, as `order` orders them among themselves.
+/// Orders the vertices for which `is_in` holds among themselves by `order`.
 fn part(pattern: &Pattern, order: Order, is_in: impl Fn(usize) -> bool) -> Result<Vec<i64>> {
     let (local, columns, rows) = pattern.block(is_in);
     let vertices = (0..).zip(&local).filter(|(_, number)| **number >= 0);
@@ -121,7 +121,7 @@ fn part(pattern: &Pattern, order: Order, is_in: impl Fn(usize) -> bool) -> Resul
     let graph = CscPattern::new(vertices.len(), &starts, &neighbours);
     let found = order(&graph.ok_or_else(|| failed(OrderingError::MalformedInput))?);
     let found = found.map_err(failed)?;
-    // What is no permutation would be an index out of range further on.
+    // Anything but a permutation would be an index out of range later on.
     let mut is_new = vec![true; vertices.len()];
     let mut take = |place: i32| {
         let place = usize::try_from(place).ok()?;

@@ -1,4 +1,4 @@
-//! What only the faer backend must do; the rest stands in `linalg::sparse::tests`.
+//! Tests of the faer backend alone; the common tests are in `linalg::sparse::tests`.
 
 use super::*;
 use crate::linalg::sparse::LowerFactor;
@@ -11,7 +11,7 @@ use crate::linalg::tests::matrices::{Grid, Support};
 
 const METHODS: [Method; 3] = [Method::Automatic, Method::MinimumDegree, Method::Dissection];
 
-/// faer in every order.
+/// The faer backend with each ordering.
 pub(in crate::linalg) fn ways() -> Vec<Way> {
     macro_rules! way {
         ($name:literal, $method:expr) => {
@@ -59,8 +59,8 @@ fn subtrees_are_solved_like_the_whole() {
     });
 }
 
-/// The counts from the pattern of the supervariables are those of a factorisation of zeros and ones
-/// of the whole pattern, column by column.
+/// The column counts from the pattern of supervariables equal those of a factorisation of zeros and
+/// ones on the whole pattern.
 #[test]
 fn counts_are_those_of_the_structure() {
     let grid = Grid::<2>::new([9, 7], Support::Bottom);
@@ -102,7 +102,7 @@ fn counts_are_those_of_the_structure() {
     }
 }
 
-/// Numbers beyond the range of a double are refused, as what is not definite.
+/// Values that overflow a double are refused, like an indefinite matrix.
 #[test]
 fn overflow_is_not_definite() {
     let mut matrix = sprs::TriMatI::<f64, i64>::new((2, 2));

@@ -1,4 +1,4 @@
-//! The interior and what it touches: factored by MUMPS on all ranks.
+//! Interior and the freedoms that it touches, factored by MUMPS on all ranks.
 
 use super::meaning::meaning;
 use super::rank::Host;
@@ -12,48 +12,48 @@ use std::ffi::c_int;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// How far a solution of size 1 may be off. Its error is about the condition times the unit
-/// round-off: a matrix of which no digit comes back is singular.
+/// Largest error of a solution of size 1. The error is about the condition times the unit
+/// round-off: a matrix for which no digit is right is singular.
 const LOST: f64 = 0.1;
 
-/// Known solutions that are asked for. One came back by chance from a twentieth of 240 small bodies
-/// that nothing holds.
+/// Number of known solutions that are tested. For a twentieth of 240 small bodies that nothing
+/// holds, a single solution was right by chance.
 const KNOWN: usize = 3;
 
-/// Value of INFOG(7) where the order given was used.
+/// Value of INFOG(7) if the given ordering was used.
 const GIVEN: i32 = 1;
 
-/// Bytes of an entry as MUMPS takes it: two numbers and a value.
+/// Bytes of an entry in the form that MUMPS takes: two numbers and a value.
 const TRIPLET: f64 = 16.0;
 
-/// Variables, order and size of a factor that is not computed yet.
+/// Variables, ordering and size of a factor that is not computed yet.
 pub(super) struct Analysis {
-    /// Name of the order, for reports.
+    /// Name of the ordering for reports.
     pub(super) order_name: &'static str,
     variables: Variables,
     factor: FactorHandle,
     host: Host,
     by_rank: Vec<Analysed>,
-    /// Entries of the matrix that each rank hands over, about.
+    /// Approximate number of entries of the matrix that each rank passes to MUMPS.
     n_entries: Vec<usize>,
-    /// Interior freedom, trailing freedom, value.
+    /// Entries as interior freedom, trailing freedom and value.
     coupling: Vec<Entry>,
 }
 
-/// The freedoms of the interior and those that it touches, numbered among themselves.
+/// Freedoms of the interior and the freedoms that it touches, with numbers of their own.
 struct Variables {
     freedoms: Vec<usize>,
-    /// The trailing number of each, where it stays.
+    /// Trailing number of each freedom that stays; `None` for interior freedoms.
     trailing: Vec<Option<usize>>,
 }
 
-/// Handle of a factor on all ranks.
+/// Handle of a factor that is distributed over all ranks.
 struct FactorHandle {
     index: usize,
     matrix: Shared,
 }
 
-/// A factored interior.
+/// An interior that MUMPS has factored.
 pub(super) struct Exterior {
     factor: FactorHandle,
     n_variables: usize,
@@ -67,7 +67,7 @@ static FREE: Mutex<Vec<usize>> = Mutex::new(Vec::new());
 static NEXT: AtomicUsize = AtomicUsize::new(0);
 
 impl FactorHandle {
-    /// A number that no other factor has.
+    /// Makes a handle with a number that no other factor has.
     fn of(matrix: &Shared) -> Self {
         let mut free = FREE.lock().unwrap_or_else(PoisonError::into_inner);
         let index = free.pop();
@@ -81,7 +81,7 @@ impl FactorHandle {
 impl Drop for FactorHandle {
     fn drop(&mut self) {
         let task = |_| Task::ForgetFactor(self.index);
-        // Ranks that are gone have forgotten it.
+        // Ranks that have ended no longer hold the factor.
         let forgotten: Result<Vec<()>> = self.matrix.ask(task, &mut Host::default());
         if forgotten.is_ok() {
             let mut free = FREE.lock().unwrap_or_else(PoisonError::into_inner);
@@ -109,9 +109,9 @@ impl Variables {
         numbers
     }
 
-    /// The place of each variable, from 1, in an order that ends with those that stay.
+    /// Place of each variable, from 1, in an ordering that ends with the variables that stay.
     fn order(&self, matrix: &Shared) -> Result<(&'static str, Vec<c_int>)> {
-        // Freedoms with the same neighbours are one vertex.
+        // Freedoms with the same neighbours form one vertex.
         let mut first = Vec::new();
         let mut vertex = vec![-1; matrix.n()];
         for (k, &freedom) in self.freedoms.iter().enumerate() {
@@ -138,8 +138,8 @@ impl Variables {
 }
 
 impl Analysis {
-    /// Orders the interior, which is what has no number among the `trailing` freedoms, and those of
-    /// them that it has `touched`, last.
+    /// Orders the interior, which consists of the freedoms without a number in `trailing`. The
+    /// trailing freedoms that it has `touched` come last.
     pub(super) fn new(
         matrix: &Shared,
         trailing: &[Option<usize>],
@@ -160,7 +160,7 @@ impl Analysis {
         let mut kept: Vec<usize> = (0..n_variables)
             .filter(|&k| variables.trailing[k].is_some())
             .collect();
-        // MUMPS wants them listed as they come in the order.
+        // MUMPS requires them to be listed in the sequence of the ordering.
         kept.sort_by_key(|&k| order[k]);
         let mut host = Host {
             n: n_variables,
@@ -192,20 +192,20 @@ impl Analysis {
         })
     }
 
-    /// Operations of the factorisation.
+    /// Floating point operations of the factorisation.
     pub(super) fn flops(&self) -> f64 {
         self.by_rank[0].flops
     }
 
-    /// Entries of the factor.
+    /// Number of entries of the factor.
     pub(super) fn nonzeros(&self) -> f64 {
         self.by_rank[0].nonzeros
     }
 
     /// Bytes that each rank needs in addition to its columns: its part of the factor and of the
-    /// matrix as it is handed over. The first rank, which has `own` bytes of its own, needs the
-    /// Schur complement and the coupling, too, or, while the order is found, the pattern of the
-    /// whole matrix.
+    /// matrix as passed to MUMPS. The first rank, which uses `own` bytes itself, also needs either
+    /// the Schur complement or, while the ordering is found, the pattern of the whole matrix; in
+    /// addition the coupling.
     pub(super) fn bytes(&self, own: f64) -> Vec<f64> {
         let ranks = self.by_rank.iter().zip(&self.n_entries);
         let mut bytes: Vec<f64> = ranks
@@ -217,7 +217,7 @@ impl Analysis {
         bytes
     }
 
-    /// Bytes that the first rank keeps when the Schur complement is used up.
+    /// Bytes that the first rank keeps after the Schur complement has been used.
     pub(super) fn bytes_later(&self) -> f64 {
         self.by_rank[0].needed + self.bytes_of_coupling()
     }
@@ -226,7 +226,7 @@ impl Analysis {
         (size_of::<Entry>() * self.coupling.len()) as f64
     }
 
-    /// The Schur complement, which is not known yet.
+    /// Schur complement without values, before it is computed.
     pub(super) fn unknown(&self) -> Schur {
         Schur {
             freedoms: self.kept(),
@@ -234,7 +234,7 @@ impl Analysis {
         }
     }
 
-    /// The trailing numbers of the variables that stay, as they come in the order.
+    /// Trailing numbers of the variables that stay, in the sequence of the ordering.
     fn kept(&self) -> Vec<usize> {
         let trailing = |k: &c_int| self.variables.trailing[*k as usize - 1].unwrap_or(0);
         self.host.kept.iter().map(trailing).collect()
@@ -246,7 +246,7 @@ impl Analysis {
     }
 }
 
-/// As [`Analysis::require_memory`], for what the ranks said.
+/// Checks memory as [`Analysis::require_memory`] does, with the figures that the ranks reported.
 fn require_memory(needed: &[f64], by_rank: &[Analysed]) -> Result<()> {
     let figures = |needed: f64, left: f64| {
         format!(
@@ -256,7 +256,7 @@ fn require_memory(needed: &[f64], by_rank: &[Analysed]) -> Result<()> {
             (left / 1e6).floor()
         )
     };
-    // By machine: its ranks, what they need, what there is.
+    // For each machine: number of ranks, bytes needed, bytes available.
     let mut machines: BTreeMap<&str, (usize, f64, f64)> = BTreeMap::new();
     for (rank, (&needed, of_rank)) in needed.iter().zip(by_rank).enumerate() {
         if let Some(left) = of_rank.left_by_limits
@@ -282,16 +282,16 @@ fn require_memory(needed: &[f64], by_rank: &[Analysed]) -> Result<()> {
 }
 
 /// Bytes of the pattern of the whole matrix that MUMPS gathers on the first rank for the symbolic
-/// analysis: two numbers for each entry and what is made of them (measured: 10 to 14).
+/// analysis: two numbers for each entry and derived data (measured: 10 to 14).
 fn pattern_bytes(n_entries: &[usize]) -> f64 {
     14.0 * n_entries.iter().sum::<usize>() as f64
 }
 
 impl Exterior {
-    /// Factors the interior; with it its Schur complement on what it touches.
+    /// Factors the interior and computes its Schur complement on the freedoms that it touches.
     ///
     /// # Errors
-    /// What MUMPS says, in words; a rank without the memory; an interior that is not held.
+    /// Errors of MUMPS, in words; a rank without enough memory; an interior that is not held.
     pub(super) fn new(matrix: &Shared, mut analysis: Analysis) -> Result<(Self, Schur)> {
         let m = analysis.host.kept.len();
         let schur = &mut analysis.host.schur;
@@ -336,12 +336,13 @@ impl Exterior {
         Ok((exterior, schur))
     }
 
-    /// MUMPS goes on over pivots that are negative or nothing but round-off. The first it counts;
-    /// of a matrix that is singular to round-off known solutions do not come back, all by chance
-    /// less often than one.
+    /// Checks that the interior is held. MUMPS goes on over pivots that are negative or only
+    /// round-off. It counts the negative ones; for a matrix that is singular up to round-off, known
+    /// solutions are not reproduced. Several solutions are reproduced by chance less often than
+    /// one.
     ///
     /// # Errors
-    /// [`NotDefinite`] by the freedom that is farthest off.
+    /// [`NotDefinite`] with the freedom whose error is largest.
     fn require_held(&self, matrix: &Shared, is_indefinite: bool) -> Result<()> {
         let mut worst = (0, 0.0);
         for k in 1..=KNOWN {
@@ -367,8 +368,8 @@ impl Exterior {
         }
     }
 
-    /// `K_II^-1` times what stands at the interior freedoms of `load`, less coupled displacements
-    /// where there are some; by variable.
+    /// Solves `K_II^-1` for the interior part of `load`, minus the coupling times the trailing
+    /// displacements if given; the result is by variable.
     pub(super) fn solve(&self, load: &[f64], u_trailing: Option<&[f64]>) -> Result<Vec<f64>> {
         let mut of_variables = vec![0.0; self.n_variables];
         for &(freedom, k) in &self.interior {
@@ -391,7 +392,7 @@ impl Exterior {
     }
 }
 
-/// Negative numbers of INFOG(1) as errors, of the rank whose own state that is.
+/// Converts negative values of INFOG(1) to errors, with the rank in that state.
 fn require([code, more]: [i32; 2], mut own_states: impl Iterator<Item = i32>) -> Result<()> {
     if code >= 0 {
         return Ok(());
@@ -422,7 +423,8 @@ mod tests {
         }
     }
 
-    /// Each by its own limits, those of a machine together.
+    /// Each rank is compared with its own limits, and ranks of one machine together with the
+    /// machine's.
     #[test]
     fn memory_is_compared_rank_by_rank_and_machine_by_machine() {
         let ranks = [

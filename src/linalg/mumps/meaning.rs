@@ -1,11 +1,11 @@
-//! What MUMPS' numbers mean, and what to do.
+//! Meaning of MUMPS' error numbers, with a remedy.
 //!
 //! # Source
 //! MUMPS 5.5 users' guide, section 8.
 
-/// In words, for INFOG(1) and INFOG(2), and the rank that says so.
+/// Describes INFOG(1) and INFOG(2), and the rank that reports them.
 pub(super) fn meaning(code: i32, more: i32, rank: Option<usize>) -> String {
-    // Sizes below 0 are in millions.
+    // Negative sizes are in millions.
     let size = match more {
         more if more < 0 => format!("{} million", -i64::from(more)),
         more => more.to_string(),

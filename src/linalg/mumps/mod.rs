@@ -1,28 +1,29 @@
-//! MUMPS backend: what lies outside the zone is factored on many machines.
+//! MUMPS backend: freedoms outside the zone are factored on several machines.
 //!
-//! With the freedoms in the order `[ interior | trailing ]`, trailing being zone and contact, and
-//! `G` the trailing freedoms that the interior touches,
+//! With the freedoms in the order `[ interior | trailing ]`, where trailing means zone and contact,
+//! and `G` the trailing freedoms that the interior touches,
 //!
 //! ```text
 //!     S_G = - K_GI K_II^-1 K_IG      by MUMPS on all ranks, dense
 //!     S   = K_tt + S_G               condensed by another backend on the first rank
 //! ```
 //!
-//! The interior is touched once for each load vector and once for each state that is written, whose
+//! The interior is needed once for each load vector and once for each state that is written, whose
 //! stresses the ranks evaluate too ([`World::serve`]); zone, contact and events need the first rank
 //! alone.
 //!
-//! The first rank is the program; each rank has some columns of the matrix ([`Shared`]) and does
-//! what is asked of it ([`World::serve`]). None has all of the matrix; its pattern MUMPS gathers on
-//! the first rank for the symbolic analysis. Results agree with those of the other backends to
-//! round-off, not to the bit, and so do those of different numbers of ranks, or of another run.
+//! The first rank runs the program; each rank holds some columns of the matrix ([`Shared`]) and
+//! carries out requests ([`World::serve`]). No rank holds the whole matrix; MUMPS gathers its
+//! pattern on the first rank for the symbolic analysis. Results agree with those of the other
+//! backends to round-off, not to the bit; the same holds between different numbers of ranks, and
+//! between runs.
 //!
 //! | file | what |
 //! |---|---|
-//! | `world` | the ranks, what the first one asks of all |
-//! | `task`, `rank` | what is asked and answered; what a rank keeps and does |
+//! | `world` | the ranks, and requests of the first rank to all |
+//! | `task`, `rank` | requests and answers; data and work of a rank |
 //! | `shared` | the matrix as the first rank sees it |
-//! | `exterior` | order, analysis and factor of the interior |
+//! | `exterior` | ordering, analysis and factor of the interior |
 //! | `shim.c` | MPI and MUMPS themselves |
 //!
 //! # Source
@@ -52,16 +53,16 @@ use crate::error::{Error, Result};
 use crate::memory;
 use exterior::{Analysis, Exterior};
 
-/// Who condenses the trailing freedoms on the first rank.
+/// Backend that condenses the trailing freedoms on the first rank.
 const INNER: Backend = Backend::Cholmod;
 
-/// Row, column and value.
+/// Matrix entry as row, column and value.
 type Entry = (usize, usize, f64);
 
-/// A matrix whose interior MUMPS has factored.
+/// A condensed matrix whose interior MUMPS has factored.
 struct MumpsCondensed {
     n: usize,
-    /// Zone and contact freedoms, ascending: the numbers of `inner`.
+    /// Zone and contact freedoms, ascending; their places are the freedom numbers of `inner`.
     trailing: Vec<usize>,
     exterior: Option<Exterior>,
     inner: Box<dyn Condensed>,
@@ -69,10 +70,10 @@ struct MumpsCondensed {
     weakest: Pivot,
 }
 
-/// Factors and condenses `matrix + diag(shift)`, all of which the first rank has.
+/// Factors and condenses `matrix + diag(shift)`, given as a whole on the first rank.
 ///
 /// # Errors
-/// As [`super::condense`].
+/// Errors of [`super::condense`].
 pub fn condense(
     matrix: &SymmetricCsc,
     partition: &Partition,
@@ -82,10 +83,10 @@ pub fn condense(
     condense_shared(&Shared::here(matrix)?, partition, shift)
 }
 
-/// Factors and condenses `matrix + diag(shift)`.
+/// Factors and condenses `matrix + diag(shift)` for a matrix shared among ranks.
 ///
 /// # Errors
-/// As [`super::condense`].
+/// Errors of [`super::condense`].
 pub fn condense_shared(
     matrix: &Shared,
     partition: &Partition,
@@ -95,7 +96,7 @@ pub fn condense_shared(
     let mut trailing = RemainingMatrix::new(matrix, partition)?;
     let cost = trailing.cost()?;
     if let Some(analysis) = &trailing.analysis {
-        // The columns are there already.
+        // The columns are in memory already.
         let ranks = cost.memory_by_rank.iter().zip(&trailing.columns);
         let more: Vec<f64> = ranks.map(|(all, columns)| all - columns).collect();
         analysis.require_memory(&more)?;
@@ -134,7 +135,7 @@ pub fn condense_shared(
 /// Predicts the cost of [`condense`].
 ///
 /// # Errors
-/// As [`super::predict`].
+/// Errors of [`super::predict`].
 pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Prediction> {
     predict_shared(&Shared::here(matrix)?, partition)
 }
@@ -142,23 +143,23 @@ pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Predictio
 /// Predicts the cost of [`condense_shared`].
 ///
 /// # Errors
-/// As [`super::predict`].
+/// Errors of [`super::predict`].
 pub fn predict_shared(matrix: &Shared, partition: &Partition) -> Result<Prediction> {
     check::partition(partition, &[])?;
     RemainingMatrix::new(matrix, partition)?.cost()
 }
 
-/// What is left of the matrix when the interior is eliminated.
+/// Matrix that remains when the interior is eliminated.
 struct RemainingMatrix {
-    /// Zone and contact freedoms, ascending; the last freedom where there is none.
+    /// Zone and contact freedoms, ascending; the last freedom if there are none.
     freedoms: Vec<usize>,
-    /// Partition of these freedoms, by their places among themselves.
+    /// Partition of the remaining freedoms, in their own numbering.
     partition: Partition,
-    /// Entries between these freedoms.
+    /// Entries between the remaining freedoms.
     own: Vec<Entry>,
-    /// Analysis of the interior, where there is one.
+    /// Analysis of the interior; `None` without an interior.
     analysis: Option<Analysis>,
-    /// Bytes of the columns that each rank has.
+    /// Bytes of the columns that each rank holds.
     columns: Vec<f64>,
 }
 
@@ -171,7 +172,7 @@ impl RemainingMatrix {
             .collect();
         freedoms.sort_unstable();
         if freedoms.is_empty() {
-            // Something to condense onto.
+            // At least one freedom is needed to condense onto.
             freedoms.push(n - 1);
         }
         let mut place = vec![None; n];
@@ -209,8 +210,8 @@ impl RemainingMatrix {
         })
     }
 
-    /// Matrix of the trailing freedoms, with the Schur complement of the interior: ones where that
-    /// is not known yet.
+    /// Matrix of the trailing freedoms with the Schur complement of the interior; ones in its place
+    /// if it is not known yet.
     fn matrix(&self, schur: Option<Schur>) -> SymmetricCsc {
         upper_triangle(self.freedoms.len(), |add| {
             self.own.iter().copied().for_each(&mut *add);
@@ -220,8 +221,8 @@ impl RemainingMatrix {
         })
     }
 
-    /// The freedom that lost most to cancellation: on the way from `K` to `S` (`condensed`), and
-    /// the inner pivot on the way from there too.
+    /// Pivot of the freedom that lost most digits to cancellation, either from `K` to `S`
+    /// (`condensed`), or for the inner pivot on the whole way from `K`.
     fn weakest(
         &self,
         inner: Pivot,
@@ -250,12 +251,13 @@ impl RemainingMatrix {
         })
     }
 
-    /// The memory of each rank is the largest of three times: while the order is found, while the
-    /// interior is factored, and, on the first rank, while what is left is.
+    /// Predicts the cost. The memory of each rank is the largest of three stages: while the
+    /// ordering is found, while the interior is factored, and, on the first rank, while the
+    /// remaining matrix is factored.
     fn cost(&self) -> Result<Prediction> {
         let schur = self.analysis.as_ref().map(Analysis::unknown);
         let m = schur.as_ref().map_or(0, |schur| schur.freedoms.len()) as f64;
-        // The pattern, and copies of it in the analysis.
+        // The pattern, and its copies in the analysis.
         memory::require("matrix of what the ranks leave to the first", 24.0 * m * m)?;
         let mut cost = predict_by(INNER, &self.matrix(schur), &self.partition)?;
         let mut by_rank = self.columns.clone();
@@ -279,19 +281,19 @@ impl RemainingMatrix {
 
 /// A dense symmetric matrix on some of the trailing freedoms.
 struct Schur {
-    /// Numbers of these freedoms.
+    /// Trailing numbers of these freedoms.
     freedoms: Vec<usize>,
-    /// Entries by rows, of which the lower triangle holds; empty where all are unknown.
+    /// Entries by rows, of which only the lower triangle is valid; empty if they are unknown.
     values: Vec<f64>,
 }
 
 impl Schur {
-    /// Visits the entries of the upper triangle.
+    /// Calls `add` with the entries of the upper triangle.
     fn each(&self, add: &mut dyn FnMut(Entry)) {
         let m = self.freedoms.len();
         for a in 0..m {
             for b in 0..=a {
-                // Bodies that have nothing to do with each other stay apart.
+                // Zeros are left out, so that unconnected bodies stay uncoupled.
                 let value = self.values.get(a * m + b).copied().unwrap_or(1.0);
                 if value != 0.0 {
                     let ends = [self.freedoms[a], self.freedoms[b]];
@@ -302,7 +304,7 @@ impl Schur {
     }
 }
 
-/// The freedom that is not held, as the whole matrix numbers it.
+/// Converts the freedom in an error to the numbering of the whole matrix.
 fn of_freedom(error: Error, trailing: &[usize]) -> Error {
     let cause = error
         .causes()
@@ -314,8 +316,8 @@ fn of_freedom(error: Error, trailing: &[usize]) -> Error {
     }
 }
 
-/// A matrix from entries of its upper triangle, those at the same place added up; they are visited
-/// twice, and stand nowhere else.
+/// Builds a matrix from entries of its upper triangle; entries at the same place are added. `each`
+/// is called twice, so that the entries need no storage of their own.
 fn upper_triangle(n: usize, each: impl Fn(&mut dyn FnMut(Entry))) -> SymmetricCsc {
     let mut starts = vec![0usize; n + 1];
     each(&mut |(_, column, _)| starts[column + 1] += 1);
@@ -377,7 +379,7 @@ impl Condensed for MumpsCondensed {
         Ok(chosen.map(|zone| zone.into_iter().map(|t| self.trailing[t]).collect()))
     }
 
-    /// The loads of the interior as they are, those of the trailing freedoms reduced.
+    /// Keeps the loads of the interior and reduces those of the trailing freedoms.
     fn reduce_load(&self, load: &[f64]) -> Result<Vec<f64>> {
         check::length("load", load.len(), self.n)?;
         let mut trailing = self.of_trailing(load);
@@ -448,7 +450,7 @@ impl Condensed for MumpsCondensed {
         self.cost.clone()
     }
 
-    /// Weakest pivot of the trailing freedoms: MUMPS does not report its pivots.
+    /// Weakest pivot of the trailing freedoms, since MUMPS does not report its pivots.
     fn weakest_pivot(&self) -> Pivot {
         self.weakest
     }

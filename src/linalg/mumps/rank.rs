@@ -1,4 +1,4 @@
-//! What a rank keeps and does.
+//! Data that a rank keeps, and the requests that it carries out.
 
 use super::task::{Analysed, Factored, MadeOnRank, Near, Product, Task};
 use crate::error::Result;
@@ -12,18 +12,18 @@ use std::ffi::c_int;
 use std::ptr::null_mut;
 use std::sync::{Mutex, PoisonError};
 
-/// What ranks must have in common.
+/// Version of the program, which all ranks must have in common.
 pub(super) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Columns from what they are made of.
+/// Function that makes a rank's columns from a message.
 pub type Assemble = fn(&[u8]) -> Result<Columns>;
 
-/// Some columns of the upper triangle of a symmetric matrix, its freedoms numbered anew.
+/// Some columns of the upper triangle of a symmetric matrix, with freedoms renumbered.
 #[derive(Debug, Clone)]
 pub struct Columns {
-    /// Columns that another rank has are empty.
+    /// Matrix of the rank; columns of other ranks are empty.
     pub matrix: SymmetricCsc,
-    /// Whether each freedom couples to the same freedoms as the one before it, and to that one.
+    /// Whether each freedom couples to the previous one and to the same freedoms as it does.
     pub continued: Vec<bool>,
 }
 
@@ -36,30 +36,30 @@ impl Default for Columns {
     }
 }
 
-/// An answer to what the program asks.
+/// Function that answers a request of the program.
 pub type Evaluate = fn(&[u8]) -> Result<Vec<u8>>;
 
-/// What a rank adds to what it is asked.
+/// Functions and data that a rank supplies in addition to a request.
 #[derive(Default)]
 pub(super) struct Host {
     /// Function that makes the rank's columns of a matrix.
     pub(super) assemble: Option<Assemble>,
-    /// Function that answers the program.
+    /// Function that answers requests of the program.
     pub(super) evaluate: Option<Evaluate>,
-    // What the first rank alone hands to MUMPS.
+    // The remaining fields are passed to MUMPS by the first rank alone.
     /// Number of variables.
     pub(super) n: usize,
-    /// The place of each in the order, from 1.
+    /// Place of each variable in the ordering, from 1.
     pub(super) place: Vec<c_int>,
-    /// The variables that stay, from 1, as they come in the order.
+    /// Variables that stay, from 1, in the sequence of the ordering.
     pub(super) kept: Vec<c_int>,
-    /// Matrix of the variables that stay.
+    /// Schur complement on the variables that stay.
     pub(super) schur: Vec<f64>,
-    /// A load, then the solution.
+    /// Load on entry, solution on return.
     pub(super) load: Vec<f64>,
 }
 
-/// Entries as MUMPS takes them.
+/// Matrix entries in the form that MUMPS takes.
 #[derive(Default)]
 struct RankEntries {
     rows: Vec<c_int>,
@@ -70,7 +70,7 @@ struct RankEntries {
 #[derive(Default)]
 struct KeptOnRank {
     matrices: BTreeMap<usize, Columns>,
-    /// The trailing freedoms of each matrix.
+    /// Whether each freedom of each matrix is trailing.
     trailing: BTreeMap<usize, Vec<bool>>,
     /// Entries of factors that are not computed yet.
     entries: BTreeMap<usize, RankEntries>,
@@ -82,7 +82,7 @@ static KEPT: Mutex<KeptOnRank> = Mutex::new(KeptOnRank {
     entries: BTreeMap::new(),
 });
 
-// Of shim.c.
+// Functions defined in shim.c.
 unsafe extern "C" {
     fn brinell_mumps_analyse(
         index: c_int,
@@ -101,7 +101,7 @@ unsafe extern "C" {
     fn brinell_mumps_free(index: c_int);
 }
 
-/// Does what is asked; the answer as it is sent.
+/// Carries out a request and returns the answer as bytes.
 pub(super) fn perform(task: Task, host: &mut Host) -> Vec<u8> {
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     match task {
@@ -147,7 +147,7 @@ pub(super) fn perform(task: Task, host: &mut Host) -> Vec<u8> {
                 values: Vec::with_capacity(n),
             };
             kept.each_interior(index, |i, j, value| {
-                // The lower triangle.
+                // MUMPS gets the lower triangle.
                 entries.rows.push(variable[j]);
                 entries.columns.push(variable[i]);
                 entries.values.push(value);
@@ -188,12 +188,12 @@ fn evaluated(evaluate: Option<Evaluate>, bytes: &[u8]) -> std::result::Result<Ve
 }
 
 fn answer<T: Serialize>(value: &T) -> Vec<u8> {
-    // Vectors and numbers: nothing that cannot be written.
+    // Vectors and numbers can always be serialised.
     postcard::to_stdvec(value).unwrap_or_default()
 }
 
-/// Bytes that its limits leave to this rank, and its machine to all, without the work buffer of the
-/// BLAS: MUMPS' calls would ask for that without end.
+/// Bytes that the limits of this process leave to this rank, and that its machine leaves to all
+/// ranks, without the work buffer of the BLAS: MUMPS' calls would request the buffer endlessly.
 fn left() -> [Option<f64>; 2] {
     let _entered = cholmod::enter_blas().ok();
     [memory::limits(), memory::of_machine()]
@@ -259,7 +259,7 @@ fn compute(factor: usize, entries: &mut RankEntries, host: &mut Host) -> Factore
     }
 }
 
-/// The name of this machine; empty where the system has none.
+/// Name of this machine; empty if the system has none.
 fn machine_name() -> String {
     let name = std::fs::read_to_string("/proc/sys/kernel/hostname");
     name.unwrap_or_default().trim().to_string()
@@ -279,7 +279,7 @@ impl KeptOnRank {
         made
     }
 
-    /// Visits the entries (row, column, value) of a matrix that have an interior end.
+    /// Calls `visit` with the entries (row, column, value) of a matrix that have an interior end.
     fn each_interior(&self, index: usize, mut visit: impl FnMut(usize, usize, f64)) {
         let parts = (self.matrices.get(&index), self.trailing.get(&index));
         let (Some(columns), Some(trailing)) = parts else {

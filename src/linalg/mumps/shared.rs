@@ -1,4 +1,4 @@
-//! A symmetric matrix of which each rank has some columns, as the first rank sees it.
+//! A symmetric matrix distributed over the ranks by columns, with the view of the first rank.
 
 use super::rank::{Assemble, Columns, Evaluate, Host};
 use super::task::{MadeOnRank, Near, Product, Task};
@@ -11,17 +11,17 @@ use serde::de::DeserializeOwned;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A part of a matrix: its freedoms, ascending, as the whole numbers them, and what the rank makes
-/// its columns of ([`Assemble`]).
+/// Part of a matrix for one rank: its freedoms, ascending, in the numbering of the whole, and the
+/// message from which the rank makes its columns ([`Assemble`]).
 #[derive(Default)]
 pub struct Part {
-    /// One for each freedom of the part.
+    /// Number in the whole matrix of each freedom of the part.
     pub numbers: Vec<u32>,
-    /// Message to the rank of the part.
+    /// Message for the rank that holds the part.
     pub message: Vec<u8>,
 }
 
-/// A symmetric matrix on all ranks; they forget it with the last copy of this.
+/// A symmetric matrix on all ranks, which drop it with the last copy of this handle.
 #[derive(Debug, Clone)]
 pub struct Shared(Arc<Inner>);
 
@@ -29,21 +29,21 @@ pub struct Shared(Arc<Inner>);
 struct Inner {
     world: World,
     index: usize,
-    /// What was asked before.
+    /// Traffic between the ranks before this matrix.
     before: Traffic,
     /// Number of entries of each part.
     n_entries: Vec<usize>,
-    /// The freedoms of each part.
+    /// Freedoms of each part, in the numbering of the whole.
     numbers: Vec<Vec<u32>>,
     diagonal: Vec<f64>,
-    /// Whether each freedom couples to the same freedoms as the one before it, and to that one.
+    /// Whether each freedom couples to the previous one and to the same freedoms as it does.
     continued: Vec<bool>,
 }
 
 static NEXT: AtomicUsize = AtomicUsize::new(0);
 
 impl Shared {
-    /// A matrix of `n` freedoms: `part` gives that of each rank.
+    /// Distributes a matrix of `n` freedoms; `part` returns the part of each rank.
     ///
     /// # Errors
     /// Errors of the ranks.
@@ -110,10 +110,10 @@ impl Shared {
         }
     }
 
-    /// A matrix all of which the first rank has.
+    /// Wraps a matrix that the first rank holds as a whole.
     ///
     /// # Errors
-    /// `Analysis` where MPI does not start.
+    /// `Analysis` if MPI does not start.
     pub fn here(matrix: &SymmetricCsc) -> Result<Self> {
         let n = matrix.cols();
         let parts = (matrix.proper_indptr(), matrix.indices(), matrix.data());
@@ -149,18 +149,18 @@ impl Shared {
         self.0.n_entries.iter().sum()
     }
 
-    /// Entries that each rank has.
+    /// Number of entries that each rank holds.
     pub(super) fn entries_by_rank(&self) -> &[usize] {
         &self.0.n_entries
     }
 
-    /// Bytes of the columns that each rank has.
+    /// Bytes of the columns that each rank holds.
     pub(super) fn bytes(&self) -> Vec<f64> {
         let bytes = |n: &usize| (size_of::<f64>() + size_of::<i64>()) as f64 * *n as f64;
         self.0.n_entries.iter().map(bytes).collect()
     }
 
-    /// What the ranks did so far; `None` where they cannot be asked.
+    /// Work of the ranks so far; `None` if they cannot be asked.
     pub(in crate::linalg) fn ranks(&self) -> Option<Ranks> {
         let world = self.0.world;
         let traffic = world.traffic();
@@ -178,7 +178,8 @@ impl Shared {
         self.0.world.size
     }
 
-    /// Asks each rank what `evaluate` answers to its message, on others that of [`World::serve`].
+    /// Asks each rank for the answer of `evaluate` to its message; other ranks use that of
+    /// [`World::serve`].
     ///
     /// # Errors
     /// Errors of the ranks.
@@ -204,12 +205,12 @@ impl Shared {
         &self.0.diagonal
     }
 
-    /// Whether a freedom couples to the same freedoms as the one before it, and to that one.
+    /// Whether a freedom couples to the previous one and to the same freedoms as it does.
     pub(super) fn is_continued(&self, freedom: usize) -> bool {
         self.0.continued[freedom]
     }
 
-    /// What one pass over the matrix states about a solution `u` for the load `f`.
+    /// Row sums from one pass over the matrix, for a solution `u` with the load `f`.
     pub(in crate::linalg) fn rows(&self, f: &[f64], u: &[f64]) -> Result<Rows> {
         let task = |rank| Task::Product(self.index(), self.own(rank, |freedom| u[freedom]));
         let products: Vec<Option<Product>> = self.ask(task, &mut Host::default())?;
@@ -230,7 +231,8 @@ impl Shared {
         Ok(rows)
     }
 
-    /// Entries with an end among the trailing freedoms, and which of these the interior touches.
+    /// Entries with an end among the trailing freedoms, and for each freedom whether the interior
+    /// touches it.
     pub(super) fn near(&self, trailing: &[bool]) -> Result<(Vec<Entry>, Vec<bool>)> {
         let task = |rank| Task::Near(self.index(), self.own(rank, |freedom| trailing[freedom]));
         let parts: Vec<Option<Near>> = self.ask(task, &mut Host::default())?;
@@ -248,26 +250,26 @@ impl Shared {
         Ok((entries, touched))
     }
 
-    /// The graph of the interior and what it touches: pairs of vertices, given the vertex of each
-    /// freedom (-1 for none). The trailing freedoms are those of [`Shared::near`].
+    /// Graph of the interior and the freedoms that it touches, as pairs of vertices, given the
+    /// vertex of each freedom (-1 for none). The trailing freedoms are those of [`Shared::near`].
     pub(super) fn graph(&self, vertex: &[i32]) -> Result<Vec<[i32; 2]>> {
         let task = |rank| Task::Graph(self.index(), self.own(rank, |freedom| vertex[freedom]));
         let parts: Vec<Vec<[i32; 2]>> = self.ask(task, &mut Host::default())?;
         Ok(parts.concat())
     }
 
-    /// The values of a rank's own freedoms, in its numbers.
+    /// Values of a rank's own freedoms, in the rank's numbering.
     pub(super) fn own<V>(&self, rank: usize, of: impl Fn(usize) -> V) -> Vec<V> {
         let numbers = self.0.numbers[rank].iter();
         numbers.map(|&freedom| of(freedom as usize)).collect()
     }
 
-    /// The number by which the ranks know it.
+    /// Number by which the ranks identify the matrix.
     pub(super) fn index(&self) -> usize {
         self.0.index
     }
 
-    /// Asks each rank, by its number; `host` is what the first one adds.
+    /// Sends each rank a request, by rank number; `host` is added on the first rank.
     pub(super) fn ask<T: DeserializeOwned>(
         &self,
         task: impl FnMut(usize) -> Task,
@@ -284,7 +286,7 @@ fn forgotten() -> Error {
 impl Drop for Inner {
     fn drop(&mut self) {
         let task = |_| Task::ForgetMatrix(self.index);
-        // Ranks that are gone have forgotten it.
+        // Ranks that have ended no longer hold the matrix.
         let _: Result<Vec<()>> = self.world.ask(task, &mut Host::default());
     }
 }

@@ -1,50 +1,51 @@
-//! What the first rank asks, and what each rank answers. Freedoms have the numbers of a rank's own
+//! Requests of the first rank and answers of each rank. Freedoms have the numbers of the rank's own
 //! part of the matrix.
 
 use serde::{Deserialize, Serialize};
 
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) enum Task {
-    /// Assembles and keeps columns of a matrix, by its number; without bytes it has none.
-    /// [`Result<MadeOnRank, String>`].
+    /// Assembles and keeps the columns of a matrix with a number; empty bytes mean no columns.
+    /// Answer: [`Result<MadeOnRank, String>`].
     Matrix(usize, Vec<u8>),
-    /// Forgets them. Nothing.
+    /// Drops the columns of a matrix. No answer.
     ForgetMatrix(usize),
-    /// Multiplies a vector. [`Product`].
+    /// Multiplies a matrix by a vector. Answer: [`Product`].
     Product(usize, Vec<f64>),
-    /// Entries in rows or columns of the trailing freedoms marked, which are remembered. [`Near`].
+    /// Finds entries in rows or columns of the marked trailing freedoms, and keeps the marks.
+    /// Answer: [`Near`].
     Near(usize, Vec<bool>),
-    /// Entries of the graph of the interior and what it touches: the vertex of each freedom, -1 for
-    /// none. Pairs of vertices.
+    /// Finds the graph of the interior and the freedoms that it touches, given the vertex of each
+    /// freedom, or -1. Answer: pairs of vertices.
     Graph(usize, Vec<i32>),
-    /// Sets up a factor of the interior: its number, that of the matrix, the variable of each
-    /// freedom, from 1. [`Analysed`].
+    /// Sets up a factor of the interior, given its number, the number of the matrix, and the
+    /// variable of each freedom, from 1. Answer: [`Analysed`].
     Analyse(usize, usize, Vec<i32>),
-    /// Computes it. [`Factored`].
+    /// Computes the factor with a number. Answer: [`Factored`].
     Factor(usize),
-    /// Solves with it. INFOG(1) and INFOG(2).
+    /// Solves with the factor with a number. Answer: INFOG(1) and INFOG(2).
     Solve(usize),
-    /// Forgets it. Nothing.
+    /// Drops the factor with a number. No answer.
     ForgetFactor(usize),
-    /// How much memory a rank has taken. Bytes.
+    /// Measures the memory that a rank has taken. Answer: bytes.
     Memory,
-    /// What the program asks. [`Result<Vec<u8>, String>`].
+    /// Answers a message of the program. Answer: [`Result<Vec<u8>, String>`].
     Evaluate(Vec<u8>),
 }
 
-/// Columns that a rank has.
+/// Columns of a matrix that a rank holds.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct MadeOnRank {
-    /// Diagonal entries, 0 where another rank has the column.
+    /// Diagonal entries; 0 if another rank holds the column.
     pub(super) diagonal: Vec<f64>,
-    /// Whether each freedom couples to the same freedoms as the one before it, and to that one.
+    /// Whether each freedom couples to the previous one and to the same freedoms as it does.
     pub(super) continued: Vec<bool>,
     pub(super) n_entries: usize,
-    /// Whether an entry is not a number.
+    /// Whether any entry is NaN or infinite.
     pub(super) is_damaged: bool,
 }
 
-/// Sums over the entries that a rank has.
+/// Sums over the entries that a rank holds.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Product {
     /// Products `K u` of the rows.
@@ -64,31 +65,31 @@ pub(super) struct Near {
     pub(super) values: Vec<f64>,
 }
 
-/// What MUMPS says after the analysis.
+/// Results of MUMPS' analysis on a rank.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Analysed {
     /// INFOG(1) and INFOG(2).
     pub(super) state: [i32; 2],
     /// State of this rank, INFO(1).
     pub(super) own_state: i32,
-    /// Ordering that was taken, INFOG(7).
+    /// Ordering that MUMPS used, INFOG(7).
     pub(super) order: i32,
-    /// Bytes that the factorisation will take on this rank: its factor and what is held at the same
-    /// time.
+    /// Bytes that the factorisation will take on this rank: the factor and the data held at the
+    /// same time.
     pub(super) needed: f64,
-    /// Bytes that the limits of this rank leave, before it had its entries.
+    /// Bytes that the limits of this rank leave, measured before it had its entries.
     pub(super) left_by_limits: Option<f64>,
-    /// Bytes that its machine leaves to all processes.
+    /// Bytes that the rank's machine leaves to all processes.
     pub(super) left_by_machine: Option<f64>,
     /// Name of the rank's machine.
     pub(super) machine: String,
-    /// Operations, of all ranks together.
+    /// Floating point operations of all ranks together.
     pub(super) flops: f64,
-    /// Entries of the factor, of all ranks together.
+    /// Number of entries of the factor on all ranks together.
     pub(super) nonzeros: f64,
 }
 
-/// What MUMPS says after the factorisation.
+/// Results of MUMPS' factorisation on a rank.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Factored {
     /// INFOG(1) and INFOG(2).

@@ -1,10 +1,10 @@
-//! What only the MUMPS backend must do; the rest stands in `linalg::sparse::tests`.
+//! Tests of the MUMPS backend alone; the common tests are in `linalg::sparse::tests`.
 
 use super::*;
 use crate::linalg::sparse::tests::Way;
 use crate::linalg::tests::{laplacian, one_at_a_time};
 
-/// MUMPS on one rank.
+/// The MUMPS backend on one rank.
 pub(in crate::linalg) fn ways() -> Vec<Way> {
     let way = Way {
         name: "mumps",
@@ -14,7 +14,7 @@ pub(in crate::linalg) fn ways() -> Vec<Way> {
     Vec::from_iter(one_at_a_time().then_some(way))
 }
 
-/// Two bodies that nothing joins: one held and in contact, one with `ground` at its freedoms.
+/// Two unconnected bodies: one held and in contact, one with `ground` at its freedoms.
 fn beside_another(n: usize, ground: f64, seed: u64) -> (SymmetricCsc, Partition) {
     let [held, other] = [laplacian(8, 2, 1.0, 7), laplacian(n, 3, ground, seed)];
     let mut both = sprs::TriMatI::<f64, i64>::new((8 + n, 8 + n));
@@ -31,7 +31,7 @@ fn beside_another(n: usize, ground: f64, seed: u64) -> (SymmetricCsc, Partition)
     (both.to_csc(), partition)
 }
 
-/// MUMPS itself says nothing of either.
+/// MUMPS itself reports neither case.
 #[test]
 fn an_interior_that_nothing_holds_is_refused_and_a_negative_one_too() {
     if !one_at_a_time() {
@@ -52,7 +52,7 @@ fn an_interior_that_nothing_holds_is_refused_and_a_negative_one_too() {
     }
 }
 
-/// A value that is not a number is told as such.
+/// A value that is NaN is reported as such.
 #[test]
 fn a_shared_matrix_with_a_damaged_entry_is_refused() {
     let mut matrix = laplacian(6, 2, 1.0, 3);

@@ -1,4 +1,4 @@
-//! The ranks, and what the first one asks of all.
+//! The MPI ranks, and requests of the first rank to all.
 
 use super::rank::{self, Assemble, Evaluate, Host};
 use super::task::Task;
@@ -9,7 +9,7 @@ use std::ffi::{c_char, c_int};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-// Of shim.c.
+// Functions defined in shim.c.
 unsafe extern "C" {
     fn brinell_mpi_begin(rank: *mut c_int, size: *mut c_int) -> c_int;
     fn brinell_mpi_end();
@@ -18,30 +18,30 @@ unsafe extern "C" {
     fn brinell_mpi_receive(from: c_int, bytes: *mut c_char, length: i64);
 }
 
-/// This process among the ranks.
+/// Place of this process among the ranks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct World {
-    /// Number of this rank, from 0.
+    /// Number of this rank, counted from 0.
     pub rank: usize,
     /// Number of ranks.
     pub size: usize,
 }
 
-/// What the first rank has asked of the others so far.
+/// Requests of the first rank to the others so far.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Traffic {
-    /// Times that all were asked.
+    /// Number of requests to all ranks.
     pub requests: u64,
-    /// Bytes to them and from them, without what MUMPS itself sends.
+    /// Bytes sent to the ranks and received from them, without the traffic of MUMPS itself.
     pub bytes: u64,
 }
 
 static REQUESTS: AtomicU64 = AtomicU64::new(0);
 static BYTES: AtomicU64 = AtomicU64::new(0);
-/// Whether the others were let go.
+/// Whether the other ranks were released.
 static ALONE: AtomicBool = AtomicBool::new(false);
 
-/// One call at a time: MPI was begun for threads that take turns.
+/// Lock for one call at a time: MPI was started for threads that take turns.
 static CALLS: Mutex<()> = Mutex::new(());
 
 fn calls() -> MutexGuard<'static, ()> {
@@ -49,10 +49,10 @@ fn calls() -> MutexGuard<'static, ()> {
 }
 
 impl World {
-    /// Joins the ranks that the process was started with, once; it is alone without `mpirun`.
+    /// Joins the ranks with which the process was started, once; without `mpirun` it is alone.
     ///
     /// # Errors
-    /// `Analysis` where MPI does not start.
+    /// `Analysis` if MPI does not start.
     pub fn join() -> Result<World> {
         static WORLD: OnceLock<Option<World>> = OnceLock::new();
         let world = WORLD.get_or_init(|| {
@@ -69,10 +69,10 @@ impl World {
         world.ok_or_else(|| Error::analysis("MPI does not start: see what it printed"))
     }
 
-    /// Checks, on the first rank, that all others run the same version of the program.
+    /// Checks, on the first rank, that all other ranks run the same version of the program.
     ///
     /// # Errors
-    /// `Input` naming the rank that does not; the others are let go.
+    /// `Input` naming the rank with another version; the other ranks are released.
     pub fn meet(self) -> Result<()> {
         let versions: Vec<String> = {
             let _turn = calls();
@@ -83,14 +83,15 @@ impl World {
         same_version(rank::VERSION, &versions).inspect_err(|_| self.let_go())
     }
 
-    /// Serves, on a rank beyond the first: takes part in what the first one computes, until that
-    /// ends.
+    /// Serves on a rank other than the first: takes part in the computations of the first rank
+    /// until that ends.
     pub fn serve(self, assemble: Assemble, evaluate: Evaluate) {
         let _turn = calls();
         send(0, rank::VERSION.as_bytes());
         loop {
             let bytes = receive(0);
-            // Nothing is the end, in all versions; what cannot be read is of another one.
+            // An empty message means the end in all versions; an unreadable one comes from another
+            // version.
             if bytes.is_empty() {
                 return;
             }
@@ -107,7 +108,7 @@ impl World {
         }
     }
 
-    /// Lets the other ranks go; called on the first.
+    /// Releases the other ranks; called on the first rank.
     pub fn let_go(self) {
         let _turn = calls();
         ALONE.store(true, Ordering::Relaxed);
@@ -116,14 +117,14 @@ impl World {
         }
     }
 
-    /// Ends the ranks' common work. No factor may be used afterwards.
+    /// Ends the common work of the ranks. No factor may be used afterwards.
     pub fn end(self) {
         let _turn = calls();
         // SAFETY: MPI was begun.
         unsafe { brinell_mpi_end() }
     }
 
-    /// What was asked of the other ranks so far.
+    /// Traffic with the other ranks so far.
     pub fn traffic(self) -> Traffic {
         Traffic {
             requests: REQUESTS.load(Ordering::Relaxed),
@@ -131,8 +132,8 @@ impl World {
         }
     }
 
-    /// Hands a task to each rank, this one last, and collects the answers by rank. `host` is what
-    /// the first rank adds.
+    /// Sends a request to each rank, this one last, and collects the answers by rank. `host` holds
+    /// what the first rank adds.
     pub(super) fn ask<T: DeserializeOwned>(
         self,
         mut task: impl FnMut(usize) -> Task,
@@ -184,7 +185,7 @@ fn receive(from: usize) -> Vec<u8> {
     bytes
 }
 
-/// Checks that ranks beyond the first have its version.
+/// Checks that all other ranks have the version of the first.
 fn same_version(own: &str, others: &[String]) -> Result<()> {
     match others.iter().enumerate().find(|(_, other)| *other != own) {
         Some((k, other)) => Err(Error::input(format!(

@@ -1,18 +1,18 @@
-//! The columns of a factor `L`, read where they are.
+//! Columns of a factor `L`, read where they are stored.
 
 use std::ops::Range;
 
-/// A column of `L`: its rows, the diagonal first, ascending, and their values.
+/// A column of `L`: its rows, ascending from the diagonal, and their values.
 pub(crate) struct Column<'a> {
     pub(crate) rows: &'a [i64],
     pub(crate) values: &'a [f64],
 }
 
-/// The columns of `L` in either of two storages.
+/// Columns of `L` in one of two storage schemes.
 pub(crate) enum Columns<'a> {
-    /// Dense trapezoids.
+    /// Dense trapezoids of neighbouring columns.
     Supernodal(Supernodes<'a>),
-    /// Compressed columns.
+    /// Compressed sparse columns.
     #[cfg_attr(not(feature = "cholmod"), allow(dead_code))]
     Simplicial {
         starts: &'a [i64],
@@ -22,16 +22,16 @@ pub(crate) enum Columns<'a> {
     },
 }
 
-/// Neighbouring columns that share their rows, as dense trapezoids in a rectangle: each column has
-/// as many values as the supernode has rows, those above the diagonal without meaning.
+/// Neighbouring columns with the same rows, as dense trapezoids within rectangles: each column has
+/// as many values as the supernode has rows; values above the diagonal have no meaning.
 pub(crate) struct Supernodes<'a> {
-    /// First column of each supernode, and the number of columns.
+    /// First column of each supernode, followed by the number of columns.
     pub(crate) starts: &'a [i64],
-    /// Start of the rows of each supernode, and the number of rows.
+    /// Start of the rows of each supernode, followed by the number of rows.
     pub(crate) row_starts: &'a [i64],
-    /// Start of the values of each supernode, and the number of values.
+    /// Start of the values of each supernode, followed by the number of values.
     pub(crate) value_starts: &'a [i64],
-    /// Rows of all supernodes: those of a supernode ascend and start with its own columns.
+    /// Rows of all supernodes; the rows of a supernode ascend and start with its own columns.
     pub(crate) rows: &'a [i64],
     /// Values of all supernodes.
     pub(crate) values: &'a [f64],
@@ -48,17 +48,17 @@ impl<'a> Supernodes<'a> {
         self.starts.last().map_or(0, |&n| n as usize)
     }
 
-    /// Columns of a supernode.
+    /// Range of the columns of a supernode.
     pub(crate) fn columns(&self, s: usize) -> Range<usize> {
         self.starts[s] as usize..self.starts[s + 1] as usize
     }
 
-    /// Rows of its first column.
+    /// Rows of the first column of a supernode.
     pub(crate) fn rows(&self, s: usize) -> &'a [i64] {
         &self.rows[self.row_starts[s] as usize..self.row_starts[s + 1] as usize]
     }
 
-    /// Values, column by column.
+    /// Values of a supernode, column by column.
     pub(crate) fn values(&self, s: usize) -> &'a [f64] {
         let start = self.value_starts[s] as usize;
         &self.values[start..start + self.rows(s).len() * self.columns(s).len()]
@@ -66,7 +66,7 @@ impl<'a> Supernodes<'a> {
 }
 
 impl<'a> Columns<'a> {
-    /// The diagonal of `L`.
+    /// Diagonal entries of `L`.
     pub(crate) fn pivots(&self) -> Vec<f64> {
         match self {
             Columns::Supernodal(supernodes) => (0..supernodes.len())
@@ -81,7 +81,7 @@ impl<'a> Columns<'a> {
         }
     }
 
-    /// Column `j`, wherever it lies in its supernode.
+    /// Finds column `j` within its supernode.
     pub(crate) fn get(&self, j: usize) -> Column<'a> {
         match self {
             Columns::Supernodal(supernodes) => {

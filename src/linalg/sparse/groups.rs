@@ -1,16 +1,16 @@
-//! The groups of an order `[ interior | zone | contact ]`.
+//! Groups of freedoms in an ordering `[ interior | zone | contact ]`.
 
 use super::Pattern;
 use crate::linalg::Partition;
 
-/// The group of each freedom: 0 interior, 1 zone, 2 contact.
+/// Group of each freedom: 0 interior, 1 zone, 2 contact.
 pub(crate) struct Groups {
     member: Vec<u8>,
     sizes: [usize; 3],
 }
 
 impl Groups {
-    /// The groups of a valid partition.
+    /// Makes the groups of a valid partition.
     pub(crate) fn new(partition: &Partition) -> Self {
         let mut member = vec![0; partition.n];
         for &freedom in &partition.zone {
@@ -22,7 +22,7 @@ impl Groups {
         Groups::from_members(member)
     }
 
-    /// The groups of freedoms, each given as the number of its group.
+    /// Makes the groups from the group number of each freedom.
     pub(crate) fn from_members(member: Vec<u8>) -> Self {
         let mut sizes = [0; 3];
         for &group in &member {
@@ -31,7 +31,7 @@ impl Groups {
         Groups { member, sizes }
     }
 
-    /// The freedoms of the zone that are coupled with the interior.
+    /// For each freedom, whether it is a zone freedom that is coupled with the interior.
     pub(crate) fn border(&self, pattern: &Pattern) -> Vec<bool> {
         let mut border = vec![false; pattern.n()];
         for j in 0..pattern.n() {
@@ -47,24 +47,24 @@ impl Groups {
         border
     }
 
-    /// The number of a freedom's group.
+    /// Number of a freedom's group.
     pub(crate) fn of(&self, freedom: usize) -> u8 {
         self.member[freedom]
     }
 
-    /// The number of every freedom's group.
+    /// Number of every freedom's group.
     #[cfg(feature = "cholmod")]
     pub(crate) fn members(&self) -> &[u8] {
         &self.member
     }
 
-    /// First column of each group, and the number of freedoms.
+    /// First column of each group, followed by the number of freedoms.
     pub(crate) fn starts(&self) -> [usize; 4] {
         let [interior, zone, contact] = self.sizes;
         [0, interior, interior + zone, interior + zone + contact]
     }
 
-    /// True where `permutation` lists the groups one after the other.
+    /// Whether `permutation` lists the groups one after the other.
     pub(crate) fn are_contiguous(&self, permutation: &[i64]) -> bool {
         let starts = self.starts();
         permutation.len() == starts[3]
@@ -75,7 +75,7 @@ impl Groups {
             })
     }
 
-    /// Stable sort of `permutation` by group.
+    /// Sorts `permutation` by group, keeping the sequence within each group.
     #[cfg(feature = "cholmod")]
     pub(crate) fn gather(&self, permutation: &[i64]) -> Vec<i64> {
         let mut next = self.starts();
@@ -89,11 +89,11 @@ impl Groups {
     }
 
     /// Postorders the elimination tree within each group, the child with the most nonzeros last, so
-    /// that columns of the same structure become neighbours and form supernodes. Fill is not
-    /// changed.
+    /// that columns of the same structure become neighbours and form supernodes. The fill does not
+    /// change.
     ///
-    /// A postorder of the whole tree would follow it across groups: a part of the interior that
-    /// hangs on a contact freedom alone would come after the zone.
+    /// A postorder of the whole tree would cross groups: a part of the interior that depends on a
+    /// contact freedom alone would come after the zone.
     pub(crate) fn postorder(
         &self,
         permutation: &[i64],
@@ -105,8 +105,8 @@ impl Groups {
         let starts = self.starts();
         let group_end =
             |column: usize| starts[usize::from(self.member[permutation[column] as usize]) + 1];
-        // Children are put in front of their siblings, so the list ends as the reverse of this one.
-        // The sort is stable: equals keep the order that the method gave them.
+        // Children are inserted before their siblings, so each list is finally the reverse of this
+        // one. The sort is stable: equal counts keep the sequence of the given ordering.
         let mut by_count: Vec<u32> = (0..n as u32).rev().collect();
         by_count.sort_by_key(|&column| std::cmp::Reverse(counts[column as usize]));
         let mut first_child = vec![NONE; n];

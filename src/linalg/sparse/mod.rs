@@ -1,4 +1,4 @@
-//! What the sparse backends share: the mathematics of a factor `P (K + D) P' = L L'` in the order
+//! Common part of the sparse backends: the use of a factor `P (K + D) P' = L L'` in the ordering
 //! `[ interior | zone | contact ]`, whichever library computed it.
 //!
 //! ```text
@@ -42,31 +42,31 @@ use crate::memory;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use trailing::{Changed, TrailingFactor};
 
-/// A factor `L` of a backend, analysed, and with values once it is computed.
+/// Factor `L` of a backend after the analysis; it has values once it is computed.
 pub(crate) trait LowerFactor: Send {
-    /// Freedom of each column.
+    /// Freedom of each column of `L`.
     fn permutation(&self) -> &[i64];
 
-    /// Nonzeros of each column, from the analysis.
+    /// Number of nonzeros of each column, from the analysis.
     fn column_counts(&self) -> &[i64];
 
-    /// Nonzeros of `L`, from the analysis.
+    /// Number of nonzeros of `L`, from the analysis.
     fn nonzeros(&self) -> f64;
 
     /// Floating point operations of the factorisation, from the analysis.
     fn flops(&self) -> f64;
 
-    /// Bytes of the numerical factor with what its computation needs in addition, copies of a
-    /// matrix with `entries` stored entries included.
+    /// Bytes of the numerical factor and of its computation, including copies of a matrix with
+    /// `entries` stored entries.
     fn bytes(&self, entries: usize) -> f64;
 
-    /// The columns of the numerical factor, to be read one by one.
+    /// Columns of the numerical factor, to be read one by one.
     fn columns(&self) -> Columns<'_>;
 
-    /// `L^-1 load` in the order of the factor; `load` is workspace afterwards.
+    /// Computes `L^-1 load` in the order of the factor; `load` serves as workspace.
     ///
     /// # Errors
-    /// `Analysis` where the memory does not suffice.
+    /// `Analysis` if the memory does not suffice.
     fn solve_lower<'a>(
         &'a mut self,
         triangular: &Triangular,
@@ -74,11 +74,11 @@ pub(crate) trait LowerFactor: Send {
     ) -> Result<&'a [f64]>;
 }
 
-/// A matrix factored and condensed.
+/// A matrix factored by a sparse backend and condensed.
 pub(crate) struct SparseCondensed<F> {
-    /// What was factored.
+    /// Partition with which the matrix was factored.
     partition: Partition,
-    /// The zone freedoms in use.
+    /// Zone freedoms that are chosen at present.
     zone: Vec<usize>,
     shift: Vec<f64>,
     pub(crate) trailing: TrailingFactor,
@@ -87,22 +87,22 @@ pub(crate) struct SparseCondensed<F> {
     weakest: Pivot,
 }
 
-/// The factor and the vectors of its solves.
+/// Factor with the vectors of its solves.
 pub(crate) struct Solver<F> {
     pub(crate) factor: F,
     pub(crate) triangular: Triangular,
-    /// In the order of the factor.
+    /// Load in the order of the factor.
     load: Vec<f64>,
     solution: Vec<f64>,
     known: Vec<bool>,
 }
 
 impl<F: LowerFactor> SparseCondensed<F> {
-    /// Condenses by the numerical factor of a matrix with this `diagonal`, shift included.
+    /// Condenses by the numerical factor of a matrix with this `diagonal`, including the shift.
     ///
     /// # Errors
-    /// [`NotDefinite`] where a pivot is no larger than round-off; `Analysis` where the memory does
-    /// not suffice.
+    /// [`NotDefinite`] if a pivot is no larger than round-off; `Analysis` if the memory does not
+    /// suffice.
     pub(crate) fn new(
         factor: F,
         diagonal: &[f64],
@@ -135,7 +135,7 @@ impl<F: LowerFactor> SparseCondensed<F> {
         })
     }
 
-    /// Number of interior freedoms as factored.
+    /// Number of interior freedoms at the factorisation.
     fn interior(&self) -> usize {
         self.partition.n - self.partition.zone.len() - self.partition.contact.len()
     }
@@ -250,7 +250,7 @@ impl<F: LowerFactor> Condensed for SparseCondensed<F> {
     }
 }
 
-/// The diagonal of `matrix + diag(shift)`.
+/// Diagonal of `matrix + diag(shift)`.
 pub(crate) fn shifted_diagonal(
     matrix: &SymmetricCsc,
     partition: &Partition,
@@ -265,21 +265,21 @@ pub(crate) fn shifted_diagonal(
     diagonal
 }
 
-/// Refuses a factorisation that does not fit, before it is tried.
+/// Refuses a factorisation that does not fit into memory before it starts.
 ///
 /// # Errors
-/// `Analysis` with both numbers.
+/// `Analysis` with the memory needed and the memory left.
 pub(crate) fn require_memory(cost: &Prediction, matrix: &SymmetricCsc) -> Result<()> {
-    // The matrix itself is there already.
+    // The matrix itself is in memory already.
     let needed = cost.memory_bytes - 16.0 * matrix.nnz() as f64;
     let what = format!("factorisation of {} freedoms", matrix.rows());
     memory::require(&what, needed)
 }
 
-/// Checks that an order keeps the groups apart, as everything here relies on.
+/// Checks that an ordering keeps the groups apart, on which all sparse backends rely.
 ///
 /// # Errors
-/// `Internal` where it does not.
+/// `Internal` if the groups are mixed.
 pub(crate) fn require_groups(groups: &Groups, permutation: &[i64], name: &str) -> Result<()> {
     if groups.are_contiguous(permutation) {
         return Ok(());
@@ -289,7 +289,7 @@ pub(crate) fn require_groups(groups: &Groups, permutation: &[i64], name: &str) -
     )))
 }
 
-/// The figures of an analysed factor.
+/// Predicted cost of an analysed factor.
 pub(crate) fn prediction(
     factor: &dyn LowerFactor,
     name: &'static str,
@@ -299,8 +299,8 @@ pub(crate) fn prediction(
     let [_, first_trailing, first_contact, n] = groups.starts();
     let trailing: i64 = factor.column_counts()[first_trailing..].iter().sum();
     let entries = matrix.nnz();
-    // Contact columns of a body are coupled with one another, all of them, and with no others: half
-    // of each block.
+    // Contact columns of a body are all coupled with one another, and with no others: half of each
+    // block.
     let of_contact: i64 = factor.column_counts()[first_contact..].iter().sum();
     let blocks = 2.0 * of_contact as f64 - (n - first_contact) as f64;
     Prediction {
@@ -308,9 +308,9 @@ pub(crate) fn prediction(
         factor_nonzeros: factor.nonzeros(),
         flops: factor.flops(),
         trailing_nonzeros: trailing as f64,
-        // The matrix as given (16 bytes an entry) and the factor with its own needs. Trailing copy,
-        // condensed stiffness and vectors come later and are smaller than what is freed by then or
-        // added here.
+        // The matrix as given (16 bytes an entry) and the factor with its workspace. Trailing copy,
+        // condensed stiffness and vectors come later and are either smaller than what is freed by
+        // then or added here.
         memory_bytes: 16.0 * entries as f64
             + factor.bytes(entries)
             + 8.0 * trailing as f64
@@ -320,7 +320,7 @@ pub(crate) fn prediction(
     }
 }
 
-/// The smallest `l_jj^2 / a_jj`, the first of equals in the order of elimination.
+/// Pivot with the smallest `l_jj^2 / a_jj`; of equal ones the first in the elimination.
 fn weakest_pivot(factor: &dyn LowerFactor, diagonal: &[f64]) -> Pivot {
     let mut weakest = Pivot {
         freedom: 0,

@@ -1,17 +1,17 @@
-//! Large pages for the numerical factor: its first touch costs a fault for every 2 MB, not for
-//! every 4 KB.
+//! Large pages for the numerical factor: its first touch then costs a page fault for every 2 MB,
+//! not for every 4 KB.
 //!
-//! On a virtual machine a fault may take 15 microseconds: more than half the time of a
+//! On a virtual machine a page fault may take 15 microseconds: more than half the time of a
 //! factorisation of a plane model.
 
 use std::ffi::c_void;
 
-/// Size to which the system's advice is aligned: no page is smaller, and a piece left out at an end
+/// Alignment of the advice to the system. No large page is smaller, and a piece left out at an end
 /// costs nothing.
 const ALIGNMENT: usize = 1 << 21;
 
-/// Asks for large pages behind `bytes` of memory that was allocated and not touched yet. Advice
-/// only: a system that has none goes on without.
+/// Asks for large pages for `bytes` of memory that was allocated but not touched yet. This is
+/// advice only: a system without large pages goes on without them.
 #[cfg(target_os = "linux")]
 pub(crate) fn prefer_large(start: *mut c_void, bytes: usize) {
     let skipped = start.align_offset(ALIGNMENT);
@@ -23,6 +23,6 @@ pub(crate) fn prefer_large(start: *mut c_void, bytes: usize) {
     }
 }
 
-/// Asks for nothing where such advice is unknown.
+/// Does nothing on systems without such advice.
 #[cfg(not(target_os = "linux"))]
 pub(crate) fn prefer_large(_: *mut c_void, _: usize) {}

@@ -9,28 +9,28 @@
 //! | [`subtract_transposed`] | `x -= A' y` |
 //!
 //! Both parts are cut into strips of [`STRIP`] columns. A strip of the rectangle is stored in tiles
-//! of [`TILE`] rows, column by column within a tile; one of the triangle is a packed triangle of
-//! its own, then the tiles below it. So four columns share the loads and stores of the long vector,
-//! only every fourth column waits for those before it, and the memory is read in one stream in
-//! either direction of the solve.
+//! of [`TILE`] rows, column by column within a tile. A strip of the triangle is a packed triangle
+//! of its own, followed by the tiles below it. Thus four columns share the loads and stores of the
+//! long vector, only every fourth column waits for those before it, and the memory is read in one
+//! stream in either direction of the solve.
 
 use std::ops::Range;
 
-/// Columns of a strip; the last of a panel may have fewer.
+/// Number of columns of a strip; the last strip of a panel may have fewer.
 const STRIP: usize = 4;
 
-/// Rows of a tile, a cache line; the last of a strip may have fewer.
+/// Number of rows of a tile, a cache line; the last tile of a strip may have fewer.
 const TILE: usize = 8;
 
-/// Partial sums of one dot product.
+/// Number of partial sums of one dot product.
 const LANES: usize = 4;
 
-/// The strips of `width` columns.
+/// Splits `width` columns into strips.
 fn strips(width: usize) -> impl DoubleEndedIterator<Item = Range<usize>> {
     (0..width.div_ceil(STRIP)).map(move |k| STRIP * k..(STRIP * (k + 1)).min(width))
 }
 
-/// Values of a triangle of `width` columns.
+/// Number of values of a triangle of `width` columns.
 pub(crate) fn triangle_len(width: usize) -> usize {
     width * (width + 1) / 2
 }
@@ -54,7 +54,7 @@ pub(crate) fn store_triangle<'a>(
     }
 }
 
-/// Appends the rectangle of `width` columns of `rows` rows to `out`.
+/// Appends the rectangle of `width` columns with `rows` rows to `out`.
 pub(crate) fn store_rectangle<'a>(
     rows: usize,
     width: usize,
@@ -83,7 +83,7 @@ fn store_strip<'a>(
     }
 }
 
-/// Reads the lower triangle of `width` columns: `put(row, column, value)`.
+/// Reads the lower triangle of `width` columns and calls `put(row, column, value)`.
 pub(crate) fn read_triangle(
     width: usize,
     triangle: &[f64],
@@ -100,7 +100,7 @@ pub(crate) fn read_triangle(
     }
 }
 
-/// Reads the rectangle of `width` columns of `rows` rows.
+/// Reads the rectangle of `width` columns with `rows` rows and calls `put(row, column, value)`.
 pub(crate) fn read_rectangle(
     rows: usize,
     width: usize,
@@ -128,7 +128,7 @@ fn read_strip(
     }
 }
 
-/// `y += A x` for one strip.
+/// Adds `y += A x` for one strip of `A`.
 #[inline(always)]
 fn add_strip(strip: &[f64], x: &[f64], y: &mut [f64]) {
     let whole = y.len() - y.len() % TILE;
@@ -167,7 +167,7 @@ fn add_strip(strip: &[f64], x: &[f64], y: &mut [f64]) {
     }
 }
 
-/// `x -= A' y` for one strip.
+/// Subtracts `x -= A' y` for one strip of `A`.
 #[inline(always)]
 fn subtract_strip_transposed(strip: &[f64], y: &[f64], x: &mut [f64]) {
     let whole = y.len() - y.len() % TILE;
@@ -175,8 +175,7 @@ fn subtract_strip_transposed(strip: &[f64], y: &[f64], x: &mut [f64]) {
     let (strip, end) = strip.split_at(x.len() * whole);
     let mut sums = [[0.0; LANES]; STRIP];
     if x.len() == STRIP {
-        // From the bottom up: in the triangle of a panel the values at the top are the last to be
-        // known.
+        // From the bottom up: in the triangle of a panel the values at the top become known last.
         for (tile, y) in strip
             .chunks_exact(STRIP * TILE)
             .zip(y.chunks_exact(TILE))
@@ -206,13 +205,13 @@ fn subtract_strip_transposed(strip: &[f64], y: &[f64], x: &mut [f64]) {
     }
 }
 
-/// `x = L^-1 x` for the packed triangle of one strip.
+/// Solves `x = L^-1 x` for the packed triangle of one strip.
 #[inline(always)]
 fn solve_corner(corner: &[f64], x: &mut [f64]) {
     if let (&mut [x0, x1, x2, x3], &[l00, l10, l20, l30, l11, l21, l31, l22, l32, l33]) =
         (&mut *x, corner)
     {
-        // The reciprocals do not wait for x.
+        // The reciprocals do not depend on x.
         let [r0, r1, r2, r3] = [1.0 / l00, 1.0 / l11, 1.0 / l22, 1.0 / l33];
         let x0 = x0 * r0;
         let x1 = (x1 - l10 * x0) * r1;
@@ -232,7 +231,7 @@ fn solve_corner(corner: &[f64], x: &mut [f64]) {
     }
 }
 
-/// `x = L^-T x` for the packed triangle of one strip.
+/// Solves `x = L^-T x` for the packed triangle of one strip.
 #[inline(always)]
 fn solve_corner_transposed(corner: &[f64], x: &mut [f64]) {
     if let (&mut [x0, x1, x2, x3], &[l00, l10, l20, l30, l11, l21, l31, l22, l32, l33]) =
@@ -320,7 +319,7 @@ fn multiply_by_strips(rectangle: &[f64], x: &[f64], y: &mut [f64]) {
 
 #[inline(always)]
 fn subtract_transposed_by_strips(rectangle: &[f64], y: &[f64], x: &mut [f64]) {
-    // From the last strip to the first, the way that a backward substitution goes through the
+    // From the last strip to the first, in the direction in which a backward substitution reads the
     // memory.
     let mut rest = rectangle;
     for strip in strips(x.len()).rev() {
@@ -331,9 +330,9 @@ fn subtract_transposed_by_strips(rectangle: &[f64], y: &[f64], x: &mut [f64]) {
     }
 }
 
-/// Compiles a kernel twice, for any processor and for one with wider vectors, and picks at run
-/// time. The second has the same operations in the same order (no fused ones), so both give the
-/// same bits.
+/// Compiles a kernel twice, for any processor and for one with wider vectors, and chooses at run
+/// time. The second version has the same operations in the same order (no fused ones), so both give
+/// the same bits.
 macro_rules! for_this_processor {
     ($(#[$doc:meta])* $name:ident, $wide:ident, $kernel:ident, ($($arg:ident: $type:ty),*)) => {
         $(#[$doc])*
@@ -363,11 +362,11 @@ for_this_processor!(
     solve_upper, solve_upper_avx2, solve_upper_by_strips, (triangle: &[f64], x: &mut [f64])
 );
 for_this_processor!(
-    /// `y = A x` with `A` of `y.len() x x.len()`.
+    /// Multiplies `y = A x` with `A` of size `y.len() x x.len()`.
     multiply, multiply_avx2, multiply_by_strips, (rectangle: &[f64], x: &[f64], y: &mut [f64])
 );
 for_this_processor!(
-    /// `x -= A' y` with `A` of `y.len() x x.len()`.
+    /// Subtracts `x -= A' y` with `A` of size `y.len() x x.len()`.
     subtract_transposed,
     subtract_transposed_avx2,
     subtract_transposed_by_strips,

@@ -1,4 +1,4 @@
-//! The pattern of a symmetric matrix that lives elsewhere.
+//! Pattern of a symmetric matrix, borrowed from the matrix.
 
 use crate::linalg::SymmetricCsc;
 use std::borrow::Cow;
@@ -10,7 +10,7 @@ pub(crate) struct Pattern<'a> {
 }
 
 impl<'a> Pattern<'a> {
-    /// The pattern of `matrix`.
+    /// Borrows the pattern of `matrix`.
     pub(crate) fn new(matrix: &'a SymmetricCsc) -> Self {
         Pattern {
             columns: matrix.proper_indptr(),
@@ -18,7 +18,7 @@ impl<'a> Pattern<'a> {
         }
     }
 
-    /// A pattern by its column pointers (`n + 1`) and its row indices, ascending in each column.
+    /// Makes a pattern from column pointers (`n + 1`) and row indices, ascending in each column.
     pub(crate) fn from_parts(columns: &'a [i64], rows: &'a [i64]) -> Self {
         Pattern {
             columns: Cow::Borrowed(columns),
@@ -42,13 +42,13 @@ impl<'a> Pattern<'a> {
         self.rows
     }
 
-    /// The stored rows of a column, ascending to the diagonal.
+    /// Stored rows of a column, ascending to the diagonal.
     pub(crate) fn column(&self, j: usize) -> &'a [i64] {
         &self.rows[self.columns[j] as usize..self.columns[j + 1] as usize]
     }
 
-    /// The block of the rows and columns that `is_in` holds: the number of each column in it (-1
-    /// where it is outside), its column pointers and its rows.
+    /// Extracts the block of the rows and columns for which `is_in` holds: the number of each
+    /// column in the block (-1 outside), the column pointers and the rows of the block.
     pub(crate) fn block(&self, is_in: impl Fn(usize) -> bool) -> (Vec<i64>, Vec<i64>, Vec<i64>) {
         let mut local = vec![-1i64; self.n()];
         let mut next = 0;

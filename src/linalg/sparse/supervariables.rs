@@ -1,6 +1,6 @@
 //! Supervariables: runs of freedoms that couple to the same freedoms, as those of a node do. An
-//! order finds them next to each other anyway; found at once, a plane mesh leaves half the vertices
-//! and a quarter of the entries to be ordered.
+//! ordering puts them next to each other anyway. If they are found first, a plane mesh has only
+//! half the vertices and a quarter of the entries to be ordered.
 //!
 //! # Source
 //! I. S. Duff, J. K. Reid, *The multifrontal solution of indefinite sparse symmetric linear
@@ -9,9 +9,9 @@
 
 use super::{Groups, Pattern};
 
-/// The pattern of a matrix with one row and column for each supervariable.
+/// Pattern of a matrix with one row and column for each supervariable.
 pub(crate) struct Supervariables {
-    /// First freedom of each, and the number of freedoms.
+    /// First freedom of each supervariable, followed by the number of freedoms.
     first: Vec<usize>,
     columns: Vec<i64>,
     rows: Vec<i64>,
@@ -19,13 +19,13 @@ pub(crate) struct Supervariables {
 }
 
 impl Supervariables {
-    /// The longest runs of consecutive freedoms of a group that have the same neighbours and each
-    /// other.
+    /// Finds the longest runs of consecutive freedoms of one group that are coupled with each other
+    /// and have the same neighbours.
     pub(crate) fn find(matrix: &Pattern, groups: &Groups) -> Self {
         let n = matrix.n();
         let goes_on = continued(matrix, groups);
         let mut first = Vec::with_capacity(n / 2 + 1);
-        // Number of the supervariable that a freedom opens.
+        // Number of the supervariable that a freedom starts.
         let mut number = vec![-1i64; n];
         for freedom in 0..n {
             if !goes_on[freedom] {
@@ -51,14 +51,14 @@ impl Supervariables {
         }
     }
 
-    /// Supervariables that are known: the first freedom of each and the number of freedoms, their
-    /// groups, and which couple, in any order.
+    /// Makes known supervariables, given the first freedom of each and the number of freedoms,
+    /// their groups, and the coupled ones, in any order.
     #[cfg(feature = "mumps")]
     pub(crate) fn known(first: Vec<usize>, member: Vec<u8>, coupled: &[[i32; 2]]) -> Self {
         let n = member.len();
         let upper = |&[a, b]: &[i32; 2]| (a.max(b) as usize, i64::from(a.min(b)));
         let mut columns = vec![0i64; n + 1];
-        // Each with itself too.
+        // Each supervariable is also coupled with itself.
         let itself = (0..n).map(|j| (j, j as i64));
         let all = || coupled.iter().map(upper).chain(itself.clone());
         all().for_each(|(column, _)| columns[column + 1] += 1);
@@ -96,14 +96,14 @@ impl Supervariables {
         }
     }
 
-    /// Number of freedoms for each supervariable, on average.
+    /// Mean number of freedoms of a supervariable.
     #[cfg(any(test, feature = "cholmod"))]
     pub(crate) fn size(&self) -> f64 {
         let n = self.first.last().copied().unwrap_or(0);
         n as f64 / (self.first.len() - 1).max(1) as f64
     }
 
-    /// Number of freedoms of each.
+    /// Number of freedoms of each supervariable.
     #[cfg(feature = "faer")]
     pub(crate) fn sizes(&self) -> Vec<i64> {
         let sizes = self.first.windows(2);
@@ -115,12 +115,12 @@ impl Supervariables {
         Pattern::from_parts(&self.columns, &self.rows)
     }
 
-    /// Groups of the freedoms.
+    /// Groups of the supervariables.
     pub(crate) fn groups(&self) -> &Groups {
         &self.groups
     }
 
-    /// The order of the freedoms in an order of the supervariables.
+    /// Ordering of the freedoms for an ordering of the supervariables.
     pub(crate) fn expand(&self, permutation: &[i64]) -> Vec<i64> {
         let freedoms = permutation.iter().flat_map(|&s| {
             let s = s as usize;
@@ -130,10 +130,11 @@ impl Supervariables {
     }
 }
 
-/// Whether each freedom has group and neighbours (each other among them) of the one before.
+/// For each freedom, whether it has the group and the neighbours of the one before, and is coupled
+/// with it.
 fn continued(matrix: &Pattern, groups: &Groups) -> Vec<bool> {
     let n = matrix.n();
-    // Above the diagonal: the column holds what the one before holds, and itself.
+    // Above the diagonal: the column holds the rows of the previous column, and the diagonal.
     let mut same: Vec<bool> = (0..n)
         .map(|j| {
             j > 0
@@ -142,7 +143,7 @@ fn continued(matrix: &Pattern, groups: &Groups) -> Vec<bool> {
                     == Some(matrix.column(j - 1))
         })
         .collect();
-    // Right of it: each column holds both or none.
+    // To the right of the diagonal: each column holds both freedoms or neither.
     for k in 0..n {
         let rows = matrix.column(k);
         let above = &rows[..rows.len().saturating_sub(1)];
@@ -164,7 +165,7 @@ mod tests {
     use super::*;
     use crate::linalg::Partition;
 
-    /// Upper triangle of the graph with these edges.
+    /// Upper triangle of the graph with the given edges.
     fn upper(n: usize, edges: &[(usize, usize)]) -> (Vec<i64>, Vec<i64>) {
         let (mut columns, mut rows) = (vec![0], Vec::new());
         for j in 0..n {
@@ -189,8 +190,8 @@ mod tests {
         }
     }
 
-    /// A chain of three nodes of two freedoms: three supervariables, of which the last falls apart
-    /// where one freedom is in contact.
+    /// A chain of three nodes with two freedoms each: three supervariables, the last of which
+    /// splits if one of its freedoms is in contact.
     #[test]
     fn the_freedoms_of_a_node_are_one_unless_their_groups_differ() {
         let mut edges = Vec::new();
@@ -215,8 +216,8 @@ mod tests {
         assert_eq!(split.rows, [0, 0, 1, 1, 2, 1, 2, 3]);
     }
 
-    /// Neighbours that differ above or right of the diagonal, or that do not touch each other, stay
-    /// apart.
+    /// Freedoms whose neighbours differ above or to the right of the diagonal, or that are not
+    /// coupled, stay separate.
     #[test]
     fn freedoms_with_other_neighbours_stay_apart() {
         type Case<'a> = (&'a [(usize, usize)], &'a [usize]);

@@ -1,4 +1,4 @@
-//! What every sparse backend must do, in any order and storage; the dense backend is the reference.
+//! Tests of every sparse backend, in any ordering and storage; the dense backend is the reference.
 
 mod bodies;
 mod changed;
@@ -12,22 +12,22 @@ use crate::linalg::tests::{
     partition, solved,
 };
 
-/// Ways in which the order is chosen by its cost, the storage too.
+/// Ways in which ordering and storage are chosen by cost, as in a run.
 fn chosen() -> impl Iterator<Item = Way> {
     ways().into_iter().filter(|way| way.is_chosen)
 }
 
 type Condense = fn(&SymmetricCsc, &Partition, &[f64]) -> Result<Box<dyn Condensed>>;
 
-/// A backend with an order and a storage.
+/// A backend with an ordering and a storage.
 pub(in crate::linalg) struct Way {
     pub(in crate::linalg) name: &'static str,
-    /// Whether this is what a run does.
+    /// Whether a run uses this way.
     pub(in crate::linalg) is_chosen: bool,
     pub(in crate::linalg) condense: Condense,
 }
 
-/// All ways of this build.
+/// All ways that this build contains.
 fn ways() -> Vec<Way> {
     let mut all = Vec::new();
     #[cfg(feature = "cholmod")]
@@ -39,7 +39,7 @@ fn ways() -> Vec<Way> {
     all
 }
 
-/// Every method of the trait against the dense backend, to round-off.
+/// Compares every method of the trait with the dense backend, to round-off.
 pub(in crate::linalg) fn assert_agrees(sample: &Sample, condensed: &dyn Condensed) {
     let Sample {
         matrix,
@@ -50,7 +50,7 @@ pub(in crate::linalg) fn assert_agrees(sample: &Sample, condensed: &dyn Condense
     let dense = DenseCondensed::new(matrix, partition, shift).unwrap();
     let tolerance = sample.tolerance();
     let c = condensed.contact_stiffness().dense();
-    // Errors in C + D, which is as large as K + D, stay when D is taken off.
+    // C + D is as large as K + D, so its errors stay in C when D is subtracted.
     let difference = (&c - dense.contact_stiffness().dense()).norm();
     assert!(difference <= tolerance * sample.largest);
     assert_eq!(c, c.transpose());
@@ -172,7 +172,7 @@ fn assert_trailing_is_full(
     }
     let at = |u: &[f64], list: &[usize]| list.iter().map(|&f| u[f]).collect::<Vec<_>>();
     let (mut zone, mut contact) = (at(&load, &partition.zone), at(&load, &partition.contact));
-    // A load on trailing freedoms alone is its own condensation.
+    // A load on trailing freedoms alone is its own condensed load.
     let (mut f_z, mut f_c) = (vec![0.0; zone.len()], vec![0.0; contact.len()]);
     let reduced = condensed.reduce_load(&load).unwrap();
     condensed
@@ -200,8 +200,8 @@ fn assert_trailing_is_full(
     assert!(found.backward_error <= 10.0 * f64::EPSILON);
 }
 
-/// 2-norm condition by a few steps of the power method on `K` and on its inverse: from below, by a
-/// factor that is near one after twenty steps for the well separated ends of such a spectrum.
+/// Estimates the 2-norm condition by a few steps of the power method on `K` and on its inverse. The
+/// estimate is a lower bound; twenty steps suffice for the well separated ends of such a spectrum.
 fn condition(condensed: &dyn Condensed, matrix: &SymmetricCsc, partition: &Partition) -> f64 {
     let n = matrix.rows();
     let (mut x, mut y) = (Numbers::new(9).vector(n), vec![0.0; n]);
@@ -227,7 +227,7 @@ fn condition(condensed: &dyn Condensed, matrix: &SymmetricCsc, partition: &Parti
 
 #[test]
 fn refinement_keeps_the_backward_error_at_round_off() {
-    // Stiff and soft layers: elements differ by 1e8 in stiffness.
+    // Stiff and soft layers: the stiffness of elements differs by a factor of 1e8.
     let grid = Grid::<2>::new([30, 30], Support::Bottom);
     let partition = Partition {
         n: grid.n,
@@ -240,7 +240,7 @@ fn refinement_keeps_the_backward_error_at_round_off() {
         let load = Numbers::new(4).vector(grid.n);
         let found = solved(&*condensed, &matrix, &partition, &load, &[]);
         assert!(found.backward_error <= 4.0 * f64::EPSILON);
-        // Nothing pushes, nothing moves.
+        // Without a load nothing moves.
         let found = solved(&*condensed, &matrix, &partition, &vec![0.0; grid.n], &[]);
         assert_eq!(norm(&found.u), 0.0);
         assert_eq!(found.backward_error, 0.0);
@@ -261,8 +261,8 @@ fn displacements_that_do_not_belong_to_the_load_show_in_the_backward_error() {
     }
 }
 
-/// The backward substitution cut into subtrees is that of the whole, with the same bits for any
-/// number of threads, whichever part of the zone is in use.
+/// The backward substitution by subtrees gives the result of the whole, with the same bits for any
+/// number of threads, whichever part of the zone is chosen.
 pub(in crate::linalg) fn assert_subtrees_are_solved_like_the_whole<F: LowerFactor>(
     condense: impl Fn(&SymmetricCsc, &Partition) -> SparseCondensed<F>,
 ) {
@@ -299,7 +299,7 @@ pub(in crate::linalg) fn assert_subtrees_are_solved_like_the_whole<F: LowerFacto
         assert!(distance(&u, &whole) <= tolerance * norm(&whole));
         assert_eq!(u, solve(3));
 
-        // The zone by its own substitution: the load condensed, eliminated, recovered.
+        // The zone is solved separately: the load is condensed, eliminated, recovered.
         assert!(condensed.trailing.n_subtrees() > 2);
         let trailing = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
@@ -315,7 +315,7 @@ pub(in crate::linalg) fn assert_subtrees_are_solved_like_the_whole<F: LowerFacto
         };
         let (z, c) = trailing(1);
         assert!(distance(&z, &u_z) <= tolerance * norm(&whole));
-        // C u_c is what is left on the contact freedoms.
+        // The remaining force on the contact freedoms is C u_c.
         let force =
             condensed.contact_stiffness().dense() * nalgebra::DVector::from_column_slice(&u_c);
         assert!(distance(force.as_slice(), &c) <= tolerance * norm(&load));
@@ -361,7 +361,7 @@ fn an_indefinite_pivot_is_named_by_every_way() {
     let contact = grid.freedoms(1..2, |[_, y]| y == 12);
     let stiffness = grid.stiffness(|_| 1.0);
     for freedom in [0, 77, contact[3], grid.n - 2] {
-        // A negative diagonal entry makes the pivot negative wherever it comes in the order.
+        // A negative diagonal entry makes the pivot negative wherever it is eliminated.
         let mut matrix = stiffness.clone();
         let diagonal = matrix.proper_indptr()[freedom + 1] as usize - 1;
         matrix.data_mut()[diagonal] = -1.0;
@@ -370,7 +370,7 @@ fn an_indefinite_pivot_is_named_by_every_way() {
             zone: (60..90).collect(),
             contact: contact.clone(),
         };
-        // MUMPS does not tell its pivots.
+        // MUMPS does not report its pivots.
         for Way { name, condense, .. } in ways().into_iter().filter(|w| w.name != "mumps") {
             let error = condense(&matrix, &partition, &[]).err().expect(name);
             let expected = format!("freedom {freedom}");
@@ -390,7 +390,7 @@ fn kernels_of_every_width_do_what_they_say() {
             assert_eq!(tiles.len(), width * m);
             let x = numbers.vector(width);
             let y = numbers.vector(m);
-            // Twice the number of terms in rounding errors: two orders of summation.
+            // Two orders of summation: twice the number of terms in rounding errors.
             let tolerance = |terms: usize| 2.0 * terms as f64 * f64::EPSILON;
 
             let mut product = vec![1.0; m];
@@ -435,16 +435,16 @@ fn kernels_of_every_width_do_what_they_say() {
     }
 }
 
-/// Widths tried by the test of the kernels: all remainders of four, more than two lanes.
+/// Number of widths tried by the test of the kernels: all remainders of four, more than two lanes.
 const PANEL: usize = 19;
 
-/// Whatever the graph, an order lists each freedom once and the groups one after the other.
+/// For any graph an ordering lists each freedom once and the groups one after the other.
 pub(in crate::linalg) fn assert_groups_stay_together(
     order: impl Fn(&SymmetricCsc, &Groups) -> Vec<i64>,
 ) {
     for seed in 1..12 {
         for &(zone, contact) in &SHARES {
-            // Few edges: many small trees, whose roots are spread over the groups.
+            // Few edges give many small trees, whose roots are spread over the groups.
             let matrix = laplacian(200, 1, 0.5, seed);
             let partition = partition(200, zone, contact, seed);
             let groups = Groups::new(&partition);
@@ -462,7 +462,7 @@ pub(in crate::linalg) fn assert_groups_stay_together(
     }
 }
 
-/// Of a solid body's orders (chosen, minimum degree, dissection) the cheaper is chosen.
+/// Of the orderings of a solid body (automatic, minimum degree, dissection) the cheapest is chosen.
 pub(in crate::linalg) fn assert_the_cheaper_order_is_chosen(
     predict: impl Fn(&SymmetricCsc, &Partition) -> [Prediction; 3],
 ) {

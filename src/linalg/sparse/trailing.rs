@@ -1,19 +1,19 @@
-//! The trailing columns of `L`, those of zone and contact freedoms, in storage of their own.
+//! Trailing columns of `L`, which belong to zone and contact freedoms, in storage of their own.
 //!
 //! ```text
 //!     L_tt = [ L_zz      ]     L_tt L_tt' = S + diag(shift)
 //!            [ L_cz L_cc ]
 //! ```
 //!
-//! These solves are the hot loop of a plastic analysis: thousands of calls, each bound by how fast
-//! the memory delivers `L_tt`. Columns of the same structure are kept as dense panels of at most
-//! [`PANEL_WIDTH`] columns: a lower triangle, then a rectangle whose rows are listed once, both
-//! stored as the kernels ([`panel`]) read them.
+//! Solves with these columns are the hot loop of a plastic analysis: thousands of calls, each
+//! limited by the rate at which memory delivers `L_tt`. Columns of the same structure are kept as
+//! dense panels of at most [`PANEL_WIDTH`] columns: a lower triangle, then a rectangle whose rows
+//! are listed once, both stored in the sequence in which the kernels ([`panel`]) read them.
 //!
-//! Of the zone only a part may be needed. A set of columns that holds with a column all rows of its
-//! structure (its ancestors in the elimination tree) may as well have been eliminated after all
-//! others: its block of `L` is the factor of the structure condensed onto it. So a zone shrinks,
-//! and grows back, without another factorisation.
+//! Only a part of the zone may be needed. If a set of columns contains, with each column, all rows
+//! of its structure (its ancestors in the elimination tree), it may as well have been eliminated
+//! after all others: its block of `L` is the factor of the structure condensed onto it. Thus a zone
+//! can shrink, and grow back, without another factorisation.
 
 mod changed;
 mod substitution;
@@ -27,8 +27,8 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use substitution::{Subtree, WorkOfSubtree};
 
-/// Columns of a panel: enough that rows are gathered rarely. 16, 32 and 64 differ by a few per
-/// cent.
+/// Largest number of columns of a panel: enough that rows are gathered rarely. 16, 32 and 64 differ
+/// by a few per cent.
 const PANEL_WIDTH: usize = 64;
 
 /// Neighbouring columns of one group with the same structure.
@@ -37,9 +37,9 @@ struct Panel {
     /// First column (trailing numbering: zone, then contact, in the order of the factor).
     first: usize,
     width: usize,
-    /// Rows below the panel's own columns, in `TrailingFactor::rows`.
+    /// Range in `TrailingFactor::rows` of the rows below the panel's own columns.
     rows: Range<usize>,
-    /// First value in `TrailingFactor::values`: the triangle, then the rectangle.
+    /// Start in `TrailingFactor::values` of the panel's triangle, which its rectangle follows.
     values: usize,
 }
 
@@ -57,19 +57,19 @@ impl Panel {
 /// Workspace of one solve.
 #[derive(Debug, Default)]
 struct Work {
-    /// All trailing freedoms in the order of the factor.
+    /// Values of all trailing freedoms in the order of the factor.
     vector: Vec<f64>,
-    /// The rows of one panel.
+    /// Values in the rows of one panel.
     rows: Vec<f64>,
     subtrees: Vec<WorkOfSubtree>,
 }
 
-/// The part `L_tt` of the factor on zone and contact freedoms, with its solves.
+/// Part `L_tt` of the factor on zone and contact freedoms, with its solves.
 #[derive(Debug)]
 pub(crate) struct TrailingFactor {
     n_zone: usize,
-    /// Trailing columns of the factor (0 is the first of the factored zone) that are kept,
-    /// ascending.
+    /// Trailing columns of the factor that are kept, ascending; column 0 is the first of the
+    /// factored zone.
     kept: Vec<u32>,
     /// Place in the kept zone of each zone column.
     zone: Vec<u32>,
@@ -77,8 +77,8 @@ pub(crate) struct TrailingFactor {
     contact: Vec<u32>,
     panels: Vec<Panel>,
     n_zone_panels: usize,
-    /// Parent of each zone panel: the panel that its first row below is in; `usize::MAX` where that
-    /// is a contact freedom or there is none.
+    /// Parent of each zone panel: the panel that contains its first row below; `usize::MAX` if that
+    /// row is a contact freedom or does not exist.
     parents: Vec<usize>,
     /// Disjoint subtrees of the zone's panels, ascending.
     subtrees: Vec<Subtree>,
@@ -88,9 +88,9 @@ pub(crate) struct TrailingFactor {
 }
 
 impl TrailingFactor {
-    /// Copies the trailing columns out of `factor`, whose groups are contiguous: those of the
-    /// contact freedoms, and of the zone those that the freedoms `wanted` need. Returns the zone
-    /// freedoms kept (ascending) with it.
+    /// Copies trailing columns out of `factor`, whose groups are contiguous: all columns of contact
+    /// freedoms, and the zone columns that the freedoms `wanted` need. Also returns the zone
+    /// freedoms that are kept (ascending).
     pub(crate) fn extract(
         factor: &dyn LowerFactor,
         groups: &Groups,
@@ -164,7 +164,7 @@ impl TrailingFactor {
         Ok((trailing, zone))
     }
 
-    /// Makes the workspace of the solves.
+    /// Allocates the workspace of the solves.
     fn make_room(&mut self) {
         let tallest = |panels: &[Panel]| panels.iter().map(|p| p.rows.len()).max().unwrap_or(0);
         let subtrees = self.subtrees.iter().map(|t| WorkOfSubtree {
@@ -179,8 +179,8 @@ impl TrailingFactor {
         *self.work.get_mut().unwrap_or_else(PoisonError::into_inner) = work;
     }
 
-    /// Appends the panels of those columns of the factor in `range` that have a `number` among the
-    /// kept ones; `origin` is the factor's first trailing column.
+    /// Appends the panels of those factor columns in `range` that have a `number` among the kept
+    /// ones; `origin` is the factor's first trailing column.
     fn copy_panels(
         &mut self,
         columns: &Columns,
@@ -209,7 +209,8 @@ impl TrailingFactor {
                 width += 1;
             }
             let below = &head.rows[width..];
-            // The next panel of a wide supernode uses the tail of the list of the one before.
+            // The next panel of a wide supernode shares the end of the row list of the panel
+            // before.
             let rows = if below.len() <= previous.len()
                 && same_rows(&previous[previous.len() - below.len()..], below)
             {
@@ -244,13 +245,13 @@ impl TrailingFactor {
         }
     }
 
-    /// Numbers that it holds.
+    /// Number of values that the factor holds.
     pub(crate) fn n_values(&self) -> usize {
         self.values.len()
     }
 
-    /// Puts the displacements of zone and contact freedoms on the trailing columns of the factor
-    /// that are kept; `known` says which these are.
+    /// Writes the displacements of zone and contact freedoms to the kept trailing columns of the
+    /// factor, and marks these columns in `known`.
     pub(crate) fn place(&self, zone: &[f64], contact: &[f64], known: &mut [bool], x: &mut [f64]) {
         let values = (self.zone.iter().map(|&k| zone[k as usize]))
             .chain(self.contact.iter().map(|&k| contact[k as usize]));
@@ -260,7 +261,7 @@ impl TrailingFactor {
         }
     }
 
-    /// `L_cc L_cc' - diag(shift)`, symmetric to the last bit.
+    /// Contact stiffness `L_cc L_cc' - diag(shift)`, symmetric to the last bit.
     pub(crate) fn contact_stiffness(&self, shift: &[f64]) -> ContactStiffness {
         let bodies = self.uncoupled_contact().into_iter();
         let mut number = vec![usize::MAX; self.contact.len()];
@@ -268,8 +269,8 @@ impl TrailingFactor {
         ContactStiffness::new(blocks.collect())
     }
 
-    /// The panels of contact columns (ascending) of each tree of the elimination forest: columns of
-    /// different ones are not coupled.
+    /// Panels of contact columns (ascending) of each tree of the elimination forest: columns of
+    /// different trees are not coupled.
     fn uncoupled_contact(&self) -> Vec<Vec<&Panel>> {
         let panels = &self.panels[self.n_zone_panels..];
         let mut tree_of_column = vec![0; self.contact.len()];
@@ -291,8 +292,8 @@ impl TrailingFactor {
         trees
     }
 
-    /// The block of `L_cc L_cc' - diag(shift)` of the columns in `panels`; `number` is room for a
-    /// number for each contact column.
+    /// Block of `L_cc L_cc' - diag(shift)` for the columns in `panels`; `number` is workspace with
+    /// one number for each contact column.
     fn contact_block(
         &self,
         panels: &[&Panel],
@@ -312,8 +313,8 @@ impl TrailingFactor {
             let list = &self.rows[p.rows.clone()];
             let first = number[p.first - self.n_zone];
             for k in 0..p.width {
-                // Column k is L times a unit vector: exact, and the storage stays the kernels' own
-                // affair.
+                // Column k is L times a unit vector: this is exact, and keeps the storage private
+                // to the kernels.
                 let column = &mut unit[..p.width];
                 column.fill(0.0);
                 column[k] = 1.0;
@@ -358,8 +359,8 @@ impl TrailingFactor {
     }
 }
 
-/// Which trailing columns (numbered from the first of the zone) are needed: the wanted ones, what
-/// their structure names, and all contact columns.
+/// Marks the trailing columns (numbered from the first of the zone) that are needed: the wanted
+/// ones, the rows of their structure, and all contact columns.
 fn needed(
     columns: &Columns,
     permutation: &[i64],
@@ -384,7 +385,7 @@ fn needed(
     needed
 }
 
-/// True where two row lists are equal; those of one supernode are the same memory.
+/// Whether two row lists are equal; lists of one supernode are in the same memory.
 fn same_rows(a: &[i64], b: &[i64]) -> bool {
     a.len() == b.len() && (std::ptr::eq(a, b) || a == b)
 }

@@ -1,11 +1,11 @@
-//! Disjoint subtrees of an elimination tree: what different threads may solve at the same time.
+//! Disjoint subtrees of an elimination tree, which different threads may solve at the same time.
 
 use std::ops::Range;
 
-/// Subtrees are cut until none has more than this share of all work: 16 pieces keep two to eight
-/// threads busy, however they fall.
+/// Largest share of all work that a subtree may have: with 16 pieces two to eight threads are kept
+/// busy, whatever the distribution.
 const LARGEST_SHARE: f64 = 1.0 / 16.0;
-/// Work (nonzeros) below which a subtree is not worth a thread's attention.
+/// Work (nonzeros) below which a subtree is not worth giving to a thread.
 const SMALLEST: u64 = 20_000;
 
 /// A postordered forest: every subtree is a contiguous range that ends with its root.
@@ -17,9 +17,9 @@ pub(crate) struct Forest<'a> {
 }
 
 impl Forest<'_> {
-    /// Disjoint subtrees, ascending, that hold most of the work between them; what is in none of
-    /// them depends on them or they on it. The choice depends on the tree alone, not on the threads
-    /// of the machine. Empty where the tree is too small, or not postordered.
+    /// Finds disjoint subtrees, ascending, that together hold most of the work; the remaining nodes
+    /// depend on them or they on the remaining nodes. The choice depends on the tree alone, not on
+    /// the number of threads of the machine. Empty if the tree is too small, or not postordered.
     pub(crate) fn subtrees(&self) -> Vec<Range<usize>> {
         let n = self.parent.len();
         let mut first: Vec<usize> = (0..n).collect();
@@ -61,7 +61,7 @@ impl Forest<'_> {
 mod tests {
     use super::*;
 
-    /// A complete binary tree in postorder, `levels` deep, every node of the same work.
+    /// A complete binary tree in postorder, `levels` deep, with equal work at every node.
     fn binary(levels: u32, parent: &mut Vec<usize>) -> usize {
         if levels == 0 {
             return usize::MAX;
@@ -85,7 +85,7 @@ mod tests {
             work: &work,
         };
         let subtrees = forest.subtrees();
-        // 1023 nodes: those of 63 nodes are the first below a sixteenth.
+        // 1023 nodes: subtrees of 63 nodes are the largest below a sixteenth of them.
         assert_eq!(subtrees.len(), 16);
         assert!(subtrees.iter().all(|range| range.len() == 63));
         for range in &subtrees {
@@ -110,14 +110,14 @@ mod tests {
             .subtrees()
         };
         assert!(cut(10).is_empty());
-        // A sixteenth of the chain is all that two threads could share.
+        // Two threads could share no more than a sixteenth of the chain.
         assert_eq!(cut(100_000).len(), 1);
     }
 
     #[test]
     fn a_tree_out_of_postorder_is_left_whole() {
-        // Children 0 and 1 of 3 and 2 of 4, 3 of 4: the subtree of 3 is not contiguous once 2 is
-        // not its own.
+        // Nodes 0 and 2 are children of 3, node 1 is a child of 4, and 3 and 4 are children of 5:
+        // the subtree of 3 is not contiguous, since 1 is not part of it.
         let forest = Forest {
             parent: &[3, 4, 3, 5, 5, usize::MAX],
             work: &[30_000; 6],

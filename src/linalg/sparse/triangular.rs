@@ -1,7 +1,7 @@
 //! Solves with the whole of `L`, subtree by subtree: `L y = f`, and `L^T x = y` for the columns
 //! whose `x` is not known yet.
 //!
-//! The memory delivers `L` once: that is the time it takes.
+//! The time of a solve is the time in which memory delivers `L` once.
 
 use super::Columns;
 #[cfg(feature = "faer")]
@@ -10,21 +10,21 @@ use super::tree::Forest;
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Partial sums of one dot product.
+/// Number of partial sums of one dot product.
 const LANES: usize = 8;
 
-/// What of the factor's supernodes may be solved at the same time.
+/// Subtrees of the factor's supernodes that may be solved at the same time.
 pub(crate) struct Triangular {
-    /// Ranges of supernodes, ascending.
+    /// Ranges of supernodes, one for each subtree, ascending.
     subtrees: Vec<Range<usize>>,
-    /// The columns of each subtree.
+    /// Range of the columns of each subtree.
     columns: Vec<Range<usize>>,
-    /// Rows of the tallest supernode.
+    /// Number of rows of the tallest supernode.
     tallest: usize,
 }
 
 impl Triangular {
-    /// The subtrees of a numerical factor.
+    /// Finds the subtrees of a numerical factor.
     pub(crate) fn new(columns: &Columns) -> Self {
         let Columns::Supernodal(supernodes) = columns else {
             return Triangular {
@@ -72,7 +72,7 @@ impl Triangular {
         self.subtrees.len()
     }
 
-    /// The part of a vector that each subtree's columns have.
+    /// Splits a vector into the parts that belong to the columns of the subtrees.
     fn pieces<'a>(&self, x: &'a mut [f64]) -> Vec<&'a mut [f64]> {
         let mut pieces = Vec::with_capacity(self.subtrees.len());
         let (mut rest, mut taken) = (x, 0);
@@ -85,8 +85,8 @@ impl Triangular {
         pieces
     }
 
-    /// `y = L^-1 f` in place. What a subtree adds to the rows above it is summed in the order of
-    /// the subtrees, so the bits are the same for any number of threads.
+    /// Solves `y = L^-1 f` in place. Contributions of subtrees to the rows above them are added in
+    /// the sequence of the subtrees, so the bits are the same for any number of threads.
     #[cfg(feature = "faer")]
     pub(crate) fn forward(&self, supernodes: &Supernodes, x: &mut [f64]) {
         let n = x.len();
@@ -129,8 +129,8 @@ impl Triangular {
         }
     }
 
-    /// Solves in place: on entry `x` holds `y`, but the solution where `known`; a known column's
-    /// rows are all known. `above` is workspace of the same length.
+    /// Solves `L^T x = y` in place: on entry `x` holds `y`, except that it holds the solution where
+    /// `known`. All rows of a known column are known. `above` is workspace of the same length.
     pub(crate) fn backward(
         &self,
         columns: &Columns,
@@ -202,8 +202,8 @@ impl Triangular {
     }
 }
 
-/// Forward substitution with the columns of a supernode. `x` holds the columns from `first` on, and
-/// `outer` those that follow it.
+/// Performs the forward substitution with the columns of a supernode. `x` holds the columns from
+/// `first` on, and `outer` those that follow.
 #[cfg(feature = "faer")]
 fn eliminate(
     supernodes: &Supernodes,
@@ -215,7 +215,7 @@ fn eliminate(
 ) {
     let (columns, rows) = (supernodes.columns(s), supernodes.rows(s));
     let own = &mut x[columns.start - first..columns.end - first];
-    // A load on few freedoms reaches only the columns above them.
+    // A load on few freedoms reaches only their ancestors in the tree.
     if own.iter().all(|value| *value == 0.0) {
         return;
     }
@@ -245,7 +245,8 @@ fn eliminate(
     }
 }
 
-/// Read from the end, as the columns are taken: the memory delivers one stream.
+/// Dot product that reads from the end, the sequence in which columns are taken: memory delivers
+/// one stream.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let (a_lanes, b_lanes) = (a.rchunks_exact(LANES), b.rchunks_exact(LANES));

@@ -1,4 +1,4 @@
-//! Condition, backward error and refinement.
+//! Tests of condition, backward error and refinement.
 
 use super::*;
 use crate::linalg::{
@@ -6,7 +6,7 @@ use crate::linalg::{
     twofold_residual,
 };
 
-/// Bending of a clamped beam by differences, `1 -4 6 -4 1`: entries are whole numbers, the
+/// Bending of a clamped beam by finite differences, `1 -4 6 -4 1`: entries are whole numbers, the
 /// condition grows with `n^4`.
 fn beam(n: usize) -> SymmetricCsc {
     let mut k = sprs::TriMatI::<f64, i64>::new((n, n));
@@ -32,7 +32,7 @@ fn whole(n: usize) -> Partition {
     }
 }
 
-/// Whole numbers that a solution is to be found as, and their load, exact.
+/// Whole numbers as the exact solution, with their exact load.
 fn exact(k: &SymmetricCsc) -> (Vec<f64>, Vec<f64>) {
     let mut numbers = Numbers::new(7);
     let x: Vec<f64> = (0..k.rows())
@@ -49,8 +49,9 @@ fn error(x: &[f64], exact: &[f64]) -> f64 {
     off.fold(0.0f64, f64::max) / largest
 }
 
-/// Plain refinement stops at round-off times the condition, however often it is repeated, its
-/// backward error as small as can be; the residual in twice the precision goes on to the last bit.
+/// Plain refinement stops at round-off times the condition, however often it is repeated, although
+/// its backward error is as small as possible. A residual in twice the precision goes on to the
+/// last bit.
 #[test]
 fn refinement_goes_on_where_the_plain_one_stalls() {
     let k = beam(600);
@@ -80,7 +81,7 @@ fn refinement_goes_on_where_the_plain_one_stalls() {
         let refined = refine(&mut u, |u| twofold_residual(&k, &load, u), solve).unwrap();
         assert_eq!(error(&u, &x), 0.0, "{backend:?}: {refined:?}");
         assert!((1..=8).contains(&refined.steps), "{refined:?}");
-        // The first correction is the error that there was.
+        // The first correction is the error of the unrefined solution.
         assert!(
             (refined.first / before - 1.0).abs() < 0.01,
             "{refined:?} {before:e}"
@@ -89,8 +90,8 @@ fn refinement_goes_on_where_the_plain_one_stalls() {
     }
 }
 
-/// `|B|_1 |B^-1|_1` from the inverse, in one place after the other where the estimate could go
-/// wrong: graded, shifted, random.
+/// Compares with `|B|_1 |B^-1|_1` from the inverse, in cases in which the estimate could go wrong:
+/// graded, shifted, random.
 #[test]
 fn the_condition_is_estimated_within_a_factor_of_three() {
     let mut cases: Vec<(SymmetricCsc, Partition, Vec<f64>)> = vec![
@@ -134,7 +135,7 @@ fn the_condition_is_estimated_within_a_factor_of_three() {
     }
 }
 
-/// The loss of a pivot to cancellation bounds the condition from below, and may say nothing: a
+/// The loss of a pivot to cancellation is a lower bound of the condition, but may show nothing: a
 /// beam's pivots look harmless.
 #[test]
 fn pivots_alone_do_not_show_a_bad_condition() {
@@ -166,12 +167,12 @@ fn the_componentwise_error_sees_a_small_row() {
     assert!((omega - 0.5 / 2.5).abs() < 1e-15, "{omega}");
     assert_eq!(componentwise_backward_error(&k, &load, &[1.0, 1.0]), 0.0);
     assert!(componentwise_backward_error(&k, &load, &[f64::NAN, 1.0]).is_nan());
-    // Next to no load, next to no displacement: round-off there is no error.
+    // Almost no load and almost no displacement: round-off there is no error.
     assert!(componentwise_backward_error(&k, &[1e12, 0.0], &[1.0, 1e-17]) < 1e-16);
 }
 
-/// The pass over the matrix in parts gives each row what its own entries give it, however far from
-/// the diagonal they lie: to the round-off of the row. Where a row hardly moves the error is
+/// The pass over the matrix in parts gives each row the sum of its own entries, however far from
+/// the diagonal they lie, up to the round-off of the row. If a row hardly moves, the error is
 /// measured by its own stiffness.
 #[test]
 fn the_pass_in_parts_gives_every_row_its_own() {
@@ -183,7 +184,7 @@ fn the_pass_in_parts_gives_every_row_its_own() {
             k.add_triplet(j, j, 4.0 + numbers.next());
             for _ in 0..6 {
                 let i = numbers.integer() as usize % n;
-                // Every third row knows only its like.
+                // Every third row is coupled only with rows of its kind.
                 if i < j && i.is_multiple_of(3) == j.is_multiple_of(3) {
                     k.add_triplet(i, j, numbers.next());
                 }
@@ -200,7 +201,7 @@ fn the_pass_in_parts_gives_every_row_its_own() {
             multiply(&k, &u, &mut f);
             f.iter_mut().for_each(|f| *f *= 1.0 + 1e-6 * numbers.next());
             if still {
-                // What moves in a third of the rows is round-off: nothing acts there.
+                // No load acts in a third of the rows: their displacements are round-off.
                 (0..n).step_by(3).for_each(|i| f[i] = 0.0);
             }
             let rows = Rows::new(&k, &f, &u);
@@ -227,7 +228,7 @@ fn the_pass_in_parts_gives_every_row_its_own() {
                 }
             }
             let found = rows.componentwise_error(&f, &u);
-            // Row sums are added up in another order.
+            // Row sums are added in another order.
             let slack = 8.0 * n as f64 * f64::EPSILON;
             assert!(
                 (found / worst - 1.0).abs() <= slack,

@@ -1,23 +1,23 @@
-//! Elastic bodies on regular grids, as matrices: for tests and benches.
+//! Stiffness matrices of elastic bodies on regular grids, for tests and benches.
 //!
 //! quad4 (D = 2) or hex8 (D = 3) elements of unit size, Young's modulus 1, Poisson's ratio 0.3,
 //! plane strain in 2D. The last direction points up.
 
-/// Upper triangle by columns, as `brinell::linalg::SymmetricCsc`.
+/// Upper triangle by columns, the same type as `brinell::linalg::SymmetricCsc`.
 pub type Upper = sprs::CsMatI<f64, i64>;
 
-/// How the body is held.
+/// Support of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Support {
     /// All freedoms of the bottom are fixed.
     Bottom,
-    /// The sides at the origin slide up and down: free to move up (the matrix is singular).
+    /// The sides at the origin slide freely in the upward direction (the matrix is singular).
     Guides,
 }
 
-/// A grid of elements, its free freedoms numbered node by node.
+/// A grid of elements, whose free freedoms are numbered node by node.
 pub struct Grid<const D: usize> {
-    /// Nodes in each direction.
+    /// Number of nodes in each direction.
     pub nodes: [usize; D],
     numbers: Vec<Option<usize>>,
     /// Number of free freedoms.
@@ -25,7 +25,7 @@ pub struct Grid<const D: usize> {
 }
 
 impl<const D: usize> Grid<D> {
-    /// A grid with `elements` in each direction.
+    /// Makes a grid with `elements` in each direction.
     pub fn new(elements: [usize; D], support: Support) -> Self {
         let nodes = elements.map(|e| e + 1);
         let count: usize = nodes.iter().product();
@@ -45,7 +45,7 @@ impl<const D: usize> Grid<D> {
         Grid { nodes, numbers, n }
     }
 
-    /// The free freedoms of the nodes whose place is chosen, in the given directions, ascending.
+    /// Free freedoms of the nodes that `chosen` selects, in the given directions, ascending.
     pub fn freedoms(
         &self,
         directions: std::ops::Range<usize>,
@@ -59,7 +59,7 @@ impl<const D: usize> Grid<D> {
             .collect()
     }
 
-    /// The stiffness matrix. Rows of nodes may be scaled apart by `modulus(element place)`.
+    /// Stiffness matrix, with the modulus of each element given by `modulus(element place)`.
     pub fn stiffness(&self, modulus: impl Fn([usize; D]) -> f64) -> Upper {
         let element = element_stiffness::<D>();
         let corners = 1 << D;
@@ -119,7 +119,7 @@ fn place<const D: usize>(nodes: [usize; D], mut node: usize) -> [usize; D] {
     })
 }
 
-/// The element in which the node is corner `corner`, if there is one.
+/// The element in which the node is corner `corner`; `None` if there is none.
 fn element_of<const D: usize>(
     nodes: [usize; D],
     place: [usize; D],
@@ -135,7 +135,7 @@ fn element_of<const D: usize>(
     Some(origin)
 }
 
-/// The node at `offset`, whose base-3 digits are -1, 0, 1 in each direction.
+/// The node at `offset`, whose base-3 digits stand for -1, 0, 1 in each direction.
 fn neighbour<const D: usize>(
     nodes: [usize; D],
     place: [usize; D],
@@ -155,8 +155,8 @@ fn neighbour<const D: usize>(
     Some(node)
 }
 
-/// `K_ai,bj = integral of lambda N_a,i N_b,j + mu N_a,j N_b,i + mu delta_ij N_a,k N_b,k`, two Gauss
-/// points a direction.
+/// Element stiffness `K_ai,bj = integral of lambda N_a,i N_b,j + mu N_a,j N_b,i + mu delta_ij N_a,k
+/// N_b,k`, with two Gauss points in each direction.
 fn element_stiffness<const D: usize>() -> Vec<f64> {
     let (modulus, ratio) = (1.0, 0.3);
     let lambda = modulus * ratio / ((1.0 + ratio) * (1.0 - 2.0 * ratio));

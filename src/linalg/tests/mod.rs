@@ -1,6 +1,6 @@
-//! What every backend must do, and the tools to test it with.
+//! Tests of every backend, and tools for them.
 
-// The tests of the sparse backends use more of it.
+// The tests of the sparse backends use more of this module.
 mod accuracy;
 #[cfg_attr(not(any(feature = "cholmod", feature = "faer")), allow(dead_code))]
 pub(super) mod matrices;
@@ -11,25 +11,25 @@ use matrices::{Grid, Support};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
-/// Backends that know their pivots; MUMPS does not tell them.
+/// Backends that report their pivots; MUMPS does not.
 fn pivoting() -> impl Iterator<Item = Backend> {
     backends().into_iter().filter(|b| *b != Backend::Mumps)
 }
 
-/// The backends of this build that tests of this run may use.
+/// Backends of this build that may be used in this test run.
 pub(crate) fn backends() -> Vec<Backend> {
     let all = Backend::built_in().into_iter();
     all.filter(|backend| *backend != Backend::Mumps || one_at_a_time())
         .collect()
 }
 
-/// Whether tests run one at a time, as MPI needs it (`make test-mpi`): it starts a process, and
-/// OpenBLAS may never come back from that while it works in another thread.
+/// Whether tests run one at a time, as MPI requires (`make test-mpi`): MPI starts a process, and
+/// OpenBLAS may never return from that while it works in another thread.
 pub(in crate::linalg) fn one_at_a_time() -> bool {
     std::env::var("RUST_TEST_THREADS").is_ok_and(|threads| threads == "1")
 }
 
-/// Reproducible numbers in (-1, 1).
+/// Reproducible pseudo-random numbers in (-1, 1).
 pub(crate) struct Numbers(u64);
 
 impl Numbers {
@@ -63,7 +63,7 @@ pub(super) struct Sample {
 }
 
 impl Sample {
-    /// Works out the bounds from the dense eigenvalues.
+    /// Computes the bounds from the dense eigenvalues.
     pub(super) fn new(matrix: SymmetricCsc, partition: Partition, shift: Vec<f64>) -> Self {
         let mut k = full(&matrix);
         for (&freedom, d) in partition.contact.iter().zip(&shift) {
@@ -87,7 +87,7 @@ impl Sample {
     /// condition.
     ///
     /// Higham, *Accuracy and Stability*, 2nd ed., theorems 10.3 and 10.4 with a modest constant
-    /// taken as 1: their worst case grows with n, what happens with its root.
+    /// taken as 1: their worst case grows with n, the actual error with its root.
     pub(super) fn tolerance(&self) -> f64 {
         self.partition.n as f64 * f64::EPSILON * self.condition()
     }
@@ -112,8 +112,8 @@ pub(super) fn distance(a: &[f64], b: &[f64]) -> f64 {
     norm(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>())
 }
 
-/// A graph Laplacian with random weights, `ground` added to the diagonal: singular for
-/// `ground = 0`, its null vector constant.
+/// A graph Laplacian with random weights and `ground` added to the diagonal. For `ground = 0` it is
+/// singular with a constant null vector.
 pub(super) fn laplacian(n: usize, edges_per_node: usize, ground: f64, seed: u64) -> SymmetricCsc {
     let mut numbers = Numbers::new(seed);
     let mut k = sprs::TriMatI::<f64, i64>::new((n, n));
@@ -123,7 +123,7 @@ pub(super) fn laplacian(n: usize, edges_per_node: usize, ground: f64, seed: u64)
         k.add_triplet(a.min(b), a.max(b), -weight);
     };
     for a in 1..n {
-        // A chain keeps the graph in one piece.
+        // A chain keeps the graph connected.
         add(&mut k, a - 1, a, 1.5 + numbers.next());
         for _ in 1..edges_per_node {
             let b = (numbers.integer() % n as u64) as usize;
@@ -138,7 +138,7 @@ pub(super) fn laplacian(n: usize, edges_per_node: usize, ground: f64, seed: u64)
     k.to_csc()
 }
 
-/// Each freedom is interior, zone or contact by the given shares; contact in an order of its own.
+/// Makes each freedom interior, zone or contact by the given shares; contact is in random order.
 pub(super) fn partition(n: usize, zone: f64, contact: f64, seed: u64) -> Partition {
     let mut numbers = Numbers::new(seed);
     let mut result = Partition {
@@ -159,7 +159,7 @@ pub(super) fn partition(n: usize, zone: f64, contact: f64, seed: u64) -> Partiti
     result
 }
 
-/// Shares of zone and contact that leave groups empty in every way.
+/// Shares of zone and contact, including cases in which each group is empty.
 pub(super) const SHARES: [(f64, f64); 8] = [
     (0.0, 0.0),
     (0.3, 0.0),
@@ -171,8 +171,8 @@ pub(super) const SHARES: [(f64, f64); 8] = [
     (0.05, 0.02),
 ];
 
-/// Solves `(K + diag(springs on contact)) u = load` by way of the condensed system, and compares
-/// with the plain solve: elimination, contact, recovery of zone and of everything must be one
+/// Solves `(K + diag(springs on contact)) u = load` by the condensed system, and compares with the
+/// plain solve: elimination, contact, recovery of the zone and of all freedoms must form one
 /// consistent solution.
 pub(super) fn assert_condensation_is_the_plain_solve(sample: &Sample, condensed: &dyn Condensed) {
     let Sample {
@@ -234,12 +234,12 @@ pub(super) fn assert_condensation_is_the_plain_solve(sample: &Sample, condensed:
     let scale = size * largest(u) + largest(&total);
     let residual: Vec<f64> = total.iter().zip(&ku).map(|(f, ku)| f - ku).collect();
     let error = largest(&residual) / scale;
-    // The residual itself is computed to about a rounding error for each entry of a row.
+    // The residual itself has an error of about one rounding error for each entry of a row.
     let round_off = 40.0 * f64::EPSILON;
     assert!((found.backward_error - error).abs() <= round_off);
 }
 
-/// `K u = load` in interior and zone for given contact displacements.
+/// Solves `K u = load` in interior and zone for given contact displacements.
 pub(super) fn solved(
     condensed: &dyn Condensed,
     matrix: &SymmetricCsc,
@@ -270,7 +270,7 @@ pub(super) fn solved(
 
 #[test]
 fn a_chain_of_springs_condenses_to_its_series_stiffness() {
-    // n equal springs of stiffness k in series, held at one end: k / n at the other.
+    // n equal springs of stiffness k in series, held at one end: stiffness k / n at the other.
     let (n, k) = (50, 3.0);
     let mut chain = sprs::TriMatI::<f64, i64>::new((n, n));
     for j in 0..n {
@@ -335,8 +335,8 @@ fn every_partition_gives_the_plain_solution() {
     }
 }
 
-/// A zone that shrinks and grows back within the factored one condenses like one that was factored
-/// so.
+/// A zone that shrinks and grows back within the factored one condenses like a zone that was
+/// factored directly.
 #[test]
 fn a_zone_is_chosen_among_the_factored_one() {
     let matrix = laplacian(120, 3, 0.1, 3);
@@ -378,7 +378,7 @@ fn a_body_held_by_contact_alone_has_a_singular_contact_stiffness() {
         let condensed =
             condense(backend, &sample.matrix, &sample.partition, &sample.shift).unwrap();
         assert_condensation_is_the_plain_solve(&sample, &*condensed);
-        // Moving the whole body up costs nothing.
+        // Moving the whole body up takes no force.
         let c = condensed.contact_stiffness().dense();
         let forces = &c * DVector::from_element(c.nrows(), 1.0);
         assert!(forces.norm() <= sample.tolerance() * c.norm());
@@ -388,8 +388,8 @@ fn a_body_held_by_contact_alone_has_a_singular_contact_stiffness() {
 
 #[test]
 fn the_weakest_pivot_is_that_of_the_softest_support() {
-    // Two freedoms tied by a spring of stiffness 1, held by one of 1e-6: eliminating either leaves
-    // 1 + s - 1 / (1 + s) of the diagonal 1 + s, about 2 s / (1 + s).
+    // Two freedoms coupled by a spring of stiffness 1, each held by a spring of 1e-6: eliminating
+    // either leaves 1 + s - 1 / (1 + s) of the diagonal 1 + s, about 2 s / (1 + s).
     let s = 1e-6;
     let mut k = sprs::TriMatI::<f64, i64>::new((2, 2));
     k.add_triplet(0, 0, 1.0 + s);

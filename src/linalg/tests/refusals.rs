@@ -1,4 +1,4 @@
-//! What every backend must refuse, and what it must say.
+//! Arguments that every backend must refuse, and the messages.
 
 use super::*;
 use crate::ErrorKind;
@@ -7,7 +7,7 @@ use std::error::Error as _;
 #[test]
 fn a_pivot_that_is_not_positive_names_its_freedom() {
     let n = 60;
-    // Freedom 41 alone is coupled to nothing, so every order meets its pivot as it is stored.
+    // Freedom 41 is coupled to nothing, so every ordering meets its pivot as it is stored.
     let build = |pivot: f64| -> SymmetricCsc {
         let mut k = sprs::TriMatI::<f64, i64>::new((n, n));
         for j in 0..n {

@@ -1,5 +1,5 @@
-//! The strain path of a material without back stresses that fade: but for the return to the yield
-//! surface all is linear, and deviators of the stress less the back stress suffice.
+//! Strain path of a material without fading back stresses: everything except the return to the
+//! yield surface is linear, so deviators of the stress minus the back stress suffice.
 //!
 //! ```text
 //! s(x) = s + x 2 G dev(de)              on the way, before flow
@@ -7,30 +7,30 @@
 //! s -= (3 G + H_kin) d/q s,    eps_p += (3/2) d/q s
 //! ```
 //!
-//! The parts of the path and the extrapolation are those of [`super::StrainPath`]; this takes a
-//! fourth of its operations.
+//! The parts of the path and the extrapolation are those of [`super::StrainPath`]; with deviators
+//! they take a fourth of the operations.
 
 use super::{Across, PARTS, StrainPath, Turn};
 use crate::material::{Hardening, PlasticState, von_mises_product};
 
-/// A point on the way.
+/// State of a point on the way along the path.
 #[derive(Clone, Copy)]
 struct OnTheWay<const S: usize> {
-    /// Deviator of the stress less the back stress.
+    /// Deviator of the stress minus the back stress.
     stress: [f64; S],
-    /// Plastic strains since the begin of the path, as a tensor.
+    /// Plastic strains since the start of the path, as a tensor.
     plastic: [f64; S],
     equivalent: f64,
     across: Across,
 }
 
-/// The law of the return, and the change of the deviator over the path.
+/// Law of the return mapping, and change of the deviator over the path.
 pub(super) struct Deviators<'a, const S: usize> {
     hardening: &'a Hardening,
     harder: f64,
-    /// Slope of the resistance without hardening, `3 G + H_kin`.
+    /// Slope of the resistance without isotropic hardening, `3 G + H_kin`.
     stiffness: f64,
-    /// `2 G`, and the modulus of the back stresses.
+    /// Moduli: `2 G`, and the modulus of the back stresses.
     moduli: [f64; 2],
     change: [f64; S],
 }
@@ -40,7 +40,7 @@ impl<'a, const S: usize> Deviators<'a, S> {
         let material = path.material;
         let (g, linear) = (material.shear_modulus(), material.back_stresses.linear());
         let strain: [f64; S] = std::array::from_fn(|k| path.end[k] - path.begin[k]);
-        // Shear strains are engineering strains.
+        // The strain has engineering shear.
         let change = deviator(&strain).map(|e| g * e);
         Deviators {
             hardening,
@@ -51,9 +51,10 @@ impl<'a, const S: usize> Deviators<'a, S> {
         }
     }
 
-    /// The state at the end, the share that flow takes off strains across it, and its direction
-    /// there, from where flow begins at a `share` of the path with a stress `begin` (less the back
-    /// stress); `None` where the direction does not turn.
+    /// Integrates from the share of the path at which flow begins, with the stress `begin` (minus
+    /// the back stress) there. Returns the state at the end, the share of stiffness that flow takes
+    /// off strains across it, and the direction of flow there; `None` if the direction does not
+    /// turn.
     pub(super) fn integrate(
         &self,
         begin: &[f64; S],
@@ -88,7 +89,7 @@ impl<'a, const S: usize> Deviators<'a, S> {
         let mut state = *old;
         state.equivalent = end.equivalent;
         for (k, (own, flowed)) in state.strain.iter_mut().zip(&end.plastic).enumerate() {
-            // Shear strains are engineering strains.
+            // The stored strains have engineering shear.
             *own += if k < 3 { *flowed } else { 2.0 * flowed };
         }
         let size = (2.0 / 3.0 * von_mises_product(&normal, &normal)).sqrt();
@@ -100,8 +101,8 @@ impl<'a, const S: usize> Deviators<'a, S> {
         std::array::from_fn(|k| stress[k] + share * self.change[k])
     }
 
-    /// A part of the path in one step and in two, extrapolated; and the stress along which it flows
-    /// in the last, zero where it does not.
+    /// Integrates a part of the path in one step and in two, and extrapolates. Also returns the
+    /// stress along which the last step flows, zero if it does not flow.
     fn twice(&self, from: &OnTheWay<S>, share: f64) -> (OnTheWay<S>, [f64; S]) {
         let (one, _) = self.step(from, share);
         let (half, _) = self.step(from, 0.5 * share);
@@ -109,7 +110,7 @@ impl<'a, const S: usize> Deviators<'a, S> {
         let out = OnTheWay {
             stress: std::array::from_fn(|k| 2.0 * two.stress[k] - one.stress[k]),
             plastic: std::array::from_fn(|k| 2.0 * two.plastic[k] - one.plastic[k]),
-            // Flow that turns is no shorter for being followed more closely, but for round-off.
+            // Apart from round-off, finer steps do not shorten the path of flow.
             equivalent: (2.0 * two.equivalent - one.equivalent).max(two.equivalent),
             across: Across {
                 stress: 2.0 * two.across.stress - one.across.stress,
@@ -119,7 +120,8 @@ impl<'a, const S: usize> Deviators<'a, S> {
         (out, flow)
     }
 
-    /// A share of the path by the implicit rule in one step, and the stress along which it flows.
+    /// Takes a share of the path by the implicit rule in one step; also returns the stress along
+    /// which it flows.
     fn step(&self, from: &OnTheWay<S>, share: f64) -> (OnTheWay<S>, [f64; S]) {
         let trial = self.after(&from.stress, share);
         let q = von_mises_product(&trial, &trial).sqrt();
@@ -159,8 +161,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Deviators give what the path in full stresses and strains gives, but for round-off:
-        /// linear kinematic and isotropic hardening, from a state with plastic strains.
+        /// Deviators give the same result as full stresses and strains, up to round-off: linear
+        /// kinematic and isotropic hardening, from a state with plastic strains.
         #[test]
         fn deviators_give_what_full_stresses_give(
             first in prop::array::uniform6(-0.01f64..0.01),

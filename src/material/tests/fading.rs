@@ -1,16 +1,16 @@
-//! Back stresses that fade, against closed forms in one dimension and against the law in small
+//! Fading back stresses compared with closed forms in one dimension and with the law in small
 //! explicit steps.
 
 use super::*;
 use nalgebra::{SMatrix, SVector};
 
-/// E = 200, isotropic hardening by a table, two back stresses that fade and one that does not.
+/// Material with E = 200, isotropic hardening by a table, two fading back stresses and one linear.
 fn steel(space: Space) -> Material {
     let curve = Hardening::table(&[[0.0, 1.0], [0.004, 1.3], [0.01, 1.4]]);
     each_kind(material(space, 0.3, curve))[2].clone()
 }
 
-/// Pulls a point to an axial strain, nothing acting across; the axial stress and plastic strain.
+/// Pulls a point to an axial strain with free sides; returns the axial stress and plastic strain.
 fn pull<const S: usize>(point: &mut Point<S>, m: &Material, axial: f64) -> [f64; 2] {
     let at = |lateral: f64| {
         let mut strain = [0.0; S];
@@ -25,14 +25,14 @@ fn pull<const S: usize>(point: &mut Point<S>, m: &Material, axial: f64) -> [f64;
     [stress[0], point.state.strain[0]]
 }
 
-/// Shears a point; `sqrt 3` times the shear stress, and the shear strain over that.
+/// Shears a point; returns `sqrt 3` times the shear stress, and the plastic shear over `sqrt 3`.
 fn shear(point: &mut Point<6>, m: &Material, strain: f64) -> [f64; 2] {
     let root = 3f64.sqrt();
     let stress = point.advance(m, &[0.0, 0.0, 0.0, root * strain, 0.0, 0.0]);
     [root * stress[3], point.state.strain[3] / root]
 }
 
-/// The law in one dimension, integrated exactly: `C/gamma (1 - exp(-gamma |deps_p|))` and so on.
+/// Law in one dimension, integrated exactly: `C/gamma (1 - exp(-gamma |deps_p|))` and so on.
 struct Bar {
     plastic: f64,
     equivalent: f64,
@@ -40,7 +40,7 @@ struct Bar {
 }
 
 impl Bar {
-    /// The stress after a change of plastic strain in one direction.
+    /// Stress after a change of plastic strain in one direction.
     fn flow(&mut self, m: &Material, plastic: f64) -> f64 {
         let step = plastic - self.plastic;
         (self.plastic, self.equivalent) = (plastic, self.equivalent + step.abs());
@@ -60,10 +60,10 @@ impl Bar {
     }
 }
 
-/// Moduli and rates of [`each_kind`].
+/// Moduli and rates of the last material of [`each_kind`].
 const LAWS: [[f64; 2]; 3] = [[60.0, 40.0], [10.0, 0.0], [30.0, 300.0]];
 
-/// Tension and shear there and back, each way in one increment or in many.
+/// Tension and shear in both directions, each way in one increment or in many.
 #[test]
 fn paths_in_one_direction_are_exact_however_long_the_increments() {
     for steps in [1, 7] {
@@ -106,7 +106,7 @@ fn paths_in_one_direction_are_exact_however_long_the_increments() {
     }
 }
 
-/// Stress cycles about a mean stress under one back stress that fades: the strain grows by
+/// Stress cycles about a mean stress with one fading back stress: the strain grows by
 ///
 /// ```text
 /// 1/gamma log(((C/gamma)^2 - (low + Y)^2)/((C/gamma)^2 - (high - Y)^2))     in each cycle
@@ -143,8 +143,8 @@ fn ratchetting_goes_on_at_its_rate() {
     }
 }
 
-/// A strain path that turns, against the law integrated in 400 000 explicit steps: the implicit
-/// rule is of first order.
+/// A strain path that turns, compared with the law integrated in 400 000 explicit steps: the
+/// implicit rule is of first order.
 #[test]
 fn a_path_that_turns_approaches_the_law_with_the_steps() {
     let path = |s: f64| {
@@ -172,12 +172,13 @@ fn a_path_that_turns_approaches_the_law_with_the_steps() {
         let order = (von_mises(&pair[0]) / von_mises(&pair[1])).log2();
         assert!((order - 1.0).abs() < 0.05, "{errors:?}");
     }
-    // What is left is of second order: both go to the same limit.
+    // The remaining error is of second order, since both have the same limit.
     let left: [f64; 6] = std::array::from_fn(|k| 2.0 * errors[3][k] - errors[2][k]);
     assert!(von_mises(&left) < 2e-4, "{left:?}");
 }
 
-/// The law by the forward rule: Prandtl and Reuss with the consistency condition, no return.
+/// The law by the forward rule: Prandtl and Reuss with the consistency condition, no return
+/// mapping.
 fn explicit(m: &Material, path: impl Fn(f64) -> [f64; 6], steps: usize) -> [f64; 6] {
     let (law, g) = (m.lame(), m.shear_modulus());
     let hardening = m.hardening.as_ref().unwrap();
@@ -197,7 +198,7 @@ fn explicit(m: &Material, path: impl Fn(f64) -> [f64; 6], steps: usize) -> [f64;
         let xi = relative(&from, &plastic, &back);
         let q = von_mises(&xi);
         let rate: [f64; 6] = std::array::from_fn(|k| to[k] - from[k]);
-        // Of the yield condition: 3/2 xi/q : (2G deps) = dp (3G + H + sum C - 3/2 gamma xi:a/q).
+        // From the yield condition: 3/2 xi/q : (2G deps) = dp (3G + H + sum C - 3/2 gamma xi:a/q).
         let drive = 3.0 * g / q * double_dot(&xi, &tensor_of(&rate));
         if q < hardening.yield_stress(equivalent) || drive <= 0.0 {
             continue;
@@ -219,8 +220,8 @@ fn explicit(m: &Material, path: impl Fn(f64) -> [f64; 6], steps: usize) -> [f64;
     law.stress(&path(1.0), &plastic)
 }
 
-/// Newton's method for the strain of a given stress, from a state after a path that turned: with
-/// the tangent errors are squared, without what is not symmetric of it they are not.
+/// Newton's method for the strain at a given stress, from a state after a path that turned. The
+/// full tangent converges quadratically; its symmetric part alone does not.
 #[test]
 fn newton_converges_to_second_order() {
     let m = steel(Space::Solid);
@@ -248,7 +249,7 @@ fn newton_converges_to_second_order() {
         newton.collect()
     };
     let (with, without) = (residuals(true), residuals(false));
-    // Over the yield stress, which is 1.
+    // Errors relative to the yield stress, which is 1.
     assert!(with[1] < 0.1 && with[2] < with[1].powi(2), "{with:?}");
     assert!(with[3] < with[2].powi(2) && with[4] < 1e-13, "{with:?}");
     assert!(
@@ -257,8 +258,8 @@ fn newton_converges_to_second_order() {
     );
 }
 
-/// Work on plastic strains around loops in tension and shear: `int sigma deps_p` of the path in
-/// small steps.
+/// Work on plastic strains around loops in tension and shear equals `int sigma deps_p` of the path
+/// in small steps.
 #[test]
 fn work_is_that_of_the_path() {
     let m = steel(Space::Solid);

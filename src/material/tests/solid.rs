@@ -1,8 +1,8 @@
-//! Material points with all six components.
+//! Tests of material points with all six components.
 
 use super::*;
 
-/// Numbers between -1 and 1.
+/// Pseudo-random numbers between -1 and 1.
 fn numbers() -> impl FnMut() -> f64 {
     let mut seed = 7u64;
     move || {
@@ -17,13 +17,14 @@ fn in_space([x, y, z, xy]: [f64; 4]) -> [f64; 6] {
     [x, y, z, xy, 0.0, 0.0]
 }
 
-/// Six components `[xx, yy, zz, xy, yz, zx]` as a symmetric matrix, shears times `share`.
+/// Six components `[xx, yy, zz, xy, yz, zx]` as a symmetric matrix, shears multiplied by `share`.
 fn tensor([x, y, z, xy, yz, zx]: [f64; 6], share: f64) -> [[f64; 3]; 3] {
     let [xy, yz, zx] = [xy, yz, zx].map(|t| share * t);
     [[x, xy, zx], [xy, y, yz], [zx, yz, z]]
 }
 
-/// `Q t Q'` as six components; `share` is 1/2 for strains with engineering shear, 1 for stresses.
+/// Rotated tensor `Q t Q'` as six components; `share` is 1/2 for engineering strains, 1 for
+/// stresses.
 fn turned(components: [f64; 6], share: f64, q: &[[f64; 3]; 3]) -> [f64; 6] {
     let t = tensor(components, share);
     let at = |i: usize, j: usize| -> f64 {
@@ -40,7 +41,7 @@ fn turned(components: [f64; 6], share: f64, q: &[[f64; 3]; 3]) -> [f64; 6] {
     ]
 }
 
-/// A rotation about all three axes.
+/// Rotation about all three axes.
 fn rotation(angles: [f64; 3]) -> [[f64; 3]; 3] {
     let mut q = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
     for (axis, angle) in angles.into_iter().enumerate() {
@@ -53,8 +54,8 @@ fn rotation(angles: [f64; 3]) -> [[f64; 3]; 3] {
     q
 }
 
-/// Paths of loading, unloading and reversal in the plane: with two more components that stay zero
-/// the same histories, stresses and tangents.
+/// Paths of loading, unloading and reversal in plane strain give the same histories, stresses and
+/// tangents in four components and in six, of which two stay zero.
 #[test]
 fn a_path_of_plane_strain_is_the_same_in_six_components() {
     let mut number = numbers();
@@ -91,7 +92,7 @@ fn a_path_of_plane_strain_is_the_same_in_six_components() {
     }
 }
 
-/// Turned strains and history give the turned history and stress: the law knows no axis.
+/// Rotated strains and history give the rotated history and stress: the law is isotropic.
 #[test]
 fn a_turned_path_gives_the_turned_stress() {
     let mut number = numbers();
@@ -108,7 +109,7 @@ fn a_turned_path_gives_the_turned_stress() {
                 let flow = own.state.equivalent - other.state.equivalent;
                 assert!(flow.abs() < 1e-15);
                 for (a, b) in stress.iter().zip(expected) {
-                    // Trial stresses are some 200 * 0.02 * 3.
+                    // Trial stresses are about 200 * 0.02 * 3.
                     assert!((a - b).abs() < 64.0 * f64::EPSILON * 12.0, "{a} {b}");
                 }
                 let trace: f64 = other.state.strain[..3].iter().sum();
@@ -118,7 +119,7 @@ fn a_turned_path_gives_the_turned_stress() {
     }
 }
 
-/// Stress on the yield surface, and the tangent its derivative, in all six components.
+/// The stress lies on the yield surface and the tangent is its derivative, in all six components.
 #[test]
 fn the_tangent_is_the_derivative_in_six_components() {
     let mut number = numbers();
@@ -169,7 +170,7 @@ fn the_tangent_is_the_derivative_in_six_components() {
     assert!(yielded > 200, "{yielded}");
 }
 
-/// The law of [`Lame`] against Hooke's, written with E and nu.
+/// The law of [`Lame`] equals Hooke's law, written with E and nu.
 #[test]
 fn lame_is_hooke() {
     let (e, nu) = (200.0, 0.3);

@@ -1,9 +1,9 @@
-//! The path of an increment: against very small steps.
+//! Strain path of an increment, compared with very small steps.
 
 use super::*;
 
 impl<const S: usize> Point<S> {
-    /// Goes along the straight path from a total strain to another.
+    /// Moves the point along the straight path from one total strain to another.
     fn follow(&mut self, m: &Material, path: [&[f64; S]; 2]) -> Update<S> {
         let (mut strains, mut between) = (self.back.clone(), self.back.clone());
         let mut memory = Memory {
@@ -26,7 +26,7 @@ fn between<const S: usize>([begin, end]: [&[f64; S]; 2], share: f64) -> [f64; S]
     std::array::from_fn(|k| begin[k] + share * (end[k] - begin[k]))
 }
 
-/// Random numbers in -1 .. 1.
+/// Pseudo-random number between -1 and 1.
 fn random(seed: &mut u64) -> f64 {
     *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
     2.0 * ((*seed >> 11) as f64 / (1u64 << 53) as f64) - 1.0
@@ -37,7 +37,7 @@ fn distance<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     von_mises(&difference)
 }
 
-/// A point that was brought beyond yield, its strain, and one that lies `size` from it.
+/// A point that was brought beyond yield, its strain, and a strain at the distance `size` from it.
 fn turned<const S: usize>(m: &Material, size: f64, seed: &mut u64) -> (Point<S>, [[f64; S]; 2]) {
     let mut strain = || -> [f64; S] {
         std::array::from_fn(|k| match (m.space, k) {
@@ -54,7 +54,7 @@ fn turned<const S: usize>(m: &Material, size: f64, seed: &mut u64) -> (Point<S>,
     (point, [first, end])
 }
 
-/// Where so many small steps of the implicit rule lead to.
+/// Point after `n` small steps of the implicit rule.
 fn in_steps<const S: usize>(
     point: &Point<S>,
     m: &Material,
@@ -68,7 +68,7 @@ fn in_steps<const S: usize>(
     point
 }
 
-/// Where so many paths one after the other lead to.
+/// Point after `n` paths, one after the other.
 fn in_paths<const S: usize>(
     point: &Point<S>,
     m: &Material,
@@ -83,8 +83,9 @@ fn in_paths<const S: usize>(
     point
 }
 
-/// Mean errors of the stress, over the yield stress, of the implicit rule in one step and of one,
-/// two and four paths; and of the work that back stresses lose, over it.
+/// Mean errors of the stress, relative to the yield stress, of the implicit rule in one step and of
+/// one, two and four paths; and the same errors of the work that back stresses lose, relative to
+/// that work.
 fn errors<const S: usize>(space: Space, size: f64) -> ([f64; 4], [f64; 4]) {
     let mut seed = 5;
     let (mut stress, mut work, mut count) = ([0.0f64; 4], [0.0f64; 4], 0.0);
@@ -116,9 +117,10 @@ fn errors<const S: usize>(space: Space, size: f64) -> ([f64; 4], [f64; 4]) {
     (stress.map(|sum| sum / 18.0), work.map(|sum| sum / count))
 }
 
-/// Paths of a tenth, a half, twice and ten times the strain at yield, in any direction: a tenth of
-/// the error of the implicit rule at most. Second order leaves a sixteenth of it to fourths; a
-/// seventh is asked for, as tables of hardening have kinks and ten times is far from small.
+/// Paths of a tenth, a half, twice and ten times the strain at yield, in any direction, have at
+/// most a tenth of the error of the implicit rule. Second order leaves a sixteenth of the error to
+/// quarter paths; only a seventh is required, as tables of hardening have kinks and ten times is
+/// far from small.
 #[test]
 fn a_path_is_followed_however_flow_turns_on_it() {
     for size in [5e-4, 2.5e-3, 1e-2, 5e-2] {
@@ -135,7 +137,7 @@ fn a_path_is_followed_however_flow_turns_on_it() {
     }
 }
 
-/// Where flow does not turn the implicit rule is exact, and the path the same to round-off.
+/// If flow does not turn, the implicit rule is exact, and the path gives the same up to round-off.
 #[test]
 fn a_path_in_one_direction_is_that_of_the_implicit_rule() {
     for curve in curves() {
@@ -154,7 +156,7 @@ fn a_path_in_one_direction_is_that_of_the_implicit_rule() {
     }
 }
 
-/// The state at the end follows the end smoothly: iterations converge.
+/// The state at the end depends smoothly on the end of the path, so that iterations converge.
 #[test]
 fn the_end_of_a_path_moves_smoothly() {
     let mut seed = 11;
@@ -183,15 +185,15 @@ fn the_end_of_a_path_moves_smoothly() {
                 .map(|pair| distance(&pair[0], &pair[1]))
                 .collect();
             let largest = steps.iter().fold(0.0f64, |m, s| m.max(*s));
-            // E times the change of strain, and not the error of the path, 1e-3, all at once.
+            // The change is E times the change of strain, without jumps of the path's error, 1e-3.
             assert!(largest < 1e-5, "{steps:?}");
         }
     }
 }
 
-/// So it does where flow hardly turns, from no angle at all to one of a thousandth: nowhere does
-/// the stress change by more than the strain's change asks for. A jump of 1e-9 of the yield stress
-/// is more than iterations to 1e-10 can come past.
+/// The stress is also smooth where flow hardly turns, from no angle at all to one of a thousandth:
+/// nowhere does the stress change by more than the change of strain requires. Iterations to 1e-10
+/// could not get past a jump of 1e-9 of the yield stress.
 #[test]
 fn the_stress_does_not_jump_where_flow_begins_to_turn() {
     let mut seed = 5;
@@ -218,8 +220,8 @@ fn the_stress_does_not_jump_where_flow_begins_to_turn() {
     }
 }
 
-/// Mean errors of the tangent against differences of the path's own end, and of that of one step,
-/// over the elastic stiffness: paths go on as before but for a random part.
+/// Mean errors, relative to the elastic stiffness, of the path's tangent against differences of its
+/// end, and of the one-step tangent. Paths go on in the former direction except for a random part.
 fn tangent_errors(size: f64, randomness: f64) -> [f64; 2] {
     let (mut seed, mut errors, mut count) = (7, [0.0; 2], 0.0);
     for curve in curves() {
@@ -257,8 +259,8 @@ fn tangent_errors(size: f64, randomness: f64) -> [f64; 2] {
     errors.map(|error| error / count)
 }
 
-/// It is that of the path where flow turns little, and nearer than that of one step where it turns
-/// in any direction.
+/// The path's tangent agrees with the path if flow turns little, and is closer to it than the
+/// tangent of one step if flow turns in any direction.
 #[test]
 fn the_tangent_is_nearer_to_the_path_than_that_of_one_step() {
     for size in [1e-3, 5e-3, 2e-2] {

@@ -9,29 +9,29 @@ use crate::space::{Vector, difference, in_words, length};
 use std::collections::BTreeMap;
 
 impl ModelBuilder {
-    /// Number of coordinates of a node.
+    /// Number of coordinates of each node.
     pub fn dimension(&self) -> usize {
         self.mesh.dimension
     }
 
-    /// Number of nodes so far.
+    /// Number of nodes added so far.
     pub fn n_nodes(&self) -> usize {
         self.mesh.n_nodes()
     }
 
-    /// Number of elements so far.
+    /// Number of elements added so far.
     pub fn n_elements(&self) -> usize {
         self.mesh.n_elements()
     }
 
-    /// The nodes of a set or surface with their coordinates; none where there is no such name.
+    /// Nodes of a set or surface with their coordinates; empty if there is no such name.
     pub fn set_nodes(&self, name: &str) -> Vec<(usize, Vector)> {
         let nodes = self.mesh.set_nodes(name).unwrap_or_default();
         let placed = nodes.into_iter().map(|node| (node, self.mesh.point(node)));
         placed.collect()
     }
 
-    /// The index of a node that there is; `what` names it in a message.
+    /// Checks that a node exists and returns its index; `what` names it in a message.
     ///
     /// # Errors
     /// An index of no node.
@@ -46,11 +46,12 @@ impl ModelBuilder {
         })
     }
 
-    /// Adds nodes: `n x 2` coordinates, of a solid `n x 3`, node by node; (r, z) in an axisymmetric
-    /// model.
+    /// Adds nodes by their coordinates, node by node: `n x 2` values, or `n x 3` for a solid; (r,
+    /// z) in an axisymmetric model.
     ///
     /// # Errors
-    /// A number of values that is no multiple of that; a value that is not finite, by node.
+    /// A number of values that is not a multiple of the dimension; a value that is not finite, by
+    /// node.
     pub fn nodes(&mut self, coordinates: &[f64]) -> Result<&mut Self> {
         let each = self.mesh.dimension;
         if !coordinates.len().is_multiple_of(each) {
@@ -79,11 +80,11 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Adds elements of one shape and body: the nodes of one after the other, in the order of
-    /// [`Shape`].
+    /// Adds elements of one shape and body, given by the nodes of one element after the other, in
+    /// the order of [`Shape`].
     ///
     /// # Errors
-    /// A number of indices that is no multiple of the shape's nodes; an index of no node, by
+    /// A number of indices that is not a multiple of the shape's nodes; an index of no node, by
     /// element.
     pub fn elements<I: Index>(
         &mut self,
@@ -126,7 +127,7 @@ impl ModelBuilder {
         for nodes in connectivity.chunks_exact(each) {
             let mut own = [0u32; MAX_NODES];
             for (own, &node) in own.iter_mut().zip(nodes) {
-                // Below the number of nodes, which `nodes` keeps within u32.
+                // The index is below the number of nodes, which `nodes` keeps within u32.
                 *own = node.below(n_nodes).unwrap_or_default() as u32;
             }
             self.mesh.push_element(shape, number, &own[..each]);
@@ -134,10 +135,10 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Names some nodes.
+    /// Adds a named set of nodes.
     ///
     /// # Errors
-    /// An empty set, an index of no node, a name that is taken.
+    /// An empty set, an index of no node, a name that is already taken.
     pub fn node_set<I: Index>(&mut self, name: &str, nodes: &[I]) -> Result<&mut Self> {
         self.is_new(name)?;
         let mut sorted = self.known_nodes(name, nodes)?;
@@ -147,11 +148,11 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Names a surface by the element and the local number of each facet ([`Shape::facet`]): in the
-    /// plane facet k lies between corners k and k + 1.
+    /// Adds a named surface by the element and the local number of each facet ([`Shape::facet`]):
+    /// in the plane, facet k lies between corners k and k + 1.
     ///
     /// # Errors
-    /// An empty surface, a facet of no element, a name that is taken.
+    /// An empty surface, a facet of no element, a name that is already taken.
     pub fn surface<I: Index>(
         &mut self,
         name: &str,
@@ -184,11 +185,11 @@ impl ModelBuilder {
         self.keep_surface(name, out)
     }
 
-    /// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose
-    /// nodes are among them.
+    /// Adds a named surface by its nodes, mid-side nodes included: it consists of the boundary
+    /// facets whose nodes are all among them.
     ///
     /// # Errors
-    /// A node that belongs to no such facet, an index of no node, a name that is taken.
+    /// A node that belongs to no such facet, an index of no node, a name that is already taken.
     pub fn surface_of_nodes<I: Index>(&mut self, name: &str, nodes: &[I]) -> Result<&mut Self> {
         self.is_new(name)?;
         let nodes = self.known_nodes(name, nodes)?;
@@ -234,10 +235,11 @@ impl ModelBuilder {
         self.keep_surface(name, facets)
     }
 
-    /// States the exact shape of a surface: normals are then exact at every node.
+    /// Sets the exact shape of a surface, so that normals are exact at every node.
     ///
     /// # Errors
-    /// No such surface; a node of it that is off a round shape by more than 1e-6 of its radius.
+    /// No such surface; a node of the surface that is off a round shape by more than 1e-6 of its
+    /// radius.
     pub fn curve(&mut self, surface: &str, curve: Curve) -> Result<&mut Self> {
         let nodes = self.mesh.set_nodes(surface).unwrap_or_default();
         for node in nodes {

@@ -1,4 +1,4 @@
-//! What a scene says besides its mesh, as text.
+//! Tables of a scene as text, apart from its mesh.
 
 use super::ModelBuilder;
 use crate::error::{Error, Result};
@@ -8,7 +8,7 @@ use crate::scene::{
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
-/// The tables of a scene but for `kind`, `symmetry` and `mesh`, which come with the arrays.
+/// Tables of a scene without `kind`, `symmetry` and `mesh`, which come with the arrays.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct SceneTables {
@@ -29,8 +29,8 @@ struct SceneTables {
 impl ModelBuilder {
     /// Adds tables of a scene (TOML): materials, bodies, `[rigid.NAME]`, `[[contact]]`, `[[tie]]`,
     /// `[[equation]]`, `[[support]]`, `[[load]]`, `[program]`, `[analysis]`, `[units]`, `title`.
-    /// Materials, bodies, rigid surfaces, contacts, ties, equations, supports and loads come to
-    /// those that are there, the others take their place.
+    /// Materials, bodies, rigid surfaces, contacts, ties, equations, supports and loads are added
+    /// to the existing ones; the other tables replace the existing ones.
     ///
     /// ```
     /// # use brinell::model::ModelBuilder;
@@ -48,8 +48,8 @@ impl ModelBuilder {
     /// ```
     ///
     /// # Errors
-    /// By line and column: no TOML, an unknown key, a value of another type; a material or body
-    /// that is there already.
+    /// Invalid TOML, an unknown key, or a value of the wrong type, with line and column; a material
+    /// or body that already exists.
     pub fn tables(&mut self, text: &str) -> Result<&mut Self> {
         let tables: SceneTables =
             toml::from_str(text).map_err(|e| Error::input(format!("scene text: {e}")))?;

@@ -1,11 +1,11 @@
-//! Bad arrays are refused by index and value, never with a panic.
+//! Invalid arrays are refused with index and value, never with a panic.
 
 use super::*;
 use crate::ErrorKind;
 use crate::mesh::{Curve, Shape};
 use crate::scene::Direction;
 
-/// Two unit squares, one 0.01 above the other.
+/// Two unit squares, one at a distance of 0.01 above the other.
 fn squares() -> ModelBuilder {
     let mut builder = ModelBuilder::new(Space::PlaneStrain);
     let steel = || Body {
@@ -122,7 +122,7 @@ fn given_pairs_replace_the_geometry() {
     assert_eq!((pair.masters[0].0, pair.slave, pair.gap), (5, 2, 0.5));
     let length = 0.1f64.hypot(2.0);
     assert_eq!(pair.normal, [0.1 / length, 2.0 / length, 0.0]);
-    // The node's share of the surface, not more.
+    // Only the node's share of the surface belongs to the pair.
     assert!((pair.area - 0.5).abs() < 1e-15);
 }
 

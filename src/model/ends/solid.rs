@@ -1,5 +1,5 @@
-//! Where the candidates of a solid end although both bodies go on there: at edges of faces that no
-//! other candidate shares.
+//! Ends of the contact surfaces of a solid beyond which both bodies go on: edges of faces that no
+//! other contact surface shares.
 
 use super::FEATURE_ANGLE;
 use crate::mesh::{Facet, Mesh};
@@ -7,7 +7,7 @@ use crate::model::{ContactSurface, Pair};
 use crate::space::{Vector, along, difference, direction, dot};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The two ends of an edge, ascending.
+/// Numbers of the two ends of an edge, ascending.
 type EdgeEnds = [usize; 2];
 
 /// Finds [`ContactSurface::goes_on`] of each contact.
@@ -49,7 +49,7 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
     }
 }
 
-/// Edges, by their pairs, of one face of a contact only.
+/// Edges that belong to one face of a contact only, by the numbers of their pairs.
 fn outer_edges(contact: &ContactSurface) -> Vec<EdgeEnds> {
     let mut faces_at: BTreeMap<EdgeEnds, usize> = BTreeMap::new();
     for face in &contact.faces {
@@ -64,16 +64,16 @@ fn outer_edges(contact: &ContactSurface) -> Vec<EdgeEnds> {
     outer.map(|(edge, _)| edge).collect()
 }
 
-/// How a body's boundary goes on beyond an edge of its candidates.
+/// Continuation of a body's boundary beyond an edge of its contact surface.
 struct BeyondEdge {
-    /// Angle in degrees by which it turns away from the other body; negative towards it.
+    /// Angle in degrees by which the boundary turns away from the other body; negative towards it.
     turn: f64,
-    /// Whether the boundary beyond belongs to the candidates of another contact, or another part of
+    /// Whether the boundary beyond belongs to the surface of another contact, or to another part of
     /// this one.
     is_followed: bool,
 }
 
-/// The boundary facets at the edges between some nodes.
+/// Boundary facets at the edges between given nodes.
 struct EdgeBoundary<'m> {
     mesh: &'m Mesh,
     at: BTreeMap<EdgeEnds, Vec<Facet>>,
@@ -81,7 +81,7 @@ struct EdgeBoundary<'m> {
 
 impl<'m> EdgeBoundary<'m> {
     fn at(mesh: &'m Mesh, nodes: &BTreeSet<usize>) -> Self {
-        // A facet that two elements share is inside; both have its nodes.
+        // A facet that two elements share is in the interior; both elements have its nodes.
         let mut owners: BTreeMap<Vec<usize>, Vec<Facet>> = BTreeMap::new();
         let touches = |e: &usize| {
             mesh.nodes(*e)
@@ -110,8 +110,8 @@ impl<'m> EdgeBoundary<'m> {
         EdgeBoundary { mesh, at }
     }
 
-    /// How the boundary goes on beyond the edge of a paired candidate; `None` where it has not two
-    /// facets there.
+    /// Continuation of the boundary beyond the edge of a paired face; `None` if the edge does not
+    /// have two boundary facets.
     fn beyond(
         &self,
         [a, b]: EdgeEnds,
@@ -136,8 +136,8 @@ impl<'m> EdgeBoundary<'m> {
         })
     }
 
-    /// How the boundary of the other body turns away at edges between masters of two pairs where
-    /// the candidates end; 0 where they go on.
+    /// Angle by which the boundary of the other body turns away at edges between masters of two
+    /// pairs where the contact surface ends; 0 where it continues.
     fn end_among(&self, pairs: [&Pair; 2], candidates: &BTreeSet<Facet>) -> f64 {
         let masters: Vec<usize> = (pairs.iter().flat_map(|pair| &pair.masters))
             .map(|&(node, _)| node)
@@ -188,7 +188,7 @@ impl<'m> EdgeBoundary<'m> {
     }
 }
 
-/// The nodes round a facet.
+/// Nodes around a facet, corners and mid-side nodes in turn.
 fn outline(mesh: &Mesh, facet: Facet) -> Vec<usize> {
     let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
     let (corners, middles) = nodes.split_at(mesh.facet_corners(facet));

@@ -1,18 +1,18 @@
-//! What the other surface covers of the faces of a slave surface.
+//! Parts of the faces of a slave surface that the other surface covers.
 
 use super::Pair;
 use crate::mesh::{Mesh, Surface};
 use crate::space::{Vector, difference, dot, length};
 use std::collections::BTreeMap;
 
-/// What the other surface covers of facets of the slave surface, by their number, where that is not
-/// all.
+/// Covered parts of those facets of the slave surface that are covered only partly, by the number
+/// of the facet.
 pub(super) type Covered = BTreeMap<usize, CoveredFacet>;
 
-/// The covered polygons of a facet, for each piece of it between its nodes.
+/// Covered polygons of a facet, for each piece of the facet between its nodes.
 pub(super) type CoveredFacet = Vec<Vec<Vec<Vector>>>;
 
-/// Pieces of faces of a slave surface of a solid; see [`super::ContactSurface`].
+/// Pieces of faces of a solid's slave surface; see [`super::ContactSurface`].
 #[derive(Default)]
 pub(super) struct Pieces {
     pub(super) faces: Vec<Vec<usize>>,
@@ -21,8 +21,8 @@ pub(super) struct Pieces {
 }
 
 impl Pieces {
-    /// Pieces of a surface with the pairs from number `start` on. A linear face is one piece; of a
-    /// quadratic one the nodes are the corners of several.
+    /// Splits a surface into pieces with the pairs from number `start` on. A linear face is one
+    /// piece; the nodes of a quadratic face are the corners of several pieces.
     pub(super) fn new(
         mesh: &Mesh,
         surface: &Surface,
@@ -68,8 +68,8 @@ impl Pieces {
     }
 }
 
-/// [`super::ContactSurface::extent`]: of facets that are covered in part the ends of what is
-/// covered, of others those of their pairs.
+/// Finds [`super::ContactSurface::extent`]: for partly covered facets from the ends of the covered
+/// part, for other facets from the ends of their pairs.
 pub(super) fn extent(
     mesh: &Mesh,
     surface: &Surface,
@@ -99,7 +99,7 @@ pub(super) fn extent(
             let from = difference(point, low.1);
             match low.0 < high.0 {
                 true => Some(low.0 + dot(from, way) / dot(way, way) * (high.0 - low.0)),
-                // Beyond the end of the pairs.
+                // The covered part reaches beyond the last pair.
                 false if low.0 == last_arc && low.0 > first_arc => Some(low.0 + length(from)),
                 false if low.0 == first_arc && low.0 < last_arc => Some(low.0 - length(from)),
                 false => None,

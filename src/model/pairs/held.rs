@@ -1,4 +1,4 @@
-//! Slaves that supports hold against contact, and contacts that are one.
+//! Slaves that supports hold against contact, and contacts that state the same twice.
 
 use super::{Found, Pair, list};
 use crate::error::{Error, Result};
@@ -6,11 +6,11 @@ use crate::mesh::{Facet, Mesh, Surface};
 use crate::scene::Contact;
 use std::collections::BTreeSet;
 
-/// Takes out the pairs of slaves that supports hold along their normals: what presses there goes
-/// into the supports.
+/// Removes the pairs of slaves that supports hold along their normals: what presses there goes into
+/// the supports.
 ///
 /// # Errors
-/// Supports hold all slaves.
+/// An error if supports hold all slaves.
 pub(super) fn leave_to_supports(
     found: &mut Found,
     is_held: impl Fn(&Pair) -> bool,
@@ -41,7 +41,7 @@ pub(super) fn leave_to_supports(
     Ok(())
 }
 
-/// Whether two contacts have facets in common on both of their sides.
+/// Whether two contacts have facets in common on both sides.
 pub(super) fn are_same(mesh: &Mesh, own: [&Surface; 2], other: &Contact) -> bool {
     let facets = own.map(|surface| surface.facets.iter().collect::<BTreeSet<&Facet>>());
     let shares = |side: usize, other: Option<&Surface>| {

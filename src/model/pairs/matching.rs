@@ -1,4 +1,4 @@
-//! Pairs of nodes that face each other.
+//! Contact pairs of nodes that face each other.
 
 use super::{ContactInput, Found, Pair};
 use crate::balls::Balls;
@@ -11,13 +11,13 @@ use crate::scene::SlaveSide;
 use crate::space::{Vector, difference, direction, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The pairs of a contact whose nodes face each other, or are given; `None` where they do not.
+/// Finds the pairs of a contact whose nodes face each other or are given; `None` if they do not.
 ///
 /// # Errors
-/// Surfaces that are not one curve; pairs that share a node, overlap, or are no pairs.
+/// Surfaces that are not one curve; pairs that share a node, overlap or are invalid.
 pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Result<Option<Found>> {
     let (mesh, contact) = (entries.mesh, &entries.contact);
-    // The paper's: the normal is the second body's.
+    // As in the paper, the normal is that of the second body.
     let slave = match contact.slave {
         SlaveSide::First if given.is_none() => 0,
         _ => 1,
@@ -54,8 +54,8 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
         }
     };
 
-    // Beyond the end of the shorter surface there is nothing to press on; who gives the pairs
-    // decides himself.
+    // Beyond the end of the shorter surface there is nothing to press on, but given pairs are kept
+    // in any case.
     let touching: BTreeSet<usize> = slave_nodes
         .iter()
         .zip(&partner_of)
@@ -98,7 +98,7 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
         }
     }
     // One surface may reach beyond the other, but the shorter one must pair completely, facet by
-    // facet; who gives the pairs decides himself.
+    // facet, unless pairs are given.
     is_complete |= taken.iter().all(|taken| *taken);
     let match_up = || facets_match(mesh, [master_surface, slave_surface], &pairs);
     if given.is_none() && (pairs.is_empty() || !is_complete || !match_up()) {
@@ -137,8 +137,8 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
     }))
 }
 
-/// Whether the facets of either surface whose nodes all have a partner face such facets of the
-/// other.
+/// Whether fully paired facets match: each facet of either surface whose nodes all have a partner
+/// faces a facet of the other.
 fn facets_match(mesh: &Mesh, [master, slave]: [&Surface; 2], pairs: &[Pair]) -> bool {
     let partner: BTreeMap<usize, usize> = (pairs.iter())
         .map(|pair| (pair.slave, pair.masters[0].0))
@@ -165,8 +165,8 @@ fn facets_match(mesh: &Mesh, [master, slave]: [&Surface; 2], pairs: &[Pair]) -> 
     masters.collect::<BTreeSet<_>>() == slaves.collect::<BTreeSet<_>>()
 }
 
-/// Integrals of each node's shape function over the facets of a surface all of whose nodes are
-/// among `faces`.
+/// Integrals of each node's shape function over the facets of a surface whose nodes are all among
+/// `faces`.
 pub(super) fn nodal_areas(
     entries: &ContactInput,
     surface: &Surface,

@@ -1,6 +1,6 @@
-//! Surfaces whose nodes do not face each other: dual mortar coupling, small sliding.
+//! Surfaces whose nodes do not face each other: dual mortar coupling with small sliding.
 //!
-//! With the trace basis `phi_j` of the slave, functions `psi_j` dual to it on each of its facets
+//! With the trace basis `phi_j` of the slave, functions `psi_j` dual to this basis on each facet,
 //! and the shape functions `N_k` of the master,
 //!
 //! ```text
@@ -8,7 +8,7 @@
 //!     g_j = delta_j - n_j . (d_j - sum_k w_jk d_k),    w_jk = M_jk / D_j,    p_j = r_j / D_j
 //! ```
 //!
-//! over what of the slave faces the master. Quadratic facets of solids have the basis of
+//! over the part of the slave that faces the master. Quadratic facets of solids have the basis of
 //! [`crate::model::ContactBasis`], whose weights are positive.
 //!
 //! # Source
@@ -36,41 +36,41 @@ use face::MortarFace;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Rows with less of their weight covered than this share are left out: they would be the inverse
-/// of round-off.
+/// Share of a row's weight that must be covered for the row to be kept: rows below it would contain
+/// the inverse of round-off.
 const COVERED: f64 = 1e-8;
-/// Distance of surfaces that are tied, as a share of a facet's length: more than the tolerances of
-/// a mesher, less than an element.
+/// Largest distance of tied surfaces, as a share of a facet's length: more than the tolerances of a
+/// mesher, less than an element.
 const NEAR: f64 = 0.05;
-/// Share of a facet's length by which facets of a flat surface may be off it.
+/// Share of a facet's length by which facets of a flat surface may deviate from it.
 const FLAT: f64 = 1e-6;
-/// Overlap of the meshes, as a share of a facet's length, that is round-off.
+/// Overlap of the meshes that counts as round-off, as a share of a facet's length.
 const TOUCHING: f64 = 1e-9;
-/// Share of a facet's weight up to which a master counts nothing.
+/// Share of a facet's weight below which a master is dropped.
 const NOTHING: f64 = 1e-13;
 
-/// The facets of both surfaces, and where they truly are.
+/// Facets of both surfaces with their true shapes.
 struct Sides<'a> {
     entries: &'a ContactInput<'a>,
     slaves: Vec<MortarFace>,
     masters: Vec<MortarFace>,
-    /// The masters, to find those near a line.
+    /// Balls around the masters, to find the masters near a line.
     near: Balls,
-    /// Exact shapes of slave and master, where known.
+    /// Exact shapes of slave and master, if known.
     curves: [Option<Curve>; 2],
     /// Unit normal of each slave node.
     normals: BTreeMap<usize, Vector>,
 }
 
-/// Both sides, and what the slaves face.
+/// Both sides of a contact, with the pairs found.
 struct Coupled<'a> {
     sides: Sides<'a>,
     pairs: Vec<Pair>,
-    /// Slaves that the other surface hardly covers.
+    /// Slave nodes that the other surface hardly covers.
     left_out: Vec<usize>,
-    /// Slaves that nothing lies opposite.
+    /// Slave nodes that lie opposite nothing.
     alone: Vec<usize>,
-    /// Which surface has the slaves.
+    /// Number of the surface with the slaves.
     slave: usize,
     facet_length: f64,
     covered: Covered,
@@ -83,15 +83,16 @@ impl Coupled<'_> {
     }
 }
 
-/// The pairs of a contact.
+/// Finds the pairs of a contact.
 ///
 /// # Errors
 /// Surfaces that are not one curve, do not face each other, share nodes or overlap.
 pub(super) fn pairs(entries: &ContactInput, notes: &mut Vec<String>) -> Result<Found> {
     let found = coupled(entries, entries.contact.slave)?;
     found.check()?;
-    // Facets of a curved surface overlap the other one on one side and gape on the other: where the
-    // slaves see the gap alone, a fit would have no pressure, and nothing would show it.
+    // Facets of a curved surface overlap the other surface on one side and leave gaps on the other.
+    // If the slaves see only the gap, a fit would have no pressure, and nothing would show this. So
+    // both choices of slave are checked.
     if found.sides.depth_of_facets() > FLAT * found.facet_length {
         let other = [SlaveSide::Second, SlaveSide::First][found.slave];
         if let Ok(other) = coupled(entries, other) {
@@ -117,10 +118,10 @@ pub(super) fn pairs(entries: &ContactInput, notes: &mut Vec<String>) -> Result<F
     })
 }
 
-/// The rows of two surfaces that are tied, and the slaves that stay free.
+/// Finds the rows of two tied surfaces, and the slaves that stay free.
 ///
 /// # Errors
-/// As [`pairs`], but surfaces may overlap, by `distance` at most.
+/// Errors of [`pairs`], except that surfaces may overlap, by `distance` at most.
 pub(super) fn tied(entries: &ContactInput, distance: Option<f64>) -> Result<(Found, Vec<usize>)> {
     let found = coupled(entries, entries.contact.slave)?;
     found.sides.check_apart(&found.pairs)?;
@@ -160,7 +161,7 @@ pub(super) fn tied(entries: &ContactInput, distance: Option<f64>) -> Result<(Fou
     Ok((found, free))
 }
 
-/// The rows of two surfaces.
+/// Finds the rows of two surfaces without checking for overlap.
 ///
 /// # Errors
 /// Surfaces that are not one curve or do not face each other.
@@ -244,7 +245,8 @@ fn coupled<'a>(entries: &'a ContactInput<'a>, slave: SlaveSide) -> Result<Couple
     })
 }
 
-/// Integrals of all facets, node by node, and what is covered of those that are not whole.
+/// Sums the integrals of all facets by node, and collects the covered part of partly covered
+/// facets.
 fn sum(facets: Vec<OfFacet>) -> (BTreeMap<usize, Integrals>, Covered) {
     let mut sums: BTreeMap<usize, Integrals> = BTreeMap::new();
     let mut covered = BTreeMap::new();
@@ -257,16 +259,17 @@ fn sum(facets: Vec<OfFacet>) -> (BTreeMap<usize, Integrals>, Covered) {
     (sums, covered)
 }
 
-/// How much longer than those of the slave linear facets of a master may be. They stay straight:
-/// beyond that the kinks between them, not the contact, would shape the pressure.
+/// Factor by which linear facets of a master may be longer than those of the slave. They stay
+/// straight: beyond this factor the kinks between them, not the contact, would shape the pressure.
 const LONGER: f64 = 2.0;
-/// How much longer facets of a master may be where gaps have these kinks too, of curved surfaces
-/// whose true shape is not known: the weights of a slave average them out if its facets are no
-/// shorter than the master's.
+/// Factor by which facets of a master may be longer if gaps have kinks, too, as for curved surfaces
+/// of unknown true shape: the weights of a slave average the kinks out if its facets are no shorter
+/// than the master's.
 const LONGER_KINKED: f64 = 1.0;
 
-/// The surface with the smaller facets where the two may face each other, the second if alike; the
-/// other one where its facets are linear and longer by more than [`LONGER`], or [`LONGER_KINKED`].
+/// Chooses the slave: the surface with the smaller facets where the two may face each other, the
+/// second if equal. The other surface is chosen if its facets are linear and longer by more than
+/// [`LONGER`], or [`LONGER_KINKED`].
 fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
     let faces = surfaces.map(|surface| -> Vec<MortarFace> {
         surface
@@ -306,7 +309,7 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
 }
 
 impl Sides<'_> {
-    /// The pair of a slave node; `None` where too little of it is covered.
+    /// Makes the pair of a slave node; `None` if too little of its area is covered.
     fn pair(&self, node: usize, of_node: &Integrals, arc: f64) -> Result<Option<Pair>> {
         let (mesh, stated) = (self.entries.mesh, self.entries.stated);
         let Some(&normal) = self.normals.get(&node) else {
@@ -327,9 +330,9 @@ impl Sides<'_> {
             _ if weight > 0.0 => masters,
             _ => return Ok(None),
         };
-        // The dual functions are negative in places, and go on beyond what is covered: of surfaces
-        // that overlap nowhere the mean with them may be negative. No surface is then closer than
-        // where it is closest.
+        // The dual functions are negative in places and extend beyond the covered part, so the mean
+        // gap may be negative although the surfaces overlap nowhere. The mean gap is therefore
+        // limited from below by the least gap, or by zero.
         let weighted = || {
             let mean = dot(of_node.gap.map(|g| g / weight), normal);
             mean.max(of_node.least.min(0.0))
@@ -398,8 +401,8 @@ impl Sides<'_> {
         }))
     }
 
-    /// How far facets of both surfaces may be off a surface through their nodes: a chord `h` whose
-    /// ends turn by an angle `t` is off its arc by `h t / 8`.
+    /// Estimates how far facets of both surfaces may deviate from a surface through their nodes: a
+    /// chord `h` whose ends turn by an angle `t` deviates from its arc by `h t / 8`.
     fn depth_of_facets(&self) -> f64 {
         [
             (&self.slaves, self.curves[0]),
@@ -412,7 +415,7 @@ impl Sides<'_> {
     }
 }
 
-/// Distance by which facets may be off a surface through their nodes.
+/// Estimates how far facets may deviate from a surface through their nodes.
 fn depth(faces: &[MortarFace]) -> f64 {
     let mut at: BTreeMap<usize, &MortarFace> = BTreeMap::new();
     let mut largest = 0.0f64;
@@ -427,7 +430,7 @@ fn depth(faces: &[MortarFace]) -> f64 {
     largest
 }
 
-/// The normals of masters that face no single node, for axes of their own.
+/// Normals of masters that face no single node, from which they get axes of their own.
 pub(in crate::model) fn master_normals(
     mesh: &Mesh,
     pairs: &[Pair],

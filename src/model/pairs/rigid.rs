@@ -1,7 +1,7 @@
-//! Pairs of nodes and a rigid surface: gap and normal are those of the surface, to the last digit.
+//! Pairs of nodes with a rigid surface, whose exact gap and normal they take.
 //!
-//! The gap of a node is its distance from the surface, the normal that at the closest point; small
-//! sliding: both stay as they are where the bodies move.
+//! The gap of a node is its distance from the surface, the normal is that at the closest point.
+//! Sliding is small: both keep their values when the bodies move.
 
 use super::matching::nodal_areas;
 use super::{ContactInput, Found, Pair};
@@ -12,12 +12,12 @@ use crate::space::{Vector, difference, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Cosine of the angle between the normals of the two surfaces up to which they face each other:
-/// beyond 60 degrees a surface would have to turn further than small displacements turn it.
+/// beyond 60 degrees a surface would have to turn further than small displacements allow.
 const FACING: f64 = 0.5;
-/// Share of a facet's length by which a node may lie in the rigid body: round-off of coordinates.
+/// Share of a facet's length by which round-off of coordinates may put a node into the rigid body.
 const ROUND_OFF: f64 = 1e-9;
 
-/// The pairs of a surface of the mesh, number `slave` of the contact, with a rigid one.
+/// Finds the pairs of a mesh surface, number `slave` of the contact, with a rigid one.
 ///
 /// # Errors
 /// Surfaces that are not one curve, that face each other nowhere, or that overlap.
@@ -34,7 +34,7 @@ pub(super) fn pairs(entries: &ContactInput, slave: usize, body: &RigidBody) -> R
             near.insert(node, (gap, normal.map(|n| -n)));
         }
     }
-    // Nodes of facets that face the surface as a whole.
+    // Nodes of facets whose nodes all face the rigid surface.
     let faces = surface.facets.iter().map(|&facet| mesh.facet_nodes(facet));
     let facing: BTreeSet<usize> = faces
         .filter(|nodes| nodes.clone().all(|node| near.contains_key(&node)))

@@ -1,10 +1,10 @@
-//! Surfaces whose faces look away from the other body: the wrong face of an element was named.
+//! Detects surfaces whose faces look away from the other body, because wrong faces were named.
 //!
-//! Outward normals of surfaces that touch, or that overlap, oppose one another. Where they agree,
-//! and nothing else of the one surface opposes the other there, one of the two faces is on the far
-//! side of its element. Where both are on the far side they oppose one another too, and the
-//! surfaces seem to overlap by what lies between them; but what overlaps lies inside both bodies,
-//! there it lies inside one, then inside the other.
+//! Outward normals of surfaces that touch or overlap are opposed to one another. If they agree, and
+//! nothing else of the one surface opposes the other there, one of the two faces is on the far side
+//! of its element. If both are on the far side, they oppose one another too, and the surfaces seem
+//! to overlap by what lies between them. A true overlap lies inside both bodies; this space lies
+//! first inside one body, then inside the other.
 
 use super::{ContactInput, Pair};
 use crate::balls::Balls;
@@ -15,22 +15,22 @@ use crate::number::significant;
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
 use std::collections::BTreeMap;
 
-/// Cosine of the largest angle between outward normals that agree, or oppose one another.
+/// Cosine of the largest angle between outward normals that count as equal or as opposed.
 const AGREE: f64 = 0.5;
-/// Share of the depth of a slave's element beyond which an overlap is looked at: a face on the far
-/// side is off by all of it.
+/// Share of the depth of a slave's element beyond which an overlap is examined: a face on the far
+/// side is off by the full depth.
 const DEEP: f64 = 0.9;
-/// Most faces that are looked at, the deepest ones.
+/// Largest number of faces that are examined, the deepest ones.
 const MOST: usize = 8;
-/// Distance from either end of an overlap, as a share of it, at which it is asked whether the place
-/// is inside.
+/// Distance from either end of an overlap, as a share of the overlap, at which a point is tested
+/// for being inside the bodies.
 const NEAR_ENDS: f64 = 0.125;
-/// Share of an element's size that a place may lie outside of its faces and count as inside.
+/// Share of an element's size by which a point may lie outside its faces and still count as inside.
 const OUTSIDE: f64 = 1e-3;
 
-/// Facets of a surface, found where lines meet the facets.
+/// Facets of a surface, with a search for those that a line meets.
 struct Looking {
-    /// Facet, middle, outward unit normal, corners.
+    /// Each facet with its middle, outward unit normal and corners.
     facets: Vec<(Facet, Vector, Vector, Vec<Vector>)>,
     near: Balls,
 }
@@ -52,8 +52,8 @@ impl Looking {
         Looking { facets, near }
     }
 
-    /// The facets that a line through a place along a unit vector meets: facet, outward normal, and
-    /// how far along the line its middle is.
+    /// Finds the facets that a line through a point along a unit vector meets: facet, outward
+    /// normal, and distance of its middle along the line.
     fn met(&self, x: Vector, line: Vector) -> impl Iterator<Item = (Facet, Vector, f64)> {
         let near = self.near.near(x, line, 0.0).into_iter();
         near.filter_map(move |k| {
@@ -64,12 +64,12 @@ impl Looking {
     }
 }
 
-/// Whether a line passes a facet between its corners.
+/// Whether a line passes between the corners of a facet.
 fn is_met(corners: &[Vector], x: Vector, line: Vector) -> bool {
     let n = corners.len();
     let way = |k: usize| difference(corners[k % n], x);
-    // Twice the area between an edge and the line, seen along it; of an edge of the plane its ends
-    // lie on either side.
+    // Twice the area between an edge and the line, seen along the line; for an edge in the plane,
+    // the sides of the line on which its ends lie.
     let side = |k: usize| match n {
         2 => dot(cross(line, way(k)), unit(2)),
         _ => dot(cross(way(k), way(k + 1)), line),
@@ -83,8 +83,8 @@ fn is_met(corners: &[Vector], x: Vector, line: Vector) -> bool {
 }
 
 impl ContactInput<'_> {
-    /// Refuses a facet of one surface that looks the same way as what lies opposite it on the
-    /// other, where nothing else of its own surface lies between and looks at that.
+    /// Refuses a facet of one surface with the same outward normal as the opposite facet of the
+    /// other, unless a facet of its own surface lies between them and looks at the other.
     pub(super) fn check_sides(&self) -> Result<()> {
         let looking = self
             .surfaces
@@ -102,7 +102,8 @@ impl ContactInput<'_> {
                     continue;
                 };
                 if !own.met(middle, normal).any(|(_, m, _)| dot(m, n) < -AGREE) {
-                    // What lies behind a facet it looks away from; what lies ahead looks away.
+                    // A facet looks away from what lies behind it; otherwise the facet ahead looks
+                    // away.
                     return Err(match off < 0.0 {
                         true => self.looks_away(facet, side, -off),
                         false => self.looks_away(opposite, 1 - side, off),
@@ -123,7 +124,7 @@ impl ContactInput<'_> {
         ))
     }
 
-    /// Refuses surfaces that overlap by more than their elements are deep where what is between
+    /// Refuses surfaces that overlap by more than the depth of their elements if the space between
     /// them is not inside both bodies.
     pub(super) fn check_overlap(&self, slave: usize, pairs: &[Pair]) -> Result<()> {
         let (mesh, slaves) = (self.mesh, self.surfaces[slave]);
@@ -182,7 +183,7 @@ impl ContactInput<'_> {
         [&self.contact.first, &self.contact.second][side]
     }
 
-    /// A facet in words: by its number in a deck, else by its nodes.
+    /// Names a facet: by its number in a deck, otherwise by its nodes.
     fn facet_name(&self, facet: Facet) -> String {
         let element = self.mesh.element_label(facet.element);
         match face_number(self.mesh.shapes[facet.element], facet.local) {
@@ -197,7 +198,7 @@ impl ContactInput<'_> {
         }
     }
 
-    /// What to name instead: the facets of the same elements on the other side.
+    /// Advice to name the facets of the same elements on the other side.
     fn advice(&self, wrong: &[Facet]) -> String {
         let mesh = self.mesh;
         let instead = |&facet: &Facet| {
@@ -216,7 +217,7 @@ impl ContactInput<'_> {
     }
 }
 
-/// The middle of a facet and its outward unit normal there.
+/// Middle of a facet and outward unit normal there.
 fn outward(mesh: &Mesh, facet: Facet) -> (Vector, Vector) {
     let points: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
     let reference = mesh.facet_reference(facet);
@@ -226,7 +227,7 @@ fn outward(mesh: &Mesh, facet: Facet) -> (Vector, Vector) {
     (middle, direction(reference.area(&at, &points)))
 }
 
-/// Distance that its element reaches behind a facet.
+/// Distance by which the element of a facet reaches behind the facet.
 fn depth(mesh: &Mesh, facet: Facet) -> f64 {
     let (middle, normal) = outward(mesh, facet);
     let behind = mesh.nodes(facet.element).iter().map(|&node| {
@@ -245,8 +246,8 @@ fn bodies(mesh: &Mesh, surface: &Surface) -> Vec<u32> {
     all
 }
 
-/// Whether a place is inside an element of some bodies: behind the planes through the middles of
-/// all of its facets.
+/// Whether a point is inside an element of some bodies, that is, behind the planes through the
+/// middles of all its facets.
 fn is_inside(mesh: &Mesh, bodies: &[u32], x: Vector) -> bool {
     let own = (0..mesh.n_elements()).filter(|&e| bodies.contains(&mesh.element_body[e]));
     let mut holds = own.filter(|&element| {

@@ -1,4 +1,4 @@
-//! Gaps and interferences that a contact states, where they do not follow from the mesh.
+//! Gaps and interferences that a contact states instead of taking them from the mesh.
 
 use super::super::contact_basis::ContactBasis;
 use super::super::names::Entry;
@@ -8,7 +8,7 @@ use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::scene::{Contact, Field, Scene};
 
-/// What a contact states, at the nodes of the slaves.
+/// Gap and interference stated by a contact, at the slave nodes.
 #[derive(Default)]
 pub(super) struct Stated<'a> {
     gap: Option<OnMesh<'a>>,
@@ -16,10 +16,10 @@ pub(super) struct Stated<'a> {
 }
 
 impl<'a> Stated<'a> {
-    /// What the contact states.
+    /// Reads the fields that the contact states.
     ///
     /// # Errors
-    /// `Input` where a formula or a file is none.
+    /// `Input` if a formula or a file is invalid.
     pub fn of(contact: &'a Contact, scene: &Scene, mesh: &'a Mesh) -> Result<Self> {
         let gap = contact.gap.as_ref();
         let gap = gap.map(|gap| OnMesh::new(gap, "gap", scene, mesh));
@@ -30,18 +30,18 @@ impl<'a> Stated<'a> {
         })
     }
 
-    /// The gap at a slave, where one is stated.
+    /// Stated gap at a slave node; `None` if the contact states none.
     ///
     /// # Errors
-    /// `Input` where it is negative or not known at the node.
+    /// `Input` if the gap is negative or not known at the node.
     pub fn gap(&self, slave: usize) -> Result<Option<f64>> {
         at(self.gap.as_ref(), "gap", slave)
     }
 
-    /// The interference at a slave.
+    /// Interference at a slave node; zero if the contact states none.
     ///
     /// # Errors
-    /// `Input` where it is negative or not known at the node.
+    /// `Input` if the interference is negative or not known at the node.
     pub fn interference(&self, slave: usize) -> Result<f64> {
         Ok(at(self.interference.as_ref(), "interference", slave)?.unwrap_or(0.0))
     }
@@ -54,12 +54,11 @@ fn at(field: Option<&OnMesh>, key: &str, node: usize) -> Result<Option<f64>> {
         .transpose()
 }
 
-/// Puts what depends on the position, which is that of the slave nodes, in terms of the control
-/// points of their faces. Pairs of nodes that face each other are restated as a whole
-/// ([`ContactBasis::restate`]).
+/// Converts quantities that depend on the position from slave nodes to the control points of their
+/// faces. Pairs of nodes that face each other are converted as a whole ([`ContactBasis::restate`]).
 ///
 /// # Errors
-/// `Input` where a value at a node of a face is not known.
+/// `Input` if a value at a node of a face is not known.
 pub(in crate::model) fn at_control_points(
     scene: &Scene,
     mesh: &Mesh,

@@ -1,4 +1,4 @@
-//! Surfaces that are tied: which of their nodes follow which, by the rows of [`super::mortar`].
+//! Tied surfaces: the rows of [`super::mortar`] by which their nodes follow others.
 
 use super::stated::Stated;
 use super::{ContactInput, ContactSurface, Pair, list, mortar};
@@ -8,23 +8,23 @@ use crate::model::names::Entry;
 use crate::scene::{Contact, Scene, Tie};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A tie of the scene.
+/// A tie of the scene with its rows.
 #[derive(Debug, Clone)]
 pub(in crate::model) struct Tied {
-    /// In words, for messages.
+    /// Description of the tie for messages.
     pub what: String,
-    /// The surface whose nodes follow.
+    /// Name of the surface whose nodes follow.
     pub slaves: String,
-    /// Rows by which each of its nodes follows others; the area is the integral of the dual
+    /// Rows by which each slave node follows others; the area of a row is the integral of the dual
     /// function.
     pub rows: Vec<Pair>,
 }
 
-/// The ties of a scene.
+/// Resolves the ties of a scene.
 ///
 /// # Errors
-/// Input errors: surfaces that there are not or that do not lie on one another, a node tied twice,
-/// a surface tied to what it is in contact with.
+/// Input errors: surfaces that do not exist or do not lie on one another, a node tied twice, a
+/// surface tied to a surface with which it is in contact.
 pub(in crate::model) fn resolve(
     scene: &Scene,
     mesh: &Mesh,

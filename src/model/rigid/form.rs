@@ -1,26 +1,26 @@
-//! The forms of rigid surfaces: distance and normal at any point, without a mesh.
+//! Forms of rigid surfaces: distance and normal at any point, without a mesh.
 //!
-//! Surfaces of revolution are known by their meridian. With the axis `a` through `c`,
+//! Surfaces of revolution are given by their meridian. With the axis `a` through `c`,
 //!
 //! ```text
 //!     t = (x - c) . a,    s = |x - c - t a|,    e = (x - c - t a) / s
 //! ```
 //!
-//! the distance `d(s, t)` is positive outside of the rigid body and its gradient
-//! `d,s e + d,t a` is the unit normal out of it, at the point of the surface that is closest. In
-//! plane models, where `z = 0`, a meridian is the section itself.
+//! the distance `d(s, t)` is positive outside the rigid body, and its gradient `d,s e + d,t a` is
+//! the unit normal out of the body at the closest point of the surface. In plane models, where
+//! `z = 0`, a meridian is the section itself.
 
 use super::heights::Heights;
 use crate::error::{Error, Result};
 use crate::scene::{RigidSurface, Scene};
 use crate::space::{Vector, along, difference, direction, dot, length, unit};
 
-/// A rigid surface as points see it.
+/// Form of a rigid surface, which gives distance and normal at any point.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::model) enum Form {
-    /// A half space, by a point and the normal out of it.
+    /// A half space, given by a point and the normal out of it.
     Plane { point: Vector, normal: Vector },
-    /// All that lies within a radius of a point.
+    /// A ball around a point, or the space outside it.
     Sphere { center: Vector, round: Round },
     /// A surface of revolution.
     Revolved {
@@ -28,25 +28,25 @@ pub(in crate::model) enum Form {
         axis: Vector,
         meridian: Meridian,
     },
-    /// Heights over a line or a plane.
+    /// A surface given by heights over a line or a plane.
     Heights(Heights),
 }
 
-/// A circle, and whether the rigid body is what lies outside of it.
+/// A circle; if `hollow`, the rigid body is what lies outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::model) struct Round {
     radius: f64,
     hollow: bool,
 }
 
-/// What is turned about an axis.
+/// Curve that is revolved about an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::model) enum Meridian {
-    /// A line along the axis.
+    /// A line parallel to the axis.
     Cylinder(Round),
-    /// A circle about a point at a distance from the axis.
+    /// A circle around a point at a distance from the axis.
     Torus { ring: f64, round: Round },
-    /// An arc about the origin and its tangent at the angle whose sine and cosine are given; the
+    /// An arc about the origin and its tangent at the angle with the given sine and cosine; the
     /// axis leads from the tip into the cone.
     Cone { sin: f64, cos: f64, radius: f64 },
     /// A line `t = 0`, an arc, and a line along the axis; the axis leads into the punch.
@@ -54,7 +54,7 @@ pub(in crate::model) enum Meridian {
 }
 
 impl Round {
-    /// Distance, and the factor of the outward normal, at a distance from the centre.
+    /// Distance and sign of the outward normal, from the distance to the centre.
     fn at(self, from_center: f64) -> (f64, f64) {
         let off = from_center - self.radius;
         if self.hollow {
@@ -105,10 +105,10 @@ impl Meridian {
 }
 
 impl Form {
-    /// The form of a surface of a scene, which is valid.
+    /// Converts a surface of a valid scene.
     ///
     /// # Errors
-    /// Errors of a file of heights.
+    /// Errors in a file of heights.
     pub(in crate::model) fn of(surface: &RigidSurface, scene: &Scene) -> Result<Self> {
         let space = scene.kind;
         if let Some(of) = &surface.heights {
@@ -116,7 +116,7 @@ impl Form {
             let heights = Heights::read(&path, dimension, space.is_axisymmetric(), !of.below);
             return heights.map(Form::Heights);
         }
-        // About what surfaces turn whose axis is not given.
+        // Axis of revolution for a surface that gives none.
         let turned = |axis: Option<Vector>, plane: Vector| {
             let implied = if space.is_axisymmetric() {
                 unit(1)
@@ -171,8 +171,8 @@ impl Form {
         })
     }
 
-    /// Distance of a point, negative inside of the rigid body, and the unit normal out of that body
-    /// at the closest point; `None` where no point is closest.
+    /// Distance of a point, negative inside the rigid body, and the unit normal out of the body at
+    /// the closest point; `None` if no point is closest.
     pub(in crate::model) fn near(&self, x: Vector) -> Option<(f64, Vector)> {
         match self {
             Form::Heights(heights) => heights.near(x),

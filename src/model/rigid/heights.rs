@@ -1,13 +1,13 @@
 //! A rigid surface by its heights: `y = h(x)` in plane models, `z = h(x, y)` in solids, `z = h(r)`
 //! in axisymmetric ones, given at the points of a grid.
 //!
-//! Between them Hermite's cubics run, one direction after the other, with the slopes of the
-//! parabolas through three neighbours (at the ends of the line: of the first and last three).
-//! Values and slopes are continuous, and a paraboloid is met exactly.
+//! Between the points Hermite's cubics are used, in one direction after the other, with the slopes
+//! of the parabolas through three neighbours (at the ends of the line, the first and last three).
+//! Values and slopes are continuous, and a paraboloid is reproduced exactly.
 //!
-//! The point `(u, v, h)` closest to `x` is where the way to it is at right angles to both tangents.
-//! Newton's steps lead there, without the curvature where that makes the matrix indefinite, and
-//! halved until the point is nearer:
+//! At the point `(u, v, h)` closest to `x` the difference from `x` is at right angles to both
+//! tangents. Newton's method finds this point. Its steps omit the curvature if that makes the
+//! matrix indefinite, and are halved until the point gets closer:
 //!
 //! ```text
 //!     T = [1 0 h,u; 0 1 h,v],    T (x - (u, v, h)) = 0
@@ -21,25 +21,25 @@ use crate::space::{Vector, difference, direction, dot, length};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Steps to the closest point; Newton's take a handful, those without curvature some dozens.
+/// Largest number of steps to the closest point; Newton's need a handful, others some dozens.
 const STEPS: usize = 100;
-/// Halvings of a step that leads away.
+/// Largest number of halvings of a step that leads away.
 const HALVINGS: usize = 40;
-/// Share of the largest coordinate by which a closest point may be off.
+/// Error allowed in a closest point, as a share of the largest coordinate.
 const EXACT: f64 = 1e-13;
 
-/// Heights on a grid.
+/// Heights of a rigid surface on a grid.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::model) struct Heights {
-    /// Places along x and y, ascending; in the plane one along y.
+    /// Grid coordinates along x and y, ascending; in the plane a single one along y.
     places: [Vec<f64>; 2],
-    /// Row by row, x first.
+    /// Heights row by row, x first.
     values: Vec<f64>,
-    /// The axis along which heights are measured.
+    /// Number of the axis along which heights are measured.
     up: usize,
-    /// Whether the line goes on as its image beyond its first place: it begins on an axis.
+    /// Whether the line starts on an axis, beyond which it continues as its mirror image.
     is_mirrored: bool,
-    /// 1 where the rigid body is above, -1 where it is below.
+    /// Side of the rigid body: 1 if it is above, -1 if below.
     side: f64,
 }
 
@@ -47,8 +47,8 @@ impl Heights {
     /// Reads a file of `x,y` (plane) or `x,y,z` in any order, below a line of names.
     ///
     /// # Errors
-    /// `Io`, and `Input` naming line or place: no number, a place that has two heights or none, a
-    /// grid of fewer than three places.
+    /// `Io`; `Input`, naming line or point: no number, a point with two heights or none, a grid of
+    /// fewer than three points along an axis.
     pub fn read(path: &Path, dimension: usize, axisymmetric: bool, above: bool) -> Result<Self> {
         let text = files::read_text("read the heights", path, None)?;
         let parsed = parse(&text, dimension).and_then(|points| grid(&points, dimension - 1));
@@ -62,12 +62,14 @@ impl Heights {
         })
     }
 
-    /// As [`super::Form::near`]; `None` also where the closest point is beyond the grid.
+    /// Distance and normal as for [`super::Form::near`]; `None` also if the closest point is off
+    /// the grid.
     pub fn near(&self, x: Vector) -> Option<(f64, Vector)> {
         let flat = self.up == 1;
         let scale = x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let scale = self.values.iter().fold(scale, |most, h| most.max(h.abs()));
-        // At the border a way that leads beyond it has no end.
+        // The search starts on the grid; if a step at the border leads beyond it, nothing is
+        // closest.
         let mut place = self.within([x[0], if flat { 0.0 } else { x[1] }]);
         for _ in 0..STEPS {
             let [h, of_u, of_v, uu, uv, vv] = self.at(place)?;
@@ -98,7 +100,7 @@ impl Heights {
             let next = tried.find(|next| off(*next).is_some_and(|there| there <= here));
             match next {
                 Some(next) if next != place => place = next,
-                // At the border, and the way leads beyond it.
+                // The point is at the border, and the step leads beyond it.
                 _ if self.within(gone(1.0)) != gone(1.0) => return None,
                 _ => return self.seen_from(x, place),
             }
@@ -106,7 +108,7 @@ impl Heights {
         None
     }
 
-    /// Distance of a point from that above a place of the grid.
+    /// Distance of a point from the surface point above a place of the grid.
     fn distance(&self, x: Vector, place: [f64; 2]) -> Option<f64> {
         Some(length(difference(x, self.foot(place, self.at(place)?[0]))))
     }
@@ -117,7 +119,7 @@ impl Heights {
         foot
     }
 
-    /// A place, or the closest one on the border of the grid.
+    /// The place itself, or the closest one on the border of the grid.
     fn within(&self, place: [f64; 2]) -> [f64; 2] {
         let [low, high] = [0, 1].map(|end| {
             let ends = self.places.each_ref();
@@ -127,7 +129,7 @@ impl Heights {
         [0, 1].map(|axis| place[axis].clamp(low[axis], high[axis]))
     }
 
-    /// Distance and normal at the closest point; none where the way to it leaves the grid.
+    /// Distance and normal with the closest point above a place of the grid.
     fn seen_from(&self, x: Vector, place: [f64; 2]) -> Option<(f64, Vector)> {
         let [h, of_u, of_v, ..] = self.at(place)?;
         let mut normal = [of_u, of_v, 0.0];
@@ -155,21 +157,21 @@ impl Heights {
     }
 }
 
-/// The solution of `[a c; c d] x = b`.
+/// Solves the symmetric system `[a c; c d] x = b`.
 fn solve([a, c, d]: [f64; 3], b: [f64; 2]) -> [f64; 2] {
     let det = a * d - c * c;
     [(d * b[0] - c * b[1]) / det, (a * b[1] - c * b[0]) / det]
 }
 
-/// Where a place stands on a line of the grid: value and first two derivatives there are sums over
-/// these points.
+/// A position on a line of the grid: value and first two derivatives there are weighted sums over
+/// four grid points.
 struct GridLine {
     first: usize,
     weights: [[f64; 4]; 3],
 }
 
 impl GridLine {
-    /// `None` beyond the ends.
+    /// Finds the position `at`; `None` beyond the ends of the line.
     fn of(x: &[f64], at: f64, is_mirrored: bool) -> Option<Self> {
         let n = x.len();
         let round_off = 1e-12 * (x[n - 1] - x[0]);
@@ -180,7 +182,8 @@ impl GridLine {
         let first = k.saturating_sub(1).min(n.saturating_sub(4));
         let h = x[k + 1] - x[k];
         let t = (at - x[k]) / h;
-        // Hermite's polynomials and their derivatives: of the values at both ends, of the slopes.
+        // Hermite's polynomials and their derivatives: factors of the values and of the slopes at
+        // both ends.
         let of_ends = [
             [(1.0 + 2.0 * t) * (1.0 - t).powi(2), t * t * (3.0 - 2.0 * t)],
             [-6.0 * t * (1.0 - t) / h, 6.0 * t * (1.0 - t) / h],
@@ -222,7 +225,8 @@ impl GridLine {
     }
 }
 
-/// The slope at a point of the parabola through it and its neighbours, as a sum over these.
+/// Slope at a point of the parabola through three neighbouring points, as a weighted sum over their
+/// values.
 fn slope(x: &[f64], at: usize) -> [(usize, f64); 3] {
     let middle = at.clamp(1, x.len() - 2);
     let p = [middle - 1, middle, middle + 1];
@@ -234,7 +238,7 @@ fn slope(x: &[f64], at: usize) -> [(usize, f64); 3] {
     [0, 1, 2].map(|i| (p[i], weight(i)))
 }
 
-/// The points of a file, with their lines.
+/// Reads the points of a file, with their line numbers.
 fn parse(text: &str, dimension: usize) -> Result<Vec<(usize, Vector)>> {
     let mut points = Vec::new();
     for (index, line) in text.lines().enumerate() {
@@ -262,7 +266,7 @@ fn parse(text: &str, dimension: usize) -> Result<Vec<(usize, Vector)>> {
     Ok(points)
 }
 
-/// Places and heights of points on a grid along as many axes.
+/// Sorts points into a grid: coordinates along each axis, and heights.
 fn grid(points: &[(usize, Vector)], axes: usize) -> Result<([Vec<f64>; 2], Vec<f64>)> {
     let mut places = [Vec::new(), vec![0.0]];
     for (axis, places) in places.iter_mut().enumerate().take(axes) {
@@ -338,7 +342,7 @@ mod tests {
             for (found, exact) in [(xx, 0.2), (xy, -0.05), (yy, 0.04)] {
                 assert!((found - exact).abs() < 1e-12, "{found} for {exact}");
             }
-            // From a point below along the normal back to it.
+            // From a point below the surface, along the normal, back to the surface.
             let normal = direction([of_x, of_y, -1.0]);
             let from = crate::space::along([x, y, h], 0.3, normal);
             if let Some((distance, found)) = heights.near(from) {
@@ -346,11 +350,12 @@ mod tests {
                 assert!(length(difference(found, normal)) < 1e-11);
             }
         }
-        // Beyond the grid.
+        // Points beyond the grid have no closest point.
         assert_eq!(heights.near([9.0, 0.0, 0.0]), None);
     }
 
-    /// Tips that are more curved than they are near, which steps along the tangents run away from.
+    /// Sharp tips, seen from a distance beyond their radius of curvature: plain Newton steps
+    /// diverge.
     #[test]
     fn a_sharp_tip_is_seen_from_afar() {
         let sharp = |x: f64, y: f64| 20.0 * x * x + 5.0 * x * y + 10.0 * y * y;

@@ -1,9 +1,9 @@
-//! Bodies that are coupled by contact alone.
+//! Tests with bodies that are coupled by contact alone.
 
 use super::*;
 
-/// Two bodies whose freedoms alternate: contact freedoms of one are not coupled with those of the
-/// other.
+/// Two bodies whose freedoms alternate: contact freedoms of one body are not coupled with those of
+/// the other.
 #[test]
 fn bodies_that_only_touch_have_blocks_of_their_own() {
     let grid = Grid::<2>::new([12, 7], Support::Bottom);

@@ -1,11 +1,11 @@
-//! A factor with other values in the zone: the condensation of the matrix that has them.
+//! A factor with changed values in the zone equals the condensation of the changed matrix.
 
 use super::{DenseCondensed, Way, ways};
 use crate::linalg::tests::matrices::{Grid, Support};
 use crate::linalg::tests::{Numbers, distance, norm};
 use crate::linalg::{ChangedFactor, Condensed, Partition, SymmetricCsc, ZonePart};
 
-/// A block on its foot: zone below a contact in the middle of the top.
+/// A block held at its foot: contact in the middle of the top, with the zone below.
 fn block() -> (Grid<2>, Partition) {
     let grid = Grid::<2>::new([8, 8], Support::Bottom);
     let contact = grid.freedoms(1..2, |[x, y]| y == 8 && (2..=5).contains(&x));
@@ -19,7 +19,7 @@ fn block() -> (Grid<2>, Partition) {
     (grid, partition)
 }
 
-/// Takes the difference of two matrices off, entry by entry; all of it is on zone and contact.
+/// Subtracts the difference of two matrices, which lies on zone and contact, entry by entry.
 fn take_off(
     changed: &mut dyn ChangedFactor,
     [matrix, other]: [&SymmetricCsc; 2],
@@ -51,7 +51,7 @@ fn a_changed_factor_is_that_of_the_changed_matrix() {
         _ => 1.0,
     };
     let (stiff, soft) = (grid.stiffness(|_| 1.0), grid.stiffness(soft));
-    // Of the elements that change all freedoms, and those below and beside them.
+    // All freedoms of the elements that change, and further ones below and next to them.
     let wanted = grid.freedoms(0..2, |[x, y]| y > 4 && (2..=6).contains(&x));
     for Way { name, condense, .. } in ways() {
         for shift in [vec![], vec![2.0; partition.contact.len()]] {
@@ -70,7 +70,7 @@ fn a_changed_factor_is_that_of_the_changed_matrix() {
                     zone: zone.clone(),
                     ..partition.clone()
                 };
-                // Another matrix before leaves no trace.
+                // A previous matrix leaves no trace.
                 changed.begin();
                 changed.take_off(&[0], &[1e3]);
                 assert!(!changed.factor(), "{name}");
@@ -90,7 +90,7 @@ fn assert_alike(
     partition: &Partition,
     name: &str,
 ) {
-    // Round-off times the condition, which is that of the softest layer over the block.
+    // Round-off times the condition, which is that of the softest layer relative to the block.
     let tolerance = 1e-10;
     let [a, b] = [changed.contact_stiffness(), dense.contact_stiffness()].map(|c| c.dense());
     assert!((&a - &b).norm() <= tolerance * b.norm(), "{name}");

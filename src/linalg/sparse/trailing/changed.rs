@@ -1,11 +1,11 @@
-//! The trailing matrix with other values, factored anew in the pattern of the factor at hand.
+//! Trailing matrix with changed values, factored anew in the pattern of the existing factor.
 //!
 //! ```text
 //!     M = L_tt L_tt' - sum_e P_e' A_e P_e
 //! ```
 //!
-//! What small matrices `A_e` on freedoms that the condensed matrix couples change lies in the
-//! pattern of `L_tt`: the panels of `L_tt` hold the factor of `M`, too.
+//! Small matrices `A_e` on freedoms that the condensed matrix couples stay within the pattern of
+//! `L_tt`: the panels of `L_tt` can hold the factor of `M`, too.
 //!
 //! # Source
 //! E. G. Ng, B. W. Peyton, *Block sparse Cholesky algorithms on advanced uniprocessor computers*,
@@ -15,22 +15,22 @@ use super::{Panel, TrailingFactor, panel};
 use crate::linalg::{ChangedFactor, ContactStiffness, ZonePart, blocked};
 use nalgebra::{DMatrix, DMatrixViewMut};
 
-/// `M` and its factor.
+/// Matrix `M` with its factor.
 pub(crate) struct Changed {
     factor: TrailingFactor,
     shift: Vec<f64>,
-    /// `L_tt L_tt'`, panel by panel, each of all its rows, column by column; empty before it is
-    /// asked for.
+    /// Matrix `L_tt L_tt'`, panel by panel, each with all its rows, column by column; empty until
+    /// it is needed.
     unchanged: Vec<f64>,
-    /// `M`, or what of it is factored.
+    /// Matrix `M`, overwritten by its factor panel by panel.
     work: Vec<f64>,
     /// Number of values in `unchanged` and in `work`.
     size: usize,
-    /// Start of each panel in the values.
+    /// Start of each panel in `unchanged` and `work`.
     starts: Vec<usize>,
     /// Panel of each column.
     panel_of: Vec<u32>,
-    /// Column of each freedom, those of the zone first, then those of contact.
+    /// Column of each freedom, zone freedoms first, then contact freedoms.
     columns: Vec<u32>,
     /// Places of the rows of an update in the panel that it changes.
     places: Vec<u32>,
@@ -38,7 +38,7 @@ pub(crate) struct Changed {
 }
 
 impl Changed {
-    /// A changed factor, for the trailing factor of a matrix with this shift.
+    /// Makes a changed factor for the trailing factor of a matrix with this shift.
     pub(crate) fn new(trailing: &TrailingFactor, shift: &[f64]) -> Self {
         let factor = trailing.like();
         let mut panel_of = vec![0; factor.kept.len()];
@@ -74,7 +74,7 @@ impl Changed {
         }
     }
 
-    /// `unchanged = L L'`.
+    /// Computes `unchanged = L L'`.
     fn multiply(&mut self) {
         let mut values = vec![0.0; self.size];
         for k in 0..self.factor.panels.len() {
@@ -124,7 +124,7 @@ impl Changed {
         }
     }
 
-    /// Factors what stands in `work`; false where a pivot is not positive.
+    /// Factors the matrix in `work`; returns false if a pivot is not positive.
     fn factor_work(&mut self, work: &mut [f64]) -> bool {
         for k in 0..self.factor.panels.len() {
             let p = &self.factor.panels[k];
@@ -143,12 +143,12 @@ impl Changed {
     }
 }
 
-/// Factors a panel whose rows before it are done: the rows below the triangle.
+/// Factors a panel to which all earlier updates are applied; returns the rows below the triangle.
 fn factor_panel(values: &mut DMatrixViewMut<f64>) -> Option<DMatrix<f64>> {
     let (height, width) = values.shape();
     let own = values.rows(0, width).into_owned().cholesky()?.unpack();
     values.rows_mut(0, width).copy_from(&own);
-    // L_21 = A_21 L_11^-T, by its transpose.
+    // L_21 = A_21 L_11^-T, computed by its transpose.
     let mut right = values.rows(width, height - width).transpose();
     own.solve_lower_triangular_unchecked_mut(&mut right);
     let below = right.transpose();
@@ -156,7 +156,7 @@ fn factor_panel(values: &mut DMatrixViewMut<f64>) -> Option<DMatrix<f64>> {
     Some(below)
 }
 
-/// Places in panel `q`, with this list of rows, of ascending rows that are all among them.
+/// Places in panel `q`, which has the given list of rows, of ascending rows that are all in it.
 fn place_rows(q: &Panel, list: &[u32], rows: impl Iterator<Item = usize>, places: &mut [u32]) {
     let mut next = 0;
     for (row, place) in rows.zip(places) {
@@ -230,14 +230,14 @@ impl ChangedFactor for Changed {
 }
 
 impl Panel {
-    /// Rows of its columns, those above the diagonal included.
+    /// Number of rows of the panel's columns, including those above the diagonal.
     fn height(&self) -> usize {
         self.width + self.rows.len()
     }
 }
 
 impl TrailingFactor {
-    /// Another one with the same columns.
+    /// Makes another factor with the same columns.
     fn like(&self) -> Self {
         let mut like = TrailingFactor {
             n_zone: self.n_zone,
@@ -271,7 +271,7 @@ impl TrailingFactor {
         block
     }
 
-    /// Takes over the values of a factor with the same panels, stored by columns.
+    /// Stores the values of a factor with the same panels, given by columns.
     fn store(&mut self, columns: &[f64], starts: &[usize]) {
         self.values.clear();
         for (p, &start) in self.panels.iter().zip(starts) {

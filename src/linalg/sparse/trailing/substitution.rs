@@ -1,7 +1,7 @@
-//! Substitution with the trailing columns, subtree by subtree.
+//! Forward and backward substitution with the trailing columns, subtree by subtree.
 //!
-//! What is the same for every thread count is the cut into subtrees and the order in which what
-//! they leave to the columns above them is summed: so are the bits.
+//! The cut into subtrees, and the sequence in which their contributions to the columns above are
+//! summed, are the same for every number of threads; so are the bits of the result.
 
 use super::super::panel;
 use super::super::tree::Forest;
@@ -11,18 +11,18 @@ use rayon::prelude::*;
 use std::ops::Range;
 use std::sync::PoisonError;
 
-/// Panels that may be solved while those of other subtrees are. They see a vector of their own,
-/// `[ columns | outer ]`: what a subtree does to rows outside it stands in the rows of its last
-/// panel, its root.
+/// Panels that may be solved at the same time as panels of other subtrees. A subtree works on a
+/// vector of its own, `[ columns | outer ]`: its contributions to rows outside the subtree belong
+/// to the rows of its last panel, the root.
 #[derive(Debug)]
 pub(super) struct Subtree {
     pub(super) panels: Range<usize>,
     pub(super) columns: Range<usize>,
-    /// Rows of the root, in `TrailingFactor::rows`.
+    /// Rows of the root panel, as a range in `TrailingFactor::rows`.
     pub(super) outer: Range<usize>,
-    /// Where the rows of each panel begin in `own_rows`.
+    /// Start of the rows of each panel in `own_rows`.
     starts: Vec<usize>,
-    /// The rows of all panels in the subtree's own numbering.
+    /// Rows of all panels in the subtree's own numbering.
     own_rows: Vec<u32>,
 }
 
@@ -34,7 +34,7 @@ pub(super) struct WorkOfSubtree {
 }
 
 impl TrailingFactor {
-    /// Cuts the elimination tree of the zone's panels.
+    /// Cuts the elimination tree of the zone's panels into subtrees.
     pub(super) fn find_subtrees(&mut self) {
         let zone = &self.panels[..self.n_zone_panels];
         let panel_of = |column: u32| zone.partition_point(|p| p.first + p.width <= column as usize);
@@ -63,7 +63,7 @@ impl TrailingFactor {
                 own_rows.extend(self.rows[p.rows.clone()].iter().map(|&row| {
                     match columns.contains(&(row as usize)) {
                         true => row - first as u32,
-                        // Rows of a descendant outside the subtree are rows of the root.
+                        // Rows of a descendant outside the subtree are also rows of the root.
                         false => (columns.len() + outer.partition_point(|o| *o < row)) as u32,
                     }
                 }));
@@ -84,8 +84,8 @@ impl TrailingFactor {
         self.subtrees.len()
     }
 
-    /// The panels of the marked zone freedoms and all that these depend on: their ancestors in the
-    /// elimination tree.
+    /// Finds the panels of the marked zone freedoms and all panels on which these depend: their
+    /// ancestors in the elimination tree.
     pub(crate) fn part_of_zone(&self, marked: &[bool]) -> ZonePart {
         let mut blocks = vec![false; self.n_zone_panels];
         for k in 0..self.n_zone_panels {
@@ -99,7 +99,7 @@ impl TrailingFactor {
         ZonePart { blocks }
     }
 
-    /// The zone's panels that are in no subtree, in their order.
+    /// Panels of the zone that are in no subtree, in ascending order.
     fn top(&self) -> impl DoubleEndedIterator<Item = usize> {
         let begins = [0]
             .into_iter()
@@ -109,7 +109,7 @@ impl TrailingFactor {
         gaps.into_iter().flat_map(|(begin, end)| begin..end)
     }
 
-    /// The panels of a subtree with their rows.
+    /// Panels of a subtree, each with its rows.
     fn panels_of<'a>(
         &'a self,
         tree: &'a Subtree,
@@ -118,8 +118,8 @@ impl TrailingFactor {
         panels.map(|(k, &start)| (k, &tree.own_rows[start..start + self.panels[k].rows.len()]))
     }
 
-    /// Forward substitution with the columns of a panel: `own = L^-1 own`, and `below -= L own` for
-    /// its rows, which `rows` number from `offset`.
+    /// Performs the forward substitution with the columns of a panel: `own = L^-1 own`, and
+    /// `below -= L own` for the panel's rows, which `rows` numbers from `offset` on.
     fn forward(
         &self,
         p: &Panel,
@@ -141,7 +141,7 @@ impl TrailingFactor {
         }
     }
 
-    /// Backward substitution: `own = L^-T (own - L' below)`.
+    /// Performs the backward substitution with a panel: `own = L^-T (own - L' below)`.
     fn backward(
         &self,
         p: &Panel,
@@ -158,15 +158,15 @@ impl TrailingFactor {
         panel::solve_upper(&self.values[p.triangle()], own);
     }
 
-    /// `f_t = L_tt y_t`, given for all trailing columns of the factor, returned for the kept ones
-    /// in the partition's order.
+    /// Computes `f_t = L_tt y_t`; `y` is given for all trailing columns of the factor, the result
+    /// is for the kept ones in the partition's order.
     pub(crate) fn condensed_load(&self, y: &[f64], zone: &mut [f64], contact: &mut [f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         let Work { vector, rows, .. } = &mut *work;
         for (value, &column) in vector.iter_mut().zip(&self.kept) {
             *value = y[column as usize];
         }
-        // From the last panel to the first: what a panel reads has not been overwritten yet.
+        // From the last panel to the first, so that nothing is overwritten before a panel reads it.
         for p in self.panels.iter().rev() {
             let list = &self.rows[p.rows.clone()];
             let sums = &mut rows[..list.len()];
@@ -183,7 +183,8 @@ impl TrailingFactor {
         scatter(&self.contact, y_contact, contact);
     }
 
-    /// `y_z = L_zz^-1 f_z` left in `zone` in the order of the factor, and `contact -= L_cz y_z`.
+    /// Leaves `y_z = L_zz^-1 f_z` in `zone`, in the order of the factor, and subtracts `L_cz y_z`
+    /// from `contact`.
     pub(crate) fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         let Work {
@@ -229,8 +230,8 @@ impl TrailingFactor {
         scatter(&self.contact, v_contact, contact);
     }
 
-    /// `u_z = L_zz^-T (y_z - L_cz' u_c)` in a part of the zone and zero elsewhere, with `zone` as
-    /// [`TrailingFactor::eliminate_zone`] left it.
+    /// Computes `u_z = L_zz^-T (y_z - L_cz' u_c)` in a part of the zone, zero elsewhere, from
+    /// `zone` as [`TrailingFactor::eliminate_zone`] left it.
     pub(crate) fn recover_zone(&self, part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
         let Work {

@@ -1,8 +1,8 @@
 //! Integrals over a slave facet, with the functions dual to its trace basis.
 //!
 //! The dual functions come from an orthogonal factorisation at the points of the covered part,
-//! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`: where little is covered that loses
-//! half of the digits that the inverse of `int phi_j phi_l` would.
+//! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`. If little is covered, this loses only
+//! half of the digits that the inverse of `int phi_j phi_l` would lose.
 
 use super::face::{MortarFace, Plane, Point};
 use super::{CoveredFacet, NOTHING, Sides, overlap};
@@ -12,32 +12,33 @@ use crate::space::{Vector, along, difference, direction, dot, length};
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
-/// Smallest over largest diagonal entry of `R` at which a facet counts as covered at all.
+/// Ratio of the smallest to the largest diagonal entry of `R` at which a facet counts as covered.
 const SLIVER: f64 = 1e-7;
-/// Share of a facet that is not covered above which it counts as covered in part: round-off.
+/// Uncovered share of a facet above which it counts as partly covered; below it is round-off.
 const PARTLY: f64 = 1e-9;
-/// Share of a facet that may be covered twice: more than polygons are off facets with curved edges.
+/// Share of a facet that may be covered twice: polygons deviate by less from facets with curved
+/// edges.
 const TWICE: f64 = 0.05;
-/// Weight of each end of an edge at its middle: that of [`crate::model::ContactBasis`].
+/// Weight of each end of an edge at its middle, as in [`crate::model::ContactBasis`].
 const ALPHA: f64 = crate::model::ContactBasis::ALPHA;
 
-/// Integrals of the functions of a slave node.
+/// Integrals of the functions of a slave node over its facets.
 pub(super) struct Integrals {
-    /// `int phi` over all of the node's facets.
+    /// Integral `int phi` over all facets of the node.
     pub whole: f64,
-    /// `D = int psi` over what is covered.
+    /// Integral `D = int psi` over the covered part.
     pub covered: f64,
-    /// `M` by master nodes.
+    /// Integrals `M` by master nodes.
     masters: BTreeMap<usize, f64>,
-    /// `int psi` times the vector from the slave to the master.
+    /// Integral of `psi` times the vector from the slave to the master.
     pub gap: Vector,
-    /// `int psi` times the unit normal.
+    /// Integral of `psi` times the unit normal.
     pub normal: Vector,
-    /// The least gap at a point of the node's facets.
+    /// Smallest gap at any point of the node's facets.
     pub least: f64,
-    /// Master facets, by their number, that facets of the node face.
+    /// Numbers of the master facets that facets of the node face.
     pub faced: Vec<usize>,
-    /// Covered area of the facets, and the radius of the largest.
+    /// Covered area of the node's facets; `largest` is the radius of the largest facet.
     pub of_facet: f64,
     pub largest: f64,
     /// Whether the node's displacement is that of a control point.
@@ -77,7 +78,7 @@ impl Integrals {
         self.is_transformed |= other.is_transformed;
     }
 
-    /// `w_k = M_k / D`; they add up to 1.
+    /// Weights `w_k = M_k / D`, which add up to 1.
     pub(super) fn weights(&self) -> Vec<(usize, f64)> {
         let counts = |(_, m): &(&usize, &f64)| m.abs() > NOTHING * self.covered;
         let sum: f64 = self.masters.iter().filter(counts).map(|(_, m)| m).sum();
@@ -86,26 +87,26 @@ impl Integrals {
     }
 }
 
-/// A point of the covered part.
+/// An integration point of the covered part of a facet.
 struct CoveredPoint {
     root_weight: f64,
-    /// `phi` of the slave's nodes.
+    /// Basis functions `phi` of the slave's nodes.
     slave: [f64; MAX_FACET_NODES],
-    /// `N` of the master's.
+    /// Shape functions `N` of the master's nodes.
     master: [f64; MAX_FACET_NODES],
     gap: Vector,
     normal: Vector,
 }
 
-/// What a slave facet comes to.
+/// Result of the integration over a slave facet.
 pub(super) struct OfFacet {
-    /// The integrals of each of its nodes; none where it faces no master.
+    /// Integrals of each node of the facet; empty if the facet faces no master.
     pub nodes: Vec<(usize, Integrals)>,
-    /// Part of the facet that masters cover, where that is not all of it.
+    /// Part of the facet that masters cover; `None` if they cover all of it.
     pub covered: Option<CoveredFacet>,
 }
 
-/// The integrals of each node of a slave facet that faces masters.
+/// Integrates over a slave facet that faces masters, for each of its nodes.
 ///
 /// # Errors
 /// A facet that masters cover twice.
@@ -168,7 +169,7 @@ pub(super) fn integrate(sides: &Sides, face: &MortarFace) -> Result<OfFacet> {
         return Ok(none());
     }
     let q = qr.q();
-    // Coefficients on `phi` of functions at the samples: `R^-1 Q' sqrt(w) f`.
+    // Coefficients of functions at the samples in the basis `phi`: `R^-1 Q' sqrt(w) f`.
     let coefficients = |columns: usize,
                         range: std::ops::Range<usize>,
                         of: &dyn Fn(&CoveredPoint, usize) -> f64| {
@@ -221,7 +222,7 @@ pub(super) fn integrate(sides: &Sides, face: &MortarFace) -> Result<OfFacet> {
     })
 }
 
-/// Polygons in the plane of a facet, cut to its pieces, in space.
+/// Cuts polygons in the plane of a facet to its pieces, and returns them in space.
 fn by_pieces(face: &MortarFace, plane: &Plane, polygons: &[Vec<Point>]) -> CoveredFacet {
     let mut out = Vec::new();
     for polygon in polygons.iter().filter(|polygon| !polygon.is_empty()) {
@@ -240,7 +241,7 @@ fn by_pieces(face: &MortarFace, plane: &Plane, polygons: &[Vec<Point>]) -> Cover
     out
 }
 
-/// `int phi` of each node over a whole facet, and its area.
+/// Integrals `int phi` of each node over a whole facet, and the area of the facet.
 fn whole(sides: &Sides, face: &MortarFace) -> ([f64; MAX_FACET_NODES], f64) {
     let mut out = [0.0; MAX_FACET_NODES];
     let mut area = 0.0;
@@ -253,7 +254,7 @@ fn whole(sides: &Sides, face: &MortarFace) -> ([f64; MAX_FACET_NODES], f64) {
     (out, area)
 }
 
-/// The trace basis of a slave facet, of its shape functions.
+/// Trace basis of a slave facet, computed from its shape functions.
 fn trace(face: &MortarFace, values: [f64; MAX_FACET_NODES]) -> [f64; MAX_FACET_NODES] {
     if !face.is_transformed() {
         return values;
@@ -269,7 +270,7 @@ fn trace(face: &MortarFace, values: [f64; MAX_FACET_NODES]) -> [f64; MAX_FACET_N
     out
 }
 
-/// What is integrated at a point of a slave's plane.
+/// Evaluates the integrands at a point of a slave's plane.
 fn sample(
     sides: &Sides,
     [face, master]: [&MortarFace; 2],

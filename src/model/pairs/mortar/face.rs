@@ -1,14 +1,14 @@
-//! A facet as mortar integrals see it: projected along a direction, and mapped back.
+//! A facet for mortar integrals: projected along a direction, and mapped back.
 
 use super::overlap;
 use crate::mesh::{Facet, Mesh};
 use crate::shape::{FacetReference, MAX_FACET_NODES, Place};
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
 
-/// Facets face each other where their normals are opposed by this much at least: seen more
-/// slantingly they are no surface to press on.
+/// Cosine by which normals must be opposed for facets to face each other: seen more obliquely, a
+/// facet is no surface to press on.
 const OPPOSED: f64 = 0.2;
-/// Steps of Newton's method for the place of a point, of which a straight facet needs one.
+/// Largest number of Newton steps to locate a point; a straight facet needs one step.
 const STEPS: usize = 30;
 
 /// A facet of a surface with its outward normal.
@@ -19,18 +19,18 @@ pub(super) struct MortarFace {
     pub center: Vector,
     /// Outward unit normal at the centre.
     pub normal: Vector,
-    /// Radius of a ball round the centre that holds the nodes.
+    /// Radius of a ball around the centre that contains the nodes.
     pub radius: f64,
 }
 
-/// A plane at right angles to a direction, or a line of one.
+/// A plane at right angles to a direction; in plane models a line.
 pub(super) struct Plane {
     pub origin: Vector,
     pub normal: Vector,
     axes: [Vector; 2],
 }
 
-/// Coordinates in a plane; of a plane model the second is 0.
+/// Coordinates in a plane; in plane models the second is 0.
 pub(super) type Point = [f64; 2];
 
 impl Plane {
@@ -50,7 +50,7 @@ impl Plane {
         }
     }
 
-    /// The position of a point.
+    /// Position in space of a point of the plane.
     pub(super) fn position(&self, point: Point) -> Vector {
         let first = along(self.origin, point[0], self.axes[0]);
         along(first, point[1], self.axes[1])
@@ -83,7 +83,7 @@ impl MortarFace {
         }
     }
 
-    /// Centre and radius of a ball round it.
+    /// Centre and radius of a ball around the facet.
     pub(super) fn ball(&self) -> (Vector, f64) {
         (self.center, self.radius)
     }
@@ -92,12 +92,12 @@ impl MortarFace {
         self.reference.dimension() == 2
     }
 
-    /// Whether the basis of its slaves is that of control points: quadratic facets of solids.
+    /// Whether slaves of the facet have the basis of control points: quadratic facets of solids.
     pub(super) fn is_transformed(&self) -> bool {
         self.is_solid() && self.nodes.len() > self.reference.n_corners
     }
 
-    /// Whether another face may lie opposite.
+    /// Whether another facet may lie opposite this one.
     pub(super) fn may_face(&self, other: &MortarFace) -> bool {
         if dot(self.normal, other.normal) > -OPPOSED {
             return false;
@@ -105,11 +105,11 @@ impl MortarFace {
         let way = difference(other.center, self.center);
         let off = dot(way, self.normal);
         let reach = self.radius + other.radius;
-        // Not behind: the far side of another body.
+        // The other facet must not lie far behind, on the far side of another body.
         off >= -2.0 * reach && dot(way, way) - off * off <= reach * reach
     }
 
-    /// Position and shape functions at a place.
+    /// Position and shape functions at a place in the reference facet.
     pub(super) fn at(&self, place: Place) -> (Vector, [f64; MAX_FACET_NODES]) {
         let at = (self.reference.functions)(place);
         (
@@ -118,7 +118,7 @@ impl MortarFace {
         )
     }
 
-    /// The place that lies on a point of a plane, seen along its normal.
+    /// Place in the reference facet that projects to a point of a plane.
     pub(super) fn locate(&self, plane: &Plane, point: Point) -> Option<Place> {
         let mut place = self.reference.center();
         let mut nodes = [[0.0; 2]; MAX_FACET_NODES];
@@ -159,11 +159,11 @@ impl MortarFace {
                 return None;
             }
         }
-        // What is left is the round-off of a slender facet.
+        // The remaining error is the round-off of a slender facet.
         Some(place)
     }
 
-    /// Whether a place is one of the facet, up to `off`.
+    /// Whether a place lies in the reference facet, within a tolerance `off`.
     pub(super) fn holds(&self, place: Place, off: f64) -> bool {
         let [a, b, _] = place;
         match (self.reference.dimension(), self.reference.n_corners) {
@@ -173,9 +173,9 @@ impl MortarFace {
         }
     }
 
-    /// The pieces of the facet in a plane, counter-clockwise as seen against its normal: the facet
-    /// itself where its edges are straight there, else triangles and a quadrilateral between all of
-    /// its nodes.
+    /// Pieces of the facet in a plane, counter-clockwise as seen against its normal: the facet
+    /// itself if its edges are straight in the plane, otherwise triangles and a quadrilateral
+    /// between all of its nodes.
     pub(super) fn pieces(&self, plane: &Plane) -> Vec<Vec<Point>> {
         let points: Vec<Point> = self.x.iter().map(|&x| plane.project(x)).collect();
         let n = self.reference.n_corners;
@@ -193,8 +193,8 @@ impl MortarFace {
         pieces
     }
 
-    /// What of a polygon lies in each piece between the nodes of the facet, in the order of
-    /// [`FacetReference::pieces`]; a line is in one piece.
+    /// Cuts a polygon to each piece between the nodes of the facet, in the order of
+    /// [`FacetReference::pieces`]; a line is one piece.
     pub(super) fn by_pieces(&self, plane: &Plane, polygon: &[Point]) -> Vec<Vec<Point>> {
         if !self.is_solid() {
             return vec![polygon.to_vec()];
@@ -229,7 +229,7 @@ impl MortarFace {
     }
 }
 
-/// Share of an edge's length that its middle may be off the chord.
+/// Share of an edge's length by which its middle may deviate from the chord.
 const STRAIGHT: f64 = 1e-9;
 
 fn position(values: &[f64], x: &[Vector]) -> Vector {

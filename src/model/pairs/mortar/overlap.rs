@@ -1,4 +1,4 @@
-//! What two facets have in common, seen along a direction, and points to integrate it with.
+//! Common part of two facets, seen along a direction, and points to integrate over it.
 
 use super::face::Point;
 use crate::shape::FacetReference;
@@ -36,7 +36,7 @@ const ORBITS: [([f64; 2], f64); 5] = [
     ),
 ];
 
-/// The points of a rule on the triangle of area 1/2.
+/// Rule of sixteen points on the triangle of area 1/2, for quadratic facets.
 fn sixteen() -> Vec<([f64; 2], f64)> {
     let mut out = Vec::with_capacity(16);
     for ([a, b], weight) in ORBITS {
@@ -50,14 +50,14 @@ fn sixteen() -> Vec<([f64; 2], f64)> {
     out
 }
 
-/// The points of linear facets: degree 5.
+/// Rule of seven points for linear facets, exact to degree 5.
 fn seven() -> Vec<([f64; 2], f64)> {
     let rule = FacetReference::triangle().rule.iter();
     rule.map(|&([x, y, _], weight)| ([x, y], weight)).collect()
 }
 
-/// What two pieces of facets have in common: a polygon, or the ends of a line; empty where that is
-/// nothing.
+/// Common part of two pieces of facets: a polygon, or the ends of a line; empty if they have
+/// nothing in common.
 pub(super) fn common(a: &[Point], b: &[Point]) -> Vec<Point> {
     match (a, b) {
         (&[a, b], &[c, d]) => {
@@ -78,8 +78,8 @@ pub(super) fn common(a: &[Point], b: &[Point]) -> Vec<Point> {
     }
 }
 
-/// Points and weights on what two pieces of facets have in common; of quadratic facets more of
-/// them.
+/// Integration points and weights on the common part of two pieces of facets; quadratic facets get
+/// more points.
 pub(super) fn points(common: &[Point], are_quadratic: bool) -> Vec<(Point, f64)> {
     match common {
         [] => Vec::new(),
@@ -94,7 +94,7 @@ fn on_line(low: f64, high: f64) -> Vec<(Point, f64)> {
     LINE.into_iter().map(point).collect()
 }
 
-/// A fan of triangles round the mean of the corners.
+/// Integrates over a fan of triangles around the mean of the corners.
 fn on_polygon(corners: &[Point], rule: &[(Point, f64)]) -> Vec<(Point, f64)> {
     let n = corners.len();
     let mean: Point = [0, 1].map(|d| corners.iter().map(|c| c[d]).sum::<f64>() / n as f64);
@@ -118,7 +118,7 @@ fn on_polygon(corners: &[Point], rule: &[(Point, f64)]) -> Vec<(Point, f64)> {
     out
 }
 
-/// A convex polygon cut to another (I. E. Sutherland, G. W. Hodgman, Commun. ACM 17 (1974) 32);
+/// Clips a convex polygon to another (I. E. Sutherland, G. W. Hodgman, Commun. ACM 17 (1974) 32);
 /// both run counter-clockwise.
 fn clipped(subject: &[Point], by: &[Point]) -> Vec<Point> {
     let mut left = subject.to_vec();
@@ -163,14 +163,15 @@ mod tests {
         assert!((area(&SQUARE, &SQUARE) - 1.0).abs() < 1e-15);
         let apart = SQUARE.map(|[x, y]| [x + 1.0, y]);
         assert_eq!(area(&SQUARE, &apart), 0.0);
-        // A diamond over the square's middle: an octagon's corners are cut off.
+        // A diamond over the middle of the square: its corners are cut off, which leaves an
+        // octagon.
         let diamond = [[0.5, -0.25], [1.25, 0.5], [0.5, 1.25], [-0.25, 0.5]];
         assert!((area(&SQUARE, &diamond) - 0.875).abs() < 1e-15);
         let triangle = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]];
         assert!((area(&SQUARE, &triangle) - 1.0).abs() < 1e-15);
     }
 
-    /// Of degree 5 or 8 in the plane, 9 on a line.
+    /// Rules are exact to degree 5 or 8 in the plane, to 9 on a line.
     #[test]
     fn rules_are_exact() {
         for (more, m, n) in [(false, 3, 2), (true, 3, 2), (true, 4, 4), (true, 7, 1)] {

@@ -1,5 +1,5 @@
-//! Where surfaces truly are: on circles, spheres and cylinders that their nodes lie on, and gaps
-//! between true surfaces.
+//! True shapes of surfaces: circles, spheres and cylinders on which their nodes lie, and gaps
+//! between the true surfaces.
 
 use super::face::Plane;
 use super::{Sides, spheres};
@@ -7,19 +7,19 @@ use crate::mesh::surface::ordered_nodes;
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::space::{Vector, along, difference, dot, length};
 
-/// Largest distance of a node from the circle that is recognised, over the sagitta of the chords
-/// between nodes.
+/// Largest distance of a node from the circle at which the circle is recognised, relative to the
+/// sagitta of the chords between nodes.
 pub(super) const OFF: f64 = 1e-2;
-/// Smallest sagitta over the chord from which on nodes lie on no straight line.
+/// Smallest ratio of sagitta to chord at which nodes count as off a straight line.
 pub(super) const BENT: f64 = 1e-8;
-/// Fewest nodes, and largest turn from one to the next in degrees, of what is a circle rather than
-/// a polygon.
+/// Smallest number of nodes of a circle, and largest turn in degrees from one facet to the next:
+/// otherwise the nodes form a polygon.
 const FEWEST: usize = 6;
 pub(super) const LARGEST_TURN: f64 = 30.0;
-/// Share of a facet by which a point on the border of two may be off either.
+/// Share of a facet by which a point on the border of two facets may lie outside either.
 const BORDER: f64 = 1e-6;
 
-/// The circle that the nodes of a plane surface lie on; of a solid the sphere or cylinder.
+/// Finds the circle on which the nodes of a plane surface lie; in a solid the sphere or cylinder.
 pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     if mesh.is_solid() {
         return spheres::find(mesh, surface);
@@ -44,7 +44,7 @@ pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     {
         return None;
     }
-    // The body lies on the left of its boundary: inside a circle that is run through so.
+    // The body lies on the left of its boundary: inside a circle that runs counter-clockwise.
     let [a, b] = [points[0], points[1]];
     let [p, q] = [a, b].map(|x| [x[0] - center[0], x[1] - center[1]]);
     Some(Curve::Circle {
@@ -54,12 +54,12 @@ pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     })
 }
 
-/// Centre and radius of the circle through three points.
+/// Centre and radius of the circle through three points; `None` if they lie on a straight line.
 fn through([a, b, c]: [[f64; 2]; 3]) -> Option<([f64; 2], f64)> {
     let [p, q] = [b, c].map(|x| [x[0] - a[0], x[1] - a[1]]);
     let det = 2.0 * (p[0] * q[1] - p[1] * q[0]);
     let [pp, qq] = [p, q].map(|x| x[0] * x[0] + x[1] * x[1]);
-    // Points of a straight line have no circle.
+    // Points on a straight line have no circle.
     if det.abs() <= BENT * pp.max(qq) {
         return None;
     }
@@ -67,14 +67,15 @@ fn through([a, b, c]: [[f64; 2]; 3]) -> Option<([f64; 2], f64)> {
     Some(([a[0] + way[0], a[1] + way[1]], way[0].hypot(way[1])))
 }
 
-/// What the line along a slave's normal meets.
+/// Master facet that the line along a slave's normal meets, with the gap.
 pub(super) struct Met {
     pub gap: f64,
     pub masters: Vec<(usize, f64)>,
 }
 
 impl Sides<'_> {
-    /// The master facet that the normal of a slave meets, among some, and how far it is there.
+    /// Finds, among some master facets, the one that the normal of a slave meets, and the gap
+    /// there.
     pub(super) fn meet(&self, node: usize, normal: Vector, faced: &[usize]) -> Option<Met> {
         let mesh = self.entries.mesh;
         let x = mesh.point(node);
@@ -105,14 +106,14 @@ impl Sides<'_> {
         nearest.map(|(_, met)| met)
     }
 
-    /// Where the line through a point of a mesh's surface along a direction meets the true surface:
-    /// that of the slave (0) or of the master (1).
+    /// Point at which the line through a point of a mesh's surface along a direction meets the true
+    /// surface of the slave (0) or of the master (1).
     pub(super) fn truly(&self, side: usize, x: Vector, way: Vector) -> Vector {
         let Some(curve) = self.curves[side] else {
             return x;
         };
         let mut at = x;
-        // Newton's method for the distance from the surface; a facet is near it.
+        // Newton's method for the distance from the surface; it starts close, on a facet.
         for _ in 0..20 {
             let Some((from, radius, outward)) = curve.spine(at) else {
                 return x;

@@ -1,8 +1,8 @@
-//! Spheres and circular cylinders that the nodes of a solid's surface lie on.
+//! Spheres and circular cylinders on which the nodes of a solid's surface lie.
 //!
-//! Both are fitted by Gauss' and Newton's method to distances from a centre or an axis, from the
-//! sphere of least algebraic error or from the axis that facets are parallel to. Nodes that were
-//! put on such a surface lie on what is found to round-off.
+//! Both are fitted to distances from a centre or an axis by the Gauss-Newton method, which starts
+//! from the sphere of least algebraic error or from the axis to which the facets are parallel.
+//! Nodes that were placed on such a surface lie on the fitted one up to round-off.
 
 use super::face::MortarFace;
 use super::roundness::{BENT, LARGEST_TURN, OFF};
@@ -11,14 +11,14 @@ use crate::space::{Vector, along, cross, difference, direction, dot, length, uni
 use nalgebra::{Matrix3, SMatrix, SVector, SymmetricEigen};
 use std::collections::BTreeMap;
 
-/// Fewest nodes: twice the numbers that a cylinder has.
+/// Smallest number of nodes: twice the number of parameters of a cylinder.
 const FEWEST: usize = 10;
-/// Steps of a fit, which settles in a few.
+/// Largest number of steps of a fit, which converges in a few.
 const STEPS: usize = 20;
 /// Ratio of eigenvalues of the normals' moments below which facets are parallel to an axis.
 const ACROSS: f64 = 0.1;
 
-/// The surface that the nodes of another lie on.
+/// Finds the sphere or cylinder on which the nodes of a surface lie.
 pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     let facets = surface.facets.iter();
     let faces: Vec<MortarFace> = facets.map(|&facet| MortarFace::new(mesh, facet)).collect();
@@ -51,14 +51,14 @@ pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     agree.then(|| curve.facing(outward))
 }
 
-/// Whether points are off a surface by a small share of what facets between them are.
+/// Whether points deviate from a surface by only a small share of what the facets between them do.
 fn is_on(curve: &Curve, points: &[Vector], faces: &[MortarFace]) -> bool {
     let depth = |face: &MortarFace| {
         let Some((from, radius, _)) = curve.spine(face.center) else {
             return 0.0;
         };
         let out = direction(difference(face.center, from));
-        // Across the axis of a cylinder only.
+        // For a cylinder, distances across the axis only.
         let across = |&x: &Vector| match curve {
             Curve::Cylinder { axis, .. } => dot(difference(x, face.center), cross(*axis, out)),
             _ => length(difference(x, face.center)),
@@ -83,7 +83,7 @@ fn mean(points: &[Vector]) -> Vector {
     sum.map(|x| x / points.len() as f64)
 }
 
-/// Least squares: the step that makes `residual + slope . step` least.
+/// Least squares: returns the step that minimises `residual + slope . step`.
 fn least<const N: usize>(
     rows: impl Iterator<Item = (SVector<f64, N>, f64)>,
 ) -> Option<SVector<f64, N>> {
@@ -104,7 +104,7 @@ fn least<const N: usize>(
 
 fn sphere(points: &[Vector]) -> Option<Curve> {
     let middle = mean(points);
-    // `|x|^2 = 2 c . x + (R^2 - |c|^2)`, about the mean.
+    // Solves `|x|^2 = 2 c . x + (R^2 - |c|^2)`, with x relative to the mean.
     let rows = points.iter().map(|&x| {
         let [a, b, c] = difference(x, middle);
         let slope = SVector::from([2.0 * a, 2.0 * b, 2.0 * c, 1.0]);
@@ -145,7 +145,7 @@ fn cylinder(points: &[Vector], faces: &[MortarFace]) -> Option<Curve> {
     let mut order = [0, 1, 2];
     order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
     let [low, middle, _] = order.map(|k| eigen.eigenvalues[k]);
-    // Of a plane two vanish.
+    // For a plane two eigenvalues vanish.
     if low > ACROSS * middle {
         return None;
     }
@@ -169,7 +169,7 @@ fn cylinder(points: &[Vector], faces: &[MortarFace]) -> Option<Curve> {
             let out = along(way, -high, axis);
             let far = length(out);
             let [a, b] = [-dot(out, u) / far, -dot(out, v) / far];
-            // Tilts count at the distance of a radius.
+            // Tilts are scaled by the radius.
             let arm = high / radius;
             (SVector::from([a, b, a * arm, b * arm, -1.0]), far - radius)
         });
@@ -189,7 +189,7 @@ fn cylinder(points: &[Vector], faces: &[MortarFace]) -> Option<Curve> {
     })
 }
 
-/// Two directions at right angles to a third.
+/// Two directions at right angles to a third and to each other.
 fn across(axis: Vector) -> [Vector; 2] {
     let least = (0..3).min_by(|&a, &b| axis[a].abs().total_cmp(&axis[b].abs()));
     let first = direction(cross(unit(least.unwrap_or(0)), axis));
