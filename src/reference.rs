@@ -94,7 +94,7 @@ fn at_yield(
 }
 
 /// Contact modulus of the first two bodies, and nu and yield stress of the one that yields first;
-/// none where a yield stress depends on depth.
+/// none if a yield stress depends on depth.
 fn moduli(model: &Model) -> Option<(f64, f64, f64)> {
     if model.yield_by_depth.iter().any(Option::is_some) {
         return None;

@@ -291,7 +291,7 @@ pub struct State {
     /// where fields are.
     pub energy_error: Option<f64>,
     /// [`State::energy_error`] of the elements that touch a closed pair or have yielded; `None`
-    /// where there are none: how wrong pressures and strains there may be.
+    /// if there are none: how wrong pressures and strains there may be.
     #[serde(default)]
     pub local_energy_error: Option<f64>,
     /// Relative approach of the bodies: the work of the loads that vary with the load factor on the

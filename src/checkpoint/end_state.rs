@@ -15,7 +15,7 @@ const WHAT: &str = "end state";
 /// The content of the file.
 ///
 /// # Errors
-/// Internal, where it cannot be encoded.
+/// Internal, if it cannot be encoded.
 pub(crate) fn encode(mesh: &Mesh, state: &EndState) -> Result<Vec<u8>> {
     let (bytes, ..) = file::encode(WHAT, &(identity::hash(mesh), state))?;
     Ok(bytes)
@@ -24,7 +24,7 @@ pub(crate) fn encode(mesh: &Mesh, state: &EndState) -> Result<Vec<u8>> {
 /// Reads the end state in the result directory `dir` of a run on the given mesh.
 ///
 /// # Errors
-/// `Input` where there is none, or it is damaged, of another version or another mesh; `Io`.
+/// `Input` if there is none, or it is damaged, of another version or another mesh; `Io`.
 pub(crate) fn read(dir: &Path, mesh: &Mesh) -> Result<EndState> {
     let refused = |why: &str| Error::input(format!("{}: {why}", dir.display()));
     if !dir.is_dir() {

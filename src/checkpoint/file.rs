@@ -59,7 +59,7 @@ pub(super) fn write(path: &Path, value: &impl Serialize) -> Result<(u64, u128)> 
 /// Reads what [`write`] wrote; with it length and hash.
 ///
 /// # Errors
-/// `Input` where the file is none of brinell's, of another version, cut short or damaged; `Io`.
+/// `Input` if the file is none of brinell's, of another version, cut short or damaged; `Io`.
 pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64, u128)> {
     read_as(CHECKPOINT, path)
 }

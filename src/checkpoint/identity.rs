@@ -20,7 +20,7 @@ pub struct Identity {
     /// Hash of the files with values at nodes that the scene names.
     values: u128,
     backend: String,
-    /// Hash of the state that it starts from, 0 where that is a virgin one.
+    /// Hash of the state that it starts from, 0 if that is a virgin one.
     start: u128,
 }
 
@@ -28,7 +28,7 @@ impl Identity {
     /// Identity of a run.
     ///
     /// # Errors
-    /// Internal, where the scene is not plain data.
+    /// Internal, if the scene is not plain data.
     pub fn new(
         (scene, start): (&Scene, Option<&EndState>),
         mesh: &Mesh,

@@ -95,7 +95,7 @@ impl Checkpoints {
                 std::fs::remove_file(entry.path()).map_err(|cause| failed(&entry.path(), cause))?;
             }
         }
-        // Fails where the user has put something there: then it stays.
+        // Fails if the user has put something there: then it stays.
         let _ = std::fs::remove_dir(&self.dir);
         Ok(())
     }

@@ -38,7 +38,7 @@ impl Store {
     /// [`Store::write`].
     ///
     /// # Errors
-    /// `Input` where another run is writing there, `Io`.
+    /// `Input` if another run is writing there, `Io`.
     pub(crate) fn open(checkpoints: &Checkpoints, identity: Identity) -> Result<Self> {
         let dir = checkpoints.dir.clone();
         let failed = |path: &Path, cause| Error::io("write", path, cause);
@@ -73,7 +73,7 @@ impl Store {
     /// The checkpoint.
     ///
     /// # Errors
-    /// `Input` where it is damaged or of another run, with the difference; `Io`.
+    /// `Input` if it is damaged or of another run, with the difference; `Io`.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T> {
         let path = self.dir.join(CHECKPOINT);
         // The identity first: what follows it is read once it is known to be meant.
@@ -107,7 +107,7 @@ impl Store {
     /// A part that the checkpoint names.
     ///
     /// # Errors
-    /// `Input` where it is damaged or not the one that is meant, `Io`.
+    /// `Input` if it is damaged or not the one that is meant, `Io`.
     pub(crate) fn part_of<T: DeserializeOwned>(&self, id: PartId) -> Result<T> {
         let path = self.part(id.number);
         let (value, length, hash) = file::read(&path)?;

@@ -15,8 +15,8 @@ const ON_LINE: f64 = 1e-9;
 /// by body: place along y (solids: z), recovered stresses, von Mises stress, largest shear.
 ///
 /// # Errors
-/// Errors of [`output::read`]; `Input` where no node lies on the line or no state has fields; `Io`
-/// where the file is there already.
+/// Errors of [`output::read`]; `Input` if no node lies on the line or no state has fields; `Io`
+/// if the file is there already.
 pub(super) fn write(dir: &Path, file: &Path) -> Result<()> {
     let within = |text: &str| Error::input(format!("{}: {text}", dir.display()));
     let recorded = output::read(dir)?;

@@ -53,7 +53,7 @@ struct HardnessSheet {
     /// Brinell hardness, where the units are known.
     hbw: Option<f64>,
     mean_pressure: f64,
-    /// Initial yield stress of the flat; null where it does not yield.
+    /// Initial yield stress of the flat; null if it does not yield.
     yield_stress: Option<f64>,
     mean_pressure_over_yield_stress: Option<f64>,
     /// Pile-up or sink-in, `a^2/(2 R h)`.

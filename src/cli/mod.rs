@@ -156,7 +156,7 @@ pub fn check_command_line(
 /// among them.
 ///
 /// # Errors
-/// `Input` where they are not understood, and what they say wrong; `Io` of a file that is there.
+/// `Input` if they are not understood, and what they say wrong; `Io` of a file that is there.
 pub fn new_scene(words: impl IntoIterator<Item = OsString>) -> Result<String> {
     #[derive(Parser)]
     #[command(name = "new", no_binary_name = true, disable_help_flag = true)]

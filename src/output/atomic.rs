@@ -5,11 +5,12 @@
 //! DIR a result  DIR ──rename──▶ .DIR.y.old/DIR,  .DIR.partial ──rename──▶ DIR,  delete .DIR.y.old
 //! ```
 //!
-//! `.DIR.partial` is locked by the process that writes it. The system takes the lock off when that
-//! ends, however it ends: what is found without a lock was left by one that was killed, and is used
-//! again. Both temporaries are siblings of DIR, so a rename never crosses file systems. Whatever
-//! fails, DIR is as it was and the temporaries are gone. Between the two renames of a replacement
-//! DIR is absent for an instant: a process killed just there leaves both results, whole, beside it.
+//! `.DIR.partial` is locked by the process that writes it. The system releases the lock when that
+//! process ends, however it ends: an unlocked `.DIR.partial` was left by a process that was killed,
+//! and is used again. Both temporaries are siblings of DIR, so a rename never crosses file systems.
+//! Whatever fails, DIR stays as it was and the temporaries are removed. Between the two renames of
+//! a replacement DIR is absent for an instant: a process killed at that moment leaves the old and
+//! the new result, both whole, beside DIR.
 
 use super::{STUDY_FILE, SUMMARY_FILE};
 use crate::error::{Error, Result};
@@ -20,10 +21,11 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
-/// Measured on ext4 against 1 MiB, which was slower by about half or more (no difference on tmpfs).
+/// Size of a write buffer. Measured on ext4 against 1 MiB, which was slower by about half or more
+/// (no difference on tmpfs).
 const BUFFER_BYTES: usize = 1 << 16;
 
-/// Puts a file in its place, whole: written beside it, then renamed.
+/// Replaces a file as a whole: the content is written to a file beside it, which is then renamed.
 ///
 /// # Errors
 /// `Io` naming the file.
@@ -31,7 +33,7 @@ pub(super) fn replace(path: &Path, content: &[u8]) -> Result<()> {
     replace_with(path, |out| out.write_all(content))
 }
 
-/// As [`replace`], with what a function writes.
+/// Replaces a file like [`replace`], with the content that the function `write` produces.
 ///
 /// # Errors
 /// `Io` naming the file.
@@ -46,7 +48,7 @@ pub(super) fn replace_with(
     let written = || -> io::Result<()> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".").suffix(".partial");
-        // Like any other file: the user's umask decides who may read it.
+        // The permissions are those of any other file: the user's umask decides who may read it.
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
@@ -62,21 +64,21 @@ pub(super) fn replace_with(
     written().map_err(|cause| Error::io("write", path, cause))
 }
 
-/// A directory in the making. Dropped without [`Staging::publish`] it leaves no trace.
+/// A directory that is being written. Dropped without [`Staging::publish`] it leaves no trace.
 pub(super) struct Staging {
-    /// Where the directory goes: absolute, symbolic links resolved.
+    /// Final path of the directory: absolute, symbolic links resolved.
     target: PathBuf,
-    /// `None` once published.
+    /// The temporary directory; `None` once published.
     partial: Option<Partial>,
-    /// Parents of the target that were made for it, outermost first.
+    /// Parents of the target that were created for it, outermost first.
     made_parents: Vec<PathBuf>,
 }
 
 impl Staging {
-    /// Begins the directory `dir`.
+    /// Starts writing the directory `dir`.
     ///
     /// # Errors
-    /// `Input` where `dir` is in use by something else or another run is writing it, `Io` where its
+    /// `Input` if `dir` is in use by something else or another run is writing it, `Io` if its
     /// parent cannot be written.
     pub(super) fn new(dir: &Path) -> Result<Self> {
         let target = resolve(dir)?;
@@ -115,22 +117,21 @@ impl Staging {
             .map_err(|e| Error::io("write", &self.target.join(name), e))
     }
 
-    /// Where the directory goes.
+    /// Returns the final path of the directory.
     pub(super) fn target(&self) -> &Path {
         &self.target
     }
 
-    /// The directory in the making.
+    /// Returns the path of the temporary directory; `None` once published.
     pub(super) fn partial(&self) -> Option<&Path> {
         self.partial.as_ref().map(|partial| partial.path.as_path())
     }
 
-    /// Puts the directory in its place. Of a directory that it replaces, the entries for which
-    /// `is_ours` is false are moved into the new one.
+    /// Moves the directory to its final path. If it replaces a directory, the entries of the old
+    /// one for which `is_ours` is false are moved into the new one.
     ///
     /// # Errors
-    /// `Io`; the previous directory is then in its place again, unless the message says where it
-    /// is.
+    /// `Io`; the previous directory is then back at its path, unless the message says where it is.
     pub(super) fn publish(mut self, is_ours: impl Fn(&OsStr) -> bool) -> Result<()> {
         let Some(partial) = &self.partial else {
             return Ok(());
@@ -165,7 +166,7 @@ impl Staging {
         Ok(())
     }
 
-    /// After the rename there is nothing left to clean up.
+    /// Drops the record of temporaries: after the rename there is nothing left to clean up.
     fn forget(&mut self) {
         self.partial = None;
         self.made_parents.clear();
@@ -179,7 +180,7 @@ impl Staging {
         self.target.parent().unwrap_or(&self.target)
     }
 
-    /// A new hidden directory beside the target, for what was there before.
+    /// Creates a hidden directory beside the target that takes the previous directory.
     fn retired(&self) -> Result<TempDir> {
         let mut prefix = OsString::from(".");
         prefix.push(self.name());
@@ -191,7 +192,7 @@ impl Staging {
             .map_err(|e| Error::io("write", &self.target, e))
     }
 
-    /// Makes the target's parents, remembering which ones.
+    /// Creates the missing parents of the target and remembers which ones.
     fn make_parents(&mut self) -> Result<()> {
         let missing: Vec<PathBuf> = self
             .parent()
@@ -210,25 +211,27 @@ impl Staging {
 impl Drop for Staging {
     fn drop(&mut self) {
         if let Some(partial) = self.partial.take() {
-            // Removed under its lock. What cannot be removed is used again by the next run.
+            // Removed while it is locked. A directory that cannot be removed is used again by the
+            // next run.
             let _ = fs::remove_dir_all(&partial.path);
         }
         for path in self.made_parents.iter().rev() {
-            // Fails where someone else has put something there meanwhile: then it has to stay.
+            // Fails if someone else has put something there meanwhile: then the directory has to
+            // stay.
             let _ = fs::remove_dir(path);
         }
     }
 }
 
-/// The directory `.NAME.partial` beside a target: one process has it.
+/// The directory `.NAME.partial` beside a target, which only one process can own.
 struct Partial {
     path: PathBuf,
-    /// Locked; `None` where the system cannot lock a directory.
+    /// The lock on the directory; `None` if the system cannot lock a directory.
     _lock: Option<File>,
 }
 
 impl Partial {
-    /// Makes the directory, or empties the one that a process left which was killed.
+    /// Creates the directory, or empties the one that a killed process left.
     fn claim(target: &Path) -> Result<Self> {
         let failed = |e| Error::io("write", target, e);
         let mut name = OsString::from(".");
@@ -240,7 +243,7 @@ impl Partial {
                 Err(e) if e.kind() != io::ErrorKind::AlreadyExists => return Err(failed(e)),
                 _ => {}
             }
-            // Its owner may put it in its place, or remove it, at any time: then it is made anew.
+            // The owner may publish or remove the directory at any time: then it is created again.
             let Ok(there) = fs::symlink_metadata(&path) else {
                 continue;
             };
@@ -260,7 +263,7 @@ impl Partial {
     }
 }
 
-/// Opens a directory to be locked, where the system has that.
+/// Opens a directory to be locked, if the system can lock directories.
 fn open(dir: &Path) -> io::Result<Option<File>> {
     if cfg!(unix) {
         File::open(dir).map(Some)

@@ -13,22 +13,22 @@ use crate::model::Model;
 use crate::results::Results;
 use std::path::{Path, PathBuf};
 
-/// The file that marks results as not those of the last run.
+/// The file that marks results as those of an earlier run.
 pub(super) const STALE_FILE: &str = "stale.txt";
 
-/// A result directory held for a run: no other run can write it meanwhile. Results of an earlier
-/// run in it are marked (`stale.txt`) until those of this run replace them, so that they are not
-/// taken for its own should it fail or be killed.
+/// A result directory held for a run: no other run can write to it meanwhile. Results of an earlier
+/// run in the directory are marked (`stale.txt`) until the results of this run replace them, so
+/// that they are not taken for those of this run if it fails or is killed.
 pub struct Claim {
     dir: PathBuf,
     staging: Staging,
 }
 
 impl Claim {
-    /// Holds `dir`. What will fail when the results are written fails here, before an hour's run.
+    /// Holds `dir`. Whatever would make writing the results fail fails here, before an hour's run.
     ///
     /// # Errors
-    /// `Input` where another run is writing to `dir`; otherwise as [`super::write()`].
+    /// `Input` if another run is writing to `dir`; otherwise the errors of [`super::write()`].
     pub fn new(dir: &Path) -> Result<Self> {
         let staging = Staging::new(dir)?;
         mark(
@@ -41,18 +41,18 @@ impl Claim {
         })
     }
 
-    /// The directory, as it was given.
+    /// Returns the directory as it was given.
     pub fn dir(&self) -> &Path {
         &self.dir
     }
 
-    /// What must not stay where the process ends without dropping this: the directory in the
-    /// making.
+    /// Returns the temporary directory, which must be removed if the process ends without dropping
+    /// this value.
     pub fn temporary(&self) -> Option<&Path> {
         self.staging.partial()
     }
 
-    /// As [`super::write_with_report`].
+    /// Writes the results as [`super::write_with_report`] does.
     ///
     /// # Errors
     /// Errors of [`super::write_with_report`].
@@ -66,7 +66,7 @@ impl Claim {
         finish_with_report(self.staging, header, model, results)
     }
 
-    /// As [`super::write_without_report`].
+    /// Writes the results as [`super::write_without_report`] does.
     ///
     /// # Errors
     /// Errors of [`super::write_without_report`].
@@ -79,7 +79,7 @@ impl Claim {
         finish_without_report(self.staging, header, model, results)
     }
 
-    /// As [`super::write_study`].
+    /// Writes a study as [`super::write_study`] does.
     ///
     /// # Errors
     /// Errors of [`super::write_study`].
@@ -89,8 +89,8 @@ impl Claim {
     }
 }
 
-/// Marks the results in `dir`, if there are any, as those of an earlier run than one that failed
-/// with `error`. Returns whether there are.
+/// Marks the results in `dir`, if there are any, as those of a run before the one that failed with
+/// `error`. Returns whether there are any.
 pub fn mark_stale(dir: &Path, error: &Error) -> bool {
     mark(
         dir,
@@ -102,7 +102,7 @@ pub fn mark_stale(dir: &Path, error: &Error) -> bool {
     )
 }
 
-/// Why the results in `dir` are not those of the last run, where that is so.
+/// Returns why the results in `dir` are not those of the last run; `None` if they are.
 pub fn stale(dir: &Path) -> Option<String> {
     let path = dir.join(STALE_FILE);
     let there = path
@@ -111,7 +111,8 @@ pub fn stale(dir: &Path) -> Option<String> {
     there?.ok().map(|text| text.trim_end().to_string())
 }
 
-/// A directory that cannot be written is none of this run's concern: it was found out before.
+/// Marks the results in `dir`, if there are any. An error of writing is ignored: that the directory
+/// can be written was checked before.
 fn mark(dir: &Path, why: &str) -> bool {
     let there = is_result(dir);
     if there {

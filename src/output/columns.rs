@@ -1,12 +1,12 @@
 //! The table of states as a reader sees it, on the terminal and in the report: a column for each
-//! quantity that says something in this run.
+//! quantity that carries information in this run.
 
 use super::Labels;
 use crate::number::number;
 use crate::results::{QUANTITIES, Quantity, State, Unit};
 use crate::space::Space;
 
-/// Two figures of a state within this of each other need no column each: the table shows six
+/// Relative difference up to which two figures of a state share one column: the table shows six
 /// digits.
 const SAME: f64 = 1e-6;
 
@@ -14,13 +14,13 @@ const SAME: f64 = 1e-6;
 pub(crate) struct Column {
     /// Heading of the column, in lines.
     pub heading: &'static str,
-    /// The name of its unit; empty: none.
+    /// Name of the unit; empty if there is none.
     pub unit: String,
     /// A cell for each state.
     pub cells: Vec<String>,
 }
 
-/// A figure of a quantity as it is shown.
+/// Formats a figure of a quantity.
 pub(crate) fn cell(quantity: &Quantity, value: f64) -> String {
     match quantity.is_count {
         true => format!("{value}"),
@@ -28,8 +28,8 @@ pub(crate) fn cell(quantity: &Quantity, value: f64) -> String {
     }
 }
 
-/// The columns of states. A narrow table leaves out details, and leaves out the width and the
-/// approach where it shows arcs or pressures at the pole.
+/// Returns the columns of states. A narrow table leaves out details, and leaves out the width and
+/// the approach if it shows arcs or pressures at the pole.
 pub(crate) fn of_states(
     states: &[State],
     labels: &Labels,

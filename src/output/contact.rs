@@ -6,7 +6,7 @@ use crate::results::{PairState, State, Status, number};
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
 
-/// A row. The columns are the fields.
+/// A row of the table. The columns are the fields.
 #[derive(Serialize, Deserialize)]
 pub(super) struct PairRow {
     /// Number of the state, from 1, as in the names of the field files.
@@ -22,7 +22,7 @@ pub(super) struct PairRow {
     x: f64,
     #[serde(deserialize_with = "number")]
     y: f64,
-    /// Undeformed z, of a solid.
+    /// Undeformed z; only of a solid.
     #[serde(skip_serializing_if = "Option::is_none")]
     z: Option<f64>,
     #[serde(deserialize_with = "number")]
@@ -57,7 +57,7 @@ impl PairRow {
         }
     }
 
-    /// The pair again.
+    /// Returns the pair that the row records.
     pub(super) fn pair_state(&self) -> PairState {
         PairState {
             pair: self.pair - 1,

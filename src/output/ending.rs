@@ -1,15 +1,15 @@
-//! How a run ended, as the command line, C and Python say it.
+//! The ending of a run, in the words of the command line, C and Python.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::number::percent;
 use crate::results::{Demand, Ending, Results};
 
-/// Whether a run kept what was asked of it: the program done to its end, the quality of every state
-/// within its tolerance, and an accuracy that was demanded reached.
+/// Checks that a run achieved what was asked of it: the program ran to its end, the quality of
+/// every state is within its tolerance, and a demanded accuracy was reached.
 ///
 /// # Errors
-/// That of [`Ending::kind`]: where the run ended before its program did, why; `Inaccurate` with
-/// every figure that falls short. The results are there in each case.
+/// The error of [`Ending::kind`]: if the run ended before its program did, the reason; `Inaccurate`
+/// with every figure that falls short. The results exist in each case.
 pub fn ending(results: &Results) -> Result<()> {
     match results.ending() {
         Ending::Complete => Ok(()),
@@ -23,7 +23,7 @@ pub fn ending(results: &Results) -> Result<()> {
     }
 }
 
-/// A demanded accuracy in a sentence.
+/// Describes a demanded accuracy in a sentence.
 pub(crate) fn in_words(demand: &Demand) -> String {
     let stated = if demand.stated.is_finite() {
         format!("the stated error is {}", percent(demand.stated))

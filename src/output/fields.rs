@@ -1,15 +1,15 @@
-//! Fields on the mesh for ParaView, meshio and pyvista: one `.vtu` per state and `fields.pvd`,
-//! which makes a time series of them. The time of a state is the load factor for as long as that
-//! grows; where loads are taken off it goes on by as much as they fall, as readers sort states by
-//! it.
+//! Fields on the mesh for ParaView, meshio and pyvista: one `.vtu` file per state, and
+//! `fields.pvd`, which joins them to a time series. The time of a state is the load factor while
+//! the load factor grows; where loads are taken off, the time increases by as much as the load
+//! factor falls, because readers sort states by time.
 //!
-//! Of a run on several ranks a state is a `.pvtu` with a `.vtu` for the part of space of each rank,
-//! so that what looks at it can share the work too.
+//! In a run on several ranks a state is a `.pvtu` file with a `.vtu` file for the part of space of
+//! each rank, so that programs that display it can share the work too.
 //!
 //! | array | on | type | components |
 //! |---|---|---|---|
 //! | `displacement` | points | Float64 | x, y, 0; of a solid x, y, z |
-//! | `contact_pressure` | points | Float64 | 1, 0 where there is no pair |
+//! | `contact_pressure` | points | Float64 | 1, 0 if there is no pair |
 //! | `gap` | points | Float64 | 1, NaN where there is no pair |
 //! | `nodal_stress` | points | Float64 | recovered, components as of `stress` |
 //! | `stress` | cells | Float64 | xx, yy, zz, xy; axisymmetric: rr, zz, tt, rz; of a solid the tensor row by row, 9 |
@@ -29,19 +29,19 @@ use crate::space::Space;
 use rayon::prelude::*;
 use std::path::Path;
 
-/// How the name of a state's file begins.
+/// Beginning of the name of a state's file.
 const FILE_PREFIX: &str = "state_";
-/// How the name of a file with a mesh ends.
+/// End of the name of a file with a mesh.
 const FILE_SUFFIX: &str = ".vtu";
-/// How that of a state ends whose mesh is in pieces.
+/// End of the name of a state's file whose mesh is in pieces.
 const PIECES_SUFFIX: &str = ".pvtu";
-/// Most characters of a state's name that go into its file name.
+/// Largest number of characters of a state's name in its file name.
 const NAME_LENGTH: usize = 60;
 
 /// Writes the fields of all states that have them, several files at a time.
 ///
 /// # Errors
-/// `Internal` where fields do not fit the mesh, `Io` naming the file.
+/// `Internal` if fields do not fit the mesh, `Io` naming the file.
 pub(super) fn write(
     staging: &Staging,
     header: &RunHeader,
@@ -76,7 +76,7 @@ pub(super) fn write(
     staging.file(COLLECTION_FILE, |out| vtu::write_collection(out, &series))
 }
 
-/// Writes a state in pieces, and `name`, which holds them together.
+/// Writes a state in pieces, and the file `name`, which lists the pieces.
 fn write_pieces(
     staging: &Staging,
     header: &RunHeader,
@@ -99,7 +99,7 @@ fn write_pieces(
     staging.file(name, |out| vtu::write_pieces(out, &arrays, &files))
 }
 
-/// A grid that says what its nodes and elements are in the whole.
+/// Adds to the grid of a part the numbers of its nodes and elements in the whole mesh.
 fn with_ids<'a>(mut grid: Grid<'a>, nodes: &'a [u32], elements: &'a [u32]) -> Grid<'a> {
     let ids = |name, ids| DataArray::new(name, Values::Int64(ids));
     grid.point_data.push(ids(vtu::NODE_IDS, nodes));
@@ -110,13 +110,13 @@ fn with_ids<'a>(mut grid: Grid<'a>, nodes: &'a [u32], elements: &'a [u32]) -> Gr
 /// A part of the mesh that goes into a file of its own.
 struct MeshPart {
     mesh: Mesh,
-    /// Nodes and elements of the part as the whole numbers them.
+    /// Numbers of the nodes of the part in the whole mesh; `elements` likewise.
     nodes: Vec<u32>,
     elements: Vec<u32>,
 }
 
 impl MeshPart {
-    /// The parts of a mesh that is written in `n` pieces; none where that is one.
+    /// Returns the parts of a mesh that is written in `n` pieces; none if `n` is one.
     fn all(mesh: &Mesh, n: usize) -> Vec<MeshPart> {
         if n < 2 {
             return Vec::new();
@@ -134,7 +134,7 @@ impl MeshPart {
         some.map(part).collect()
     }
 
-    /// Share of the part in fields on the whole mesh.
+    /// Returns the values of the part, taken from fields on the whole mesh.
     fn of(&self, whole: &Fields) -> Fields {
         let (dimension, components) = (self.mesh.dimension, 2 * self.mesh.dimension);
         Fields {
@@ -156,7 +156,7 @@ impl MeshPart {
     }
 }
 
-/// Some of the items of an array, each of so many values.
+/// Returns some of the items of an array, each of `size` values.
 fn some<T: Copy>(all: &[T], items: &[u32], size: usize) -> Vec<T> {
     let each = items
         .iter()
@@ -164,25 +164,25 @@ fn some<T: Copy>(all: &[T], items: &[u32], size: usize) -> Vec<T> {
     each.copied().collect()
 }
 
-/// Whether a file of this name is one of a state, or of a piece of one.
+/// Whether a file of this name holds a state or a piece of a state.
 pub(super) fn is_file(name: &str) -> bool {
     let suffixes = [FILE_SUFFIX, PIECES_SUFFIX];
     name.starts_with(FILE_PREFIX) && suffixes.iter().any(|suffix| name.ends_with(suffix))
 }
 
-/// Whether a file only names the pieces of a state.
+/// Whether a file only lists the pieces of a state.
 pub(super) fn is_in_pieces(path: &Path) -> bool {
     let name = path.file_name().map(|name| name.to_string_lossy());
     name.is_some_and(|name| name.ends_with(PIECES_SUFFIX))
 }
 
-/// In how many pieces a state of these results is written: one for each rank.
+/// The number of pieces in which a state of these results is written: one for each rank.
 fn n_pieces(results: &Results) -> usize {
     results.ranks.as_ref().map_or(1, |ranks| ranks.count.max(1))
 }
 
-/// Changes of the load factor up to each state, added up; later states at the same one follow as
-/// closely as numbers do.
+/// The times of the states: the changes of the load factor up to each state, added up. A later
+/// state at the same load factor gets the next larger number as its time.
 fn times(states: &[State]) -> Vec<f64> {
     let (mut time, mut alpha) = (0.0f64, 0.0);
     let each = states.iter().enumerate().map(|(i, state)| {
@@ -198,9 +198,9 @@ fn times(states: &[State]) -> Vec<f64> {
     each.collect()
 }
 
-/// Name of the file of the state `index`: `state_01_NAME.vtu`, in pieces `.pvtu`. The number keeps
-/// names apart and in order whatever becomes of the state's name, of which only ASCII letters,
-/// digits, `.`, `-` and `_` are safe everywhere.
+/// Returns the name of the file of the state `index`: `state_01_NAME.vtu`, or `.pvtu` if it is in
+/// pieces. The number keeps names distinct and in order, whatever remains of the state's name, of
+/// which only ASCII letters, digits, `.`, `-` and `_` are safe everywhere.
 pub(super) fn file_name(index: usize, results: &Results) -> String {
     let mut name = stem(index, results.states.len(), &results.states[index].name);
     name.push_str(match n_pieces(results) {
@@ -223,7 +223,7 @@ fn stem(index: usize, n_states: usize, state: &str) -> String {
     name
 }
 
-/// Mesh and fields as arrays of a grid.
+/// Returns mesh and fields as arrays of a grid.
 fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> {
     // In axisymmetric models the second axis is z: calling it y would make `zz` the hoop stress.
     let space = Space::ALL
@@ -262,7 +262,7 @@ fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> 
     }
 }
 
-/// Checks that every array has its length: a reader would take a short one for a damaged file.
+/// Checks the length of every array: a reader would take a file with a short one for damaged.
 pub(super) fn check(mesh: &Mesh, fields: &Fields) -> Result<()> {
     let (nodes, elements) = (mesh.n_nodes(), mesh.n_elements());
     let dimension = mesh.dimension;

@@ -1,7 +1,8 @@
-//! `history.csv`: a row per accepted increment, with the event that ended it. Columns are the
-//! fields of [`HistoryRow`], and behind them what the scene asks for
-//! ([`crate::scene::Program::history`]). `path.csv`: points between these rows, for curves. Columns
-//! are those of [`PathPoint`], and the same behind them, changing evenly from row to row.
+//! `history.csv`: a row per accepted increment, with the event that ended it. The columns are the
+//! fields of [`HistoryRow`], followed by the columns that the scene asks for
+//! ([`crate::scene::Program::history`]). `path.csv`: points between these rows, for curves. The
+//! columns are the fields of [`PathPoint`], followed by the columns that the scene asks for,
+//! interpolated linearly between the rows.
 
 use super::rows::rows;
 use super::table;
@@ -31,7 +32,7 @@ pub(super) fn write_path(out: &mut impl Write, results: &Results) -> io::Result<
     table::write_with(out, &PathPoint::default(), &results.history_columns, points)
 }
 
-/// What is measured at a point of the path between two rows.
+/// Interpolates the columns that the scene asks for at a point of the path between two rows.
 fn between(results: &Results, point: &PathPoint) -> Vec<f64> {
     let row = |number: usize| results.history.get(number.checked_sub(1)?);
     let ends = point.increment.checked_sub(1).and_then(row);
@@ -43,7 +44,7 @@ fn between(results: &Results, point: &PathPoint) -> Vec<f64> {
     values.map(|(a, b)| a + share * (b - a)).collect()
 }
 
-/// The history as it was written, and the names of the columns that the scene asked for.
+/// Reads the history as it was written, and the names of the columns that the scene asked for.
 ///
 /// # Errors
 /// Errors of [`rows`]; `Input` with the row and column of a cell that is no number.

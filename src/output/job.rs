@@ -20,21 +20,21 @@ use std::path::{Path, PathBuf};
 const STATUS_HEAD: &str = "SUMMARY OF JOB INFORMATION
   STEP      INC     ATT  ITRS     TOT TIME     STEP TIME      INC TIME
 ";
-// The spelling is that of CalculiX.
+// The spelling (C0NVERGENCE) is that of CalculiX.
 const CONVERGENCE_HEAD: &str = "SUMMARY OF C0NVERGENCE INFORMATION
   STEP   INC  ATT   ITER     CONT.   RESID.        CORR.      RESID.      CORR.
                               EL.    FORCE         DISP       FLUX        TEMP.
                               (#)     (%)           (%)        (%)         (%)
 ";
 
-/// The files of a deck, by its name without the ending.
+/// The files of a deck, by the name of the deck without its ending.
 #[derive(Debug, Clone)]
 pub struct JobFiles {
     name: PathBuf,
 }
 
 impl JobFiles {
-    /// The files of the deck `NAME.inp`.
+    /// Returns the files of the deck `NAME.inp`.
     pub fn new(name: &Path) -> Self {
         JobFiles {
             name: name.to_path_buf(),
@@ -83,18 +83,18 @@ impl JobFiles {
     }
 }
 
-/// An increment of the deck: the way from one state to the next.
+/// An increment of the deck: the part of the path from one state to the next.
 struct DeckIncrement {
     step: usize,
     increment: usize,
     iterations: usize,
-    /// Total time, time of the step, and of the increment.
+    /// Total time, time within the step, and length of the increment.
     times: [f64; 3],
     closed: usize,
     residual: f64,
 }
 
-/// The increments of a run. What brinell took them in is added up.
+/// Returns the increments of a run. The increments that brinell took within each are added up.
 fn rows(model: &Model, results: &Results) -> Vec<DeckIncrement> {
     let moments = &model.scene.requests.moments;
     let mut ahead = &results.history[..];
@@ -150,13 +150,13 @@ impl DeckIncrement {
     }
 }
 
-/// Six digits behind a zero.
+/// Formats a number with six digits after a leading zero.
 fn short(value: f64) -> String {
     let text = format!("{value:.5E}");
     fortran(text.parse().unwrap_or(value)).replacen("0E", "E", 1)
 }
 
-/// Four digits behind a zero.
+/// Formats a number with four digits after a leading zero.
 fn four(value: f64) -> String {
     let text = format!("{value:.3E}");
     fortran(text.parse().unwrap_or(value)).replacen("000E", "E", 1)
@@ -166,7 +166,7 @@ fn four(value: f64) -> String {
 mod tests {
     use super::*;
 
-    /// The rows of ccx 2.20 for the same.
+    /// The expected rows are those of ccx 2.20 for the same increment.
     #[test]
     fn rows_are_those_of_calculix() {
         let row = DeckIncrement {

@@ -1,4 +1,4 @@
-//! What readers call the quantities of a run, and the names of their units: the scene's names where
+//! Names of the quantities of a run for readers, and the names of their units: the scene's names if
 //! it gives them, else nothing. Keys and columns for programs keep their names.
 
 use crate::model::{LoadCase, Magnitude, Model};
@@ -13,11 +13,11 @@ pub struct Labels {
     units: Option<UnitNames>,
     /// Whether forces are per thickness.
     is_plane: bool,
-    /// What the half width of the contact is.
+    /// Meaning of the half width of the contact.
     extent: Extent,
 }
 
-/// Names of units as they stand beside numbers, and in `summary.json`.
+/// Names of units as they appear beside numbers and in `summary.json`.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(super) struct UnitNames {
     length: String,
@@ -27,7 +27,7 @@ pub(super) struct UnitNames {
     load: String,
 }
 
-/// What the half width of a contact is.
+/// Meaning of the half width of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Extent {
@@ -66,7 +66,7 @@ impl Labels {
         }
     }
 
-    /// Labels that `summary.json` has of a run of this kind.
+    /// Returns the labels recorded in `summary.json` for a run of this kind.
     pub(super) fn recorded(kind: &str, units: Option<UnitNames>, extent: Option<Extent>) -> Self {
         let plane = [Space::PlaneStrain, Space::PlaneStress];
         Labels {
@@ -81,27 +81,27 @@ impl Labels {
         self.units.clone()
     }
 
-    /// What the half width is, for `summary.json`.
+    /// Returns the meaning of the half width, for `summary.json`.
     pub(super) fn extent(&self) -> Extent {
         self.extent
     }
 
-    /// Unit of lengths; empty where none is named.
+    /// Unit of lengths; empty if none is named.
     pub fn length(&self) -> &str {
         self.units.as_ref().map_or("", |names| &names.length)
     }
 
-    /// Unit of stresses; empty where none is named.
+    /// Unit of stresses; empty if none is named.
     pub fn stress(&self) -> &str {
         self.units.as_ref().map_or("", |names| &names.stress)
     }
 
-    /// Unit of the total load; empty where none is named.
+    /// Unit of the total load; empty if none is named.
     pub fn load(&self) -> &str {
         self.units.as_ref().map_or("", |names| &names.load)
     }
 
-    /// Unit of a quantity; empty where none is named.
+    /// Unit of a quantity; empty if none is named.
     pub fn unit(&self, unit: Unit) -> String {
         let Some(names) = &self.units else {
             return String::new();
@@ -116,19 +116,19 @@ impl Labels {
             Unit::Area => format!("{length}\u{b2}"),
             Unit::Size if self.is_plane => format!("{length}\u{b2}"),
             Unit::Size => format!("{length}\u{b3}"),
-            // Per unit thickness.
+            // Work is per unit thickness.
             Unit::Work if self.is_plane => force.clone(),
             Unit::Work => format!("{force} {length}"),
         }
     }
 
-    /// Labels of the axes of the plane.
+    /// Returns the labels of the two axes of a plane picture.
     pub fn axes(&self, space: Space) -> [String; 2] {
         let names = space.axes();
         [0, 1].map(|axis| labelled(names[axis], self.length()))
     }
 
-    /// What the half width of the contact is called.
+    /// Returns the name of the half width of the contact.
     pub fn half_width(&self) -> &'static str {
         match self.extent {
             Extent::HalfWidth => "half width",
@@ -137,7 +137,7 @@ impl Labels {
         }
     }
 
-    /// The heading of a quantity's column, in lines.
+    /// Returns the heading of a quantity's column, in lines.
     pub fn heading(&self, quantity: &Quantity) -> &'static str {
         match (quantity.key, self.extent) {
             ("half_width", Extent::Radius) => "contact\nradius",
@@ -146,14 +146,14 @@ impl Labels {
         }
     }
 
-    /// A quantity's name in a line, with its unit.
+    /// Returns a quantity's name in one line, with its unit.
     pub fn name(&self, quantity: &Quantity) -> String {
         labelled(&in_line(self.heading(quantity)), &self.unit(quantity.unit))
     }
 }
 
-/// The first load that varies is what the total load is stated of; of a displacement it is the
-/// force that it takes.
+/// Returns the unit of the total load, which is stated for the first load that varies; for a
+/// displacement it is the unit of the force that the displacement takes.
 fn load_unit(model: &Model, names: &scene::Units, is_plane: bool) -> String {
     let varies = |load: &&LoadCase| load.history != scene::History::Constant;
     let leading = model.loads.iter().find(varies).or(model.loads.first());
@@ -164,7 +164,7 @@ fn load_unit(model: &Model, names: &scene::Units, is_plane: bool) -> String {
     }
 }
 
-/// A heading of several lines in one.
+/// Joins a heading of several lines into one line.
 pub(crate) fn in_line(heading: &str) -> String {
     heading.replace("-\n", "").replace('\n', " ")
 }
@@ -202,7 +202,8 @@ mod tests {
         Labels::of(&Model::new(&scene).unwrap())
     }
 
-    /// Per length in the plane, of the whole about an axis; a pressure is a stress.
+    /// The load is per length in the plane and that of the whole about an axis; a pressure is a
+    /// stress.
     #[test]
     fn the_unit_of_the_load_is_that_of_what_loads() {
         for (name, expected) in [
@@ -216,7 +217,8 @@ mod tests {
         assert_eq!(labels("contact_patch", false).load(), "");
     }
 
-    /// A radius is that of a contact round the axis, not of any axisymmetric one.
+    /// The name "radius" is only used for a contact round the axis, not for every axisymmetric
+    /// contact.
     #[test]
     fn a_half_width_is_called_what_it_is() {
         let width = Quantity::of("half_width").unwrap();

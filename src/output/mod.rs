@@ -1,4 +1,4 @@
-//! What a run leaves behind: one directory, written whole or not at all.
+//! The files that a run leaves: one directory, written whole or not at all.
 //!
 //! ```text
 //! DIR/summary.json          figures of the run and of each state (SUMMARY_SCHEMA)  (summary)
@@ -18,7 +18,7 @@
 //!     stale.txt             where a later run failed: results of an earlier one    (claim)
 //! ```
 //!
-//! [`read()`] takes a directory back, [`write_report`] makes its report anew.
+//! [`read()`] reads a directory back, [`write_report`] writes its report again.
 //!
 //! A study ([`write_study`]) leaves a directory of its own:
 //!
@@ -95,38 +95,39 @@ use std::path::Path;
 /// The JSON schema (draft 2020-12) that every `summary.json` of this version obeys.
 pub const SUMMARY_SCHEMA: &str = include_str!("../../data/schema/summary.schema.json");
 
-/// The summary: its `brinell` key marks a directory as a result.
+/// The file of the summary: its `brinell` key marks a directory as a result.
 const SUMMARY_FILE: &str = "summary.json";
-/// The study: marks a directory like the summary.
+/// The file of a study: marks a directory like the summary.
 const STUDY_FILE: &str = "accuracy.json";
 const HISTORY_FILE: &str = "history.csv";
-/// Written where there are such points.
+/// File of the points between increments, written if there are any.
 const PATH_FILE: &str = "path.csv";
 const CONTACT_FILE: &str = "contact.csv";
 const COLLECTION_FILE: &str = "fields.pvd";
 const REPORT_FILE: &str = "report.html";
-/// Figures of the report.
+/// Beginning of the file names of the report's figures.
 const FIGURE_PREFIX: &str = "report_";
 const FIGURE_SUFFIX: &str = ".svg";
 
-/// What the output states of a run besides its results.
+/// Facts about a run that the output states in addition to its results.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RunHeader {
     /// Title of the scene.
     pub scene_title: String,
-    /// The file that the scene was read from; `None` where it came from no file.
+    /// The file that the scene was read from; `None` if it came from no file.
     pub scene_file: Option<String>,
     /// `plane_strain`, `plane_stress`, `axisymmetric` or `solid`, as in the scene.
     pub kind: String,
     /// The backend that factored the stiffness: `cholmod`, `faer` or `dense`.
     pub solver: String,
-    /// The processor whose kernels the BLAS of the backend used (`Haswell`); `None` without such.
+    /// The processor for which the kernels of the backend's BLAS are written (`Haswell`); `None`
+    /// for a backend without such kernels.
     pub kernels: Option<String>,
     /// Wall time of the whole run in seconds.
     pub wall_seconds: f64,
     /// Body names, in the order of the mesh.
     pub bodies: Vec<String>,
-    /// What the quantities are called, and the names of their units.
+    /// Names of the quantities and of their units.
     pub labels: Labels,
 }
 
@@ -145,7 +146,7 @@ impl RunHeader {
         }
     }
 
-    /// Number of coordinates.
+    /// Returns the number of coordinates.
     fn dimension(&self) -> usize {
         if self.kind == Space::Solid.name() {
             3
@@ -154,7 +155,7 @@ impl RunHeader {
         }
     }
 
-    /// Name of a body by its index.
+    /// Returns the name of a body by its index.
     fn body(&self, index: usize) -> String {
         match self.bodies.get(index) {
             Some(name) => name.clone(),
@@ -166,19 +167,19 @@ impl RunHeader {
 /// Writes the result directory `dir`: all of it or nothing.
 ///
 /// An earlier result of brinell in `dir` is replaced; files in it that are not brinell's (a plot, a
-/// ParaView state) are kept. Missing parent directories are made. `fields.pvd` is written where at
+/// ParaView state) are kept. Missing parent directories are created. `fields.pvd` is written if at
 /// least one state has fields.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Input`] where `dir` exists and is neither empty nor a result of brinell, or
-/// is not a directory; [`crate::ErrorKind::Io`] naming the path where something cannot be written;
-/// [`crate::ErrorKind::Internal`] where the fields of a state do not fit the mesh. After an error
+/// [`crate::ErrorKind::Input`] if `dir` exists and is neither empty nor a result of brinell, or is
+/// not a directory; [`crate::ErrorKind::Io`] naming the path if something cannot be written;
+/// [`crate::ErrorKind::Internal`] if the fields of a state do not fit the mesh. After an error
 /// `dir` is as it was and nothing is left beside it.
 pub fn write(dir: &Path, header: &RunHeader, mesh: &Mesh, results: &Results) -> Result<()> {
     finish(Staging::new(dir)?, header, mesh, results, |_| Ok(()))
 }
 
-/// Writes tables and fields and what `more` adds, all or nothing.
+/// Writes tables and fields and the files that `more` adds, all or nothing.
 fn finish(
     staging: Staging,
     header: &RunHeader,
@@ -191,11 +192,11 @@ fn finish(
     staging.publish(is_result_file)
 }
 
-/// As [`write()`], with the scene as it was run: [`read()`] takes such a directory back, and its
-/// report can be made later.
+/// Writes the results like [`write()`], and the scene as it was run: [`read()`] can read such a
+/// directory back, and its report can be made later.
 ///
 /// # Errors
-/// As [`write()`].
+/// The errors of [`write()`].
 pub fn write_without_report(
     dir: &Path,
     header: &RunHeader,
@@ -250,13 +251,13 @@ fn write_tables_and_fields(
 /// refusal. Leaves nothing behind.
 ///
 /// # Errors
-/// As [`write()`], before anything is computed.
+/// The errors of [`write()`], before anything is computed.
 pub fn check_directory(dir: &Path) -> Result<()> {
     Staging::new(dir).map(drop)
 }
 
-/// Whether a file of this name in a result directory was written by brinell (and goes when the
-/// result is replaced).
+/// Whether a file of this name in a result directory was written by brinell (and is removed when
+/// the result is replaced).
 fn is_result_file(name: &OsStr) -> bool {
     name.to_str().is_some_and(|name| {
         [

@@ -1,4 +1,4 @@
-//! Named entries that keep their order: an object of JSON whose keys are those of the scene.
+//! Named entries in a fixed order: a JSON object whose keys are in the order of the scene.
 
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -16,7 +16,7 @@ impl<T> Default for Named<T> {
 }
 
 impl<T> Named<T> {
-    /// The entry of a name.
+    /// Returns the entry of a name.
     pub(super) fn get(&self, name: &str) -> Option<&T> {
         self.0.iter().find(|entry| entry.0 == name).map(|e| &e.1)
     }

@@ -1,8 +1,8 @@
-//! A result directory read back: what its report shows, without running again.
+//! Reading a result directory: everything that its report shows, without running again.
 //!
 //! `summary.json` holds the figures, `history.csv` and `contact.csv` the rows, the `.vtu` files the
-//! fields, and the scene as it was run makes the model. Numbers that were not finite were written
-//! as null (or an empty cell) and come back as NaN.
+//! fields, and the model is made from the scene as it was run. Numbers that were not finite were
+//! written as null (or an empty cell) and are read as NaN.
 
 use super::contact::PairRow;
 use super::rows::{rows, summary};
@@ -16,11 +16,11 @@ use std::path::Path;
 /// A run read back from its directory.
 #[derive(Debug, Clone)]
 pub struct Recorded {
-    /// What the output states of the run besides its results.
+    /// The facts about the run that the output states in addition to its results.
     pub header: RunHeader,
     /// The model, built again from the scene (or the arrays) as it was run.
     pub model: Model,
-    /// The results. What kind of early end it was is not recorded.
+    /// The results. The kind of an early end is not recorded.
     pub results: Results,
 }
 
@@ -48,9 +48,9 @@ pub struct Recorded {
 /// ```
 ///
 /// # Errors
-/// [`crate::ErrorKind::Io`] where a file cannot be read; [`crate::ErrorKind::Input`] naming the
-/// file where `dir` is no result of brinell, was written without its scene, is damaged, or where
-/// its parts do not belong together.
+/// [`crate::ErrorKind::Io`] if a file cannot be read; [`crate::ErrorKind::Input`] naming the file
+/// if `dir` is not a result of brinell, was written without its scene, or is damaged, or if its
+/// parts do not belong together.
 pub fn read(dir: &Path) -> Result<Recorded> {
     let path = dir.join(SUMMARY_FILE);
     let summary = summary(&path)?;
@@ -85,7 +85,7 @@ pub fn read(dir: &Path) -> Result<Recorded> {
     read_pairs(&dir.join(CONTACT_FILE), &model, &mut results)?;
     for (state, file) in results.states.iter_mut().zip(field_files) {
         if let Some(name) = file {
-            // A file of this directory, whatever the summary says.
+            // Only a file of this directory is read, whatever the summary says.
             let name = Path::new(&name).file_name().unwrap_or_default();
             state.fields = Some(vtu_read::read(&dir.join(name), &model.mesh)?);
         }
@@ -97,9 +97,9 @@ pub fn read(dir: &Path) -> Result<Recorded> {
     })
 }
 
-/// The pairs of all states.
+/// Reads the pairs of all states.
 fn read_pairs(path: &Path, model: &Model, results: &mut Results) -> Result<()> {
-    // Points on the axis that are no pairs are numbered after them.
+    // Points on the axis that are not pairs are numbered after the pairs.
     let on_axis = model.contacts.iter().filter(|c| c.axis.is_some()).count();
     let n_points = model.pairs.len() + on_axis;
     let is_of = |number: usize, n: usize| (1..=n).contains(&number);

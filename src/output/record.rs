@@ -1,6 +1,6 @@
-//! What was run, so that a result directory says by itself where it comes from: the scene with
-//! everything that was put over its file, and the mesh where the scene does not make one; or, of a
-//! model that was handed over in arrays, all of these.
+//! The record of what was run, so that a result directory says by itself where it comes from. It
+//! consists of the scene with all overrides applied, and of the mesh if the scene does not generate
+//! one; for a model that was given in arrays it is the whole model.
 
 use super::atomic::Staging;
 use crate::error::{Error, Result};
@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 pub(super) const SCENE_FILE: &str = "scene_as_run.toml";
 /// File of the scene's mesh in a result directory.
 pub(super) const MESH_FILE: &str = "mesh_as_run.msh";
-/// File of a model that no scene makes.
+/// File of a model that no scene can make.
 pub(super) const MODEL_FILE: &str = "model_as_run.json";
 
 /// Writes the scene and its mesh, or the model.
@@ -54,10 +54,10 @@ pub(super) fn write(staging: &Staging, model: &Model) -> Result<()> {
     })
 }
 
-/// Makes the model of a directory again; with it the file that says how.
+/// Rebuilds the model of a directory; returns it with the path of the file that describes it.
 ///
 /// # Errors
-/// `Input` where there is none or it is damaged, `Io` where it cannot be read.
+/// `Input` if no such file exists or it is damaged, `Io` if it cannot be read.
 pub(super) fn read(dir: &Path) -> Result<(PathBuf, Model)> {
     let scene = dir.join(SCENE_FILE);
     if scene.exists() {

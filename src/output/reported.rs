@@ -8,11 +8,11 @@ use crate::results::Results;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// As [`super::write_without_report`], with `report.html` and the figures of the report as SVG
-/// files.
+/// Writes the results like [`super::write_without_report`], with `report.html` and the figures of
+/// the report as SVG files.
 ///
 /// # Errors
-/// As [`super::write()`]; `Internal` where a figure cannot be drawn.
+/// The errors of [`super::write()`]; `Internal` if a figure cannot be drawn.
 pub fn write_with_report(
     dir: &Path,
     header: &RunHeader,
@@ -38,12 +38,12 @@ pub(super) fn finish_with_report(
     })
 }
 
-/// Makes the report of a result directory anew: `report.html` and its figures, each put in its
-/// place whole. Figures of an earlier report that this one does not have are removed; nothing else
-/// is touched. Returns the path of the page.
+/// Writes the report of a result directory again: `report.html` and its figures, each file whole.
+/// Figures of an earlier report that this one does not have are removed; nothing else is touched.
+/// Returns the path of the page.
 ///
 /// # Errors
-/// Errors of [`read()`]; `Internal` where a figure cannot be drawn, `Io` naming the file that
+/// Errors of [`read()`]; `Internal` if a figure cannot be drawn, `Io` naming the file that
 /// cannot be written.
 pub fn write_report(dir: &Path) -> Result<PathBuf> {
     let recorded = read(dir)?;

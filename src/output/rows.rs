@@ -1,4 +1,4 @@
-//! What a run left, read back: its summary, and a table by rows or columns.
+//! Reading the files of a run: its summary, and a table by rows or columns.
 
 use super::summary::Summary;
 use crate::error::{Error, Result};
@@ -6,10 +6,10 @@ use crate::files;
 use serde::de::DeserializeOwned;
 use std::path::Path;
 
-/// A summary.
+/// Reads a summary.
 ///
 /// # Errors
-/// `Io` where it cannot be read, `Input` where it is none of brinell or damaged.
+/// `Io` if it cannot be read, `Input` if it is not a summary of brinell or is damaged.
 pub(crate) fn summary(path: &Path) -> Result<Summary> {
     let text = files::read_text("read the results", path, None)
         .map_err(|error| error.within("no directory of results that brinell wrote"))?;
@@ -25,11 +25,11 @@ pub(crate) fn summary(path: &Path) -> Result<Summary> {
     }
 }
 
-/// The rows of a CSV file whose columns are the fields of a type, and maybe others. An empty cell
-/// is not a number.
+/// Returns the rows of a CSV file whose columns are the fields of a type, and maybe others. An
+/// empty cell is read as NaN.
 ///
 /// # Errors
-/// `Io` where it cannot be read; `Input` with the row, counted from 1, that is damaged or lacks a
+/// `Io` if it cannot be read; `Input` with the row, counted from 1, that is damaged or lacks a
 /// column.
 pub(crate) fn rows<Row: DeserializeOwned>(path: &Path) -> Result<Vec<Row>> {
     let text = files::read("read", path, None)?;

@@ -1,4 +1,4 @@
-//! The nodes that gaps and pressures of a contact are shown at in the files of CalculiX.
+//! The nodes at which gaps and pressures of a contact are shown in the files of CalculiX.
 
 use crate::mesh::Mesh;
 use crate::model::Model;
@@ -23,8 +23,9 @@ impl<'a> Slaves<'a> {
         }
     }
 
-    /// The gap of a pair, negative where the surfaces overlap; 0 of a pair that a step switches off
-    /// (`*MODEL CHANGE`), which is then apart by the length of the model.
+    /// Returns the gap of a pair, negative if the surfaces overlap. The gap of a pair that a step
+    /// switches off (`*MODEL CHANGE`) is 0; in the results of brinell such a pair is apart by more
+    /// than half the diagonal of the model.
     pub(super) fn gap(&self, of_pair: &PairState) -> f64 {
         if of_pair.gap > self.far {
             return 0.0;
@@ -38,8 +39,9 @@ impl<'a> Slaves<'a> {
         first.is_some_and(|first| first.binary_search(&node).is_ok())
     }
 
-    /// The node of a pair: the one of the first surface where two nodes face each other, the slave
-    /// of the pair otherwise. A point on an axis of revolution that is no pair has none.
+    /// Returns the node of a pair: the node of the first surface if two nodes face each other,
+    /// otherwise the slave of the pair. A point on an axis of revolution that is not a pair has
+    /// none.
     pub(super) fn node(&self, of_pair: &PairState) -> Option<usize> {
         let pair = self.model.pairs.get(of_pair.pair)?;
         let is_on_first = |node: &usize| self.is_on_first(*node, of_pair.contact);

@@ -6,20 +6,20 @@ use crate::number::{rough_percentage, significant};
 use crate::results::{Accuracy, EstimateMethod, QUANTITIES, Quantity, QuantityError};
 use std::collections::BTreeMap;
 
-/// The table: errors relative to the largest size of each quantity in the run.
+/// The table of the stated errors, relative to the largest size of each quantity in the run.
 pub(crate) struct StatedErrors {
     /// The heading of each column, in lines.
     pub columns: Vec<&'static str>,
     /// A row per state: its name and the stated errors, ready to print, in per cent.
     pub states: Vec<(String, Vec<String>)>,
-    /// The largest of each kind of error, before they are put together.
+    /// The largest of each kind of error, before the kinds are added.
     pub kinds: Vec<(&'static str, Vec<String>)>,
-    /// How the mesh's part was estimated.
+    /// How the part of the mesh was estimated.
     pub method: String,
 }
 
 impl StatedErrors {
-    /// The table of an estimate; `None` where nothing was estimated.
+    /// The table of an estimate; `None` if nothing was estimated.
     pub(crate) fn of(accuracy: &Accuracy, labels: &Labels) -> Option<Self> {
         if accuracy.method == EstimateMethod::None {
             return None;
@@ -61,7 +61,7 @@ impl StatedErrors {
             let largest = keys.iter().map(|Quantity { key, .. }| {
                 let relative = prefixes.iter().filter_map(|p| {
                     let quantity = find(p, key)?;
-                    // The scale is that of the stated error.
+                    // The scale is the one of the stated error.
                     let scale = quantity.error? / quantity.relative_error?;
                     Some(part(quantity)? / scale)
                 });

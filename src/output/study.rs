@@ -40,12 +40,12 @@ const COLUMNS: [&str; 22] = [
 /// replaced, other files are kept.
 ///
 /// # Errors
-/// As [`super::write()`].
+/// The errors of [`super::write()`].
 pub fn write_study(dir: &Path, header: &RunHeader, study: &Study) -> Result<()> {
     finish_study(Staging::new(dir)?, header, study)
 }
 
-/// Fills a directory in the making and puts it in its place.
+/// Fills a temporary directory and moves it to its final path.
 pub(super) fn finish_study(staging: Staging, header: &RunHeader, study: &Study) -> Result<()> {
     staging.file(STUDY_FILE, |out| {
         serde_json::to_writer_pretty(&mut *out, &study_json(header, study))?;
@@ -169,8 +169,8 @@ fn table(out: &mut impl Write, study: &Study) -> std::io::Result<()> {
     writer.flush()
 }
 
-/// Name of a quantity's plot: only ASCII letters, digits, `-` and `_` of its path are safe
-/// everywhere.
+/// Returns the file name of a quantity's plot. In the path only ASCII letters, digits, `-` and `_`
+/// are safe everywhere; other characters become `_`.
 fn plot_file(path: &str) -> String {
     let name: String = path
         .chars()
@@ -185,7 +185,7 @@ fn plot_file(path: &str) -> String {
     name + PLOT_SUFFIX
 }
 
-/// Whether a file of this name in a study's directory goes when the study is replaced.
+/// Whether a file of this name in a study's directory is removed when the study is replaced.
 fn is_study_file(name: &OsStr) -> bool {
     let ours = |name: &str| name == STUDY_FILE || name == TABLE_FILE || name.ends_with(PLOT_SUFFIX);
     name.to_str()

@@ -1,5 +1,5 @@
-//! `summary.json`: the figures of a run, as one structure that writes and reads it. Keys and
-//! meanings are in [`super::SUMMARY_SCHEMA`]; those of a state are the table [`QUANTITIES`].
+//! `summary.json`: the figures of a run, as one structure that writes and reads the file. Keys and
+//! meanings are in [`super::SUMMARY_SCHEMA`]; the keys of a state are in the table [`QUANTITIES`].
 
 use super::labels::{Extent, Labels, UnitNames};
 use super::{RunHeader, fields, named::Named};
@@ -18,14 +18,15 @@ use std::path::Path;
 /// The content of `summary.json`. Numbers that are not finite become null.
 ///
 /// `timings` are the phases of [`Results::timings`] (a phase that ran more than once is summed) and
-/// `total`, the wall time of the run; `peak_memory_bytes` is that of this process, null where the
+/// `total`, the wall time of the run; `peak_memory_bytes` is that of this process, null if the
 /// system does not report it.
 pub fn summary(header: &RunHeader, results: &Results) -> Value {
-    // Numbers, texts and keys that are texts: nothing that JSON cannot hold.
+    // Numbers, texts and keys that are texts: JSON can hold all of it.
     serde_json::to_value(Summary::new(header, results)).unwrap_or_default()
 }
 
-/// `summary.json`. What a version did not have yet is as in a run without it.
+/// The content of `summary.json`. A key that is missing in the file of an older version has the
+/// value of a run without that feature.
 #[derive(Debug, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub(crate) struct Summary {
@@ -118,7 +119,7 @@ impl Serialize for StateEntry {
         map.serialize_entry("name", &self.name)?;
         for (key, figure) in &self.figures {
             map.serialize_entry(key, figure)?;
-            // What belongs to a quantity follows it.
+            // Entries that belong to a quantity follow it.
             match key.as_str() {
                 "half_width" => map.serialize_entry("contact_arc", &self.contact_arc)?,
                 "residual_depth" => {
@@ -139,7 +140,7 @@ impl Serialize for StateEntry {
     }
 }
 
-/// The quantities of a record that has these of the table.
+/// Returns the quantities of a record, as far as it has those of the table.
 fn figures<R>(record: &R, field: impl Fn(&Quantity) -> Option<Field<R>>) -> Map<String, Value> {
     let entry = |quantity: &Quantity| {
         let value = (field(quantity)?.get)(record);
@@ -152,7 +153,7 @@ fn figures<R>(record: &R, field: impl Fn(&Quantity) -> Option<Field<R>>) -> Map<
     QUANTITIES.iter().filter_map(entry).collect()
 }
 
-/// The record again.
+/// Reads the quantities of a record back into it.
 fn read_figures<R>(
     figures: &Map<String, Value>,
     record: &mut R,
@@ -206,7 +207,8 @@ impl Summary {
         }
     }
 
-    /// What the output states of the run besides its results, but for the scene's title.
+    /// Returns the facts about the run that the output states in addition to its results, without
+    /// the title of the scene.
     pub(super) fn header(&self, bodies: &[String]) -> RunHeader {
         let total = self.timings.get("total").copied().flatten();
         RunHeader {
@@ -221,12 +223,12 @@ impl Summary {
         }
     }
 
-    /// The words and units of its numbers.
+    /// Returns the names and units of the numbers.
     pub(crate) fn labels(&self) -> Labels {
         Labels::recorded(&self.kind, self.units.clone(), self.half_width_is)
     }
 
-    /// The idealisation; an unknown one is taken for a plane one.
+    /// Returns the idealisation; an unknown one is taken for plane strain.
     #[cfg(feature = "cli")]
     pub(crate) fn space(&self) -> Space {
         let named = Space::ALL.into_iter().find(|s| s.name() == self.kind);
@@ -238,7 +240,8 @@ impl Summary {
         self.states.iter().map(|s| s.fields.clone()).collect()
     }
 
-    /// All but the history, the pairs and the fields. The kind of an early end is not recorded.
+    /// Returns the results without the history, the pairs and the fields. The kind of an early end
+    /// is not recorded.
     pub(crate) fn results(self, bodies: &[String]) -> Results {
         let phases = self.timings.0.into_iter();
         let phases = phases.filter(|(phase, _)| phase != "total");
@@ -272,7 +275,7 @@ impl Summary {
     }
 }
 
-/// What a reader calls the scene: its title, or the name of its file.
+/// Returns the name of the scene for readers: its title, or the name of its file.
 fn scene(header: &RunHeader) -> String {
     if !header.scene_title.is_empty() {
         return header.scene_title.clone();
@@ -381,7 +384,7 @@ impl StateEntry {
     }
 }
 
-/// A figure of each body, by its name.
+/// Returns a figure of each body, by the name of the body.
 fn by_body<T>(header: &RunHeader, figures: impl Iterator<Item = T>) -> Named<T> {
     let named = figures.enumerate();
     named.map(|(i, figure)| (header.body(i), figure)).collect()

@@ -1,4 +1,4 @@
-//! A sweep: the same scene with other values of some keys, a result directory for each point.
+//! A sweep: the same scene with other values of some keys, and a result directory for each point.
 //!
 //! ```text
 //! DIR/sweep.json        points with their values, folders and how they ended
@@ -17,9 +17,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 use std::path::Path;
 
-/// What a sweep has done.
+/// The file that records the progress of a sweep.
 const RECORD_FILE: &str = "sweep.json";
-/// What the record of a share begins with.
+/// Beginning of the file name of a share's record.
 const SHARE_PREFIX: &str = "sweep-";
 const TABLE_FILE: &str = "sweep.csv";
 /// Longest name of a point's folder.
@@ -32,9 +32,9 @@ pub(crate) struct Sweep {
     brinell: String,
     /// The keys that vary.
     pub keys: Vec<String>,
-    /// In the order of their values.
+    /// The points, in the order of their values.
     pub points: Vec<SweepPoint>,
-    /// File in which the sweep is recorded: a share of the points has a file of its own.
+    /// File in which the sweep is recorded: a share of the points has its own file.
     #[serde(skip)]
     file: String,
 }
@@ -44,34 +44,34 @@ pub(crate) struct Sweep {
 pub(crate) struct SweepPoint {
     /// A value for each key, as it was given.
     pub values: Vec<String>,
-    /// Folder of the point below that of the sweep.
+    /// Folder of the point, relative to the folder of the sweep.
     pub folder: String,
-    /// Text that stands for all that the results of the point depend on.
+    /// Text that represents everything that the results of the point depend on.
     pub identity: String,
-    /// Loads over yield stress, larger the further the material yields: what is largest is run
-    /// first, so that its factor serves the others.
+    /// Loads over yield stress, larger the further the material yields: the point with the largest
+    /// value is run first, so that its factor serves the others.
     #[serde(skip)]
     pub demand: f64,
-    /// Exit code of the point's run; `None` where it has not ended.
+    /// Exit code of the point's run; `None` if it has not ended.
     pub exit_code: Option<i32>,
-    /// Why, where it did not end well.
+    /// The reason, if the run did not end well.
     pub message: String,
 }
 
 impl SweepPoint {
-    /// Whether a run of this point would end the same way again: done, a limit load, an inaccurate
-    /// result, or the end of the contact candidates.
+    /// Whether another run of this point would end in the same way: complete, a limit load, an
+    /// inaccurate result, or the end of the contact candidates.
     pub(crate) fn is_finished(&self) -> bool {
         matches!(self.exit_code, Some(0 | 6 | 7 | 8))
     }
 }
 
 impl Sweep {
-    /// A sweep of these points, which are all or the share `[i, n]`. What an earlier one in `dir`
-    /// has finished, in whatever shares, is taken over.
+    /// Creates a sweep of these points, which are all points or those of the share `[i, n]`. Points
+    /// that an earlier sweep in `dir` has finished, in whatever shares, are taken over.
     ///
     /// # Errors
-    /// `Input` where `dir` holds something else, `Io` where it cannot be read.
+    /// `Input` if `dir` holds something else, `Io` if it cannot be read.
     pub(crate) fn new(
         dir: &Path,
         keys: Vec<String>,
@@ -107,11 +107,11 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// The points of all records in a directory; none where there is nothing yet.
+    /// Reads the points of all records in a directory; none if there is nothing yet.
     fn read(dir: &Path) -> Result<Vec<SweepPoint>> {
         let entries = std::fs::read_dir(dir).into_iter().flatten().flatten();
         let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
-        // What begins with a point is in the making.
+        // A name that begins with a dot belongs to a file that is still being written.
         let names: Vec<String> = names.filter(|name| !name.starts_with('.')).collect();
         let is_record = |name: &&String| {
             let is_share = name.starts_with(SHARE_PREFIX) && name.ends_with(".json");
@@ -140,7 +140,7 @@ impl Sweep {
         Ok(points)
     }
 
-    /// Writes what is known so far, so that an interrupted sweep can go on.
+    /// Writes the points with their state so far, so that an interrupted sweep can go on.
     ///
     /// # Errors
     /// `Io` naming the file.
@@ -150,7 +150,7 @@ impl Sweep {
         atomic::replace(&dir.join(&self.file), (text + "\n").as_bytes())
     }
 
-    /// Reads the results of all points that have some.
+    /// Reads the results of all points that have results.
     ///
     /// # Errors
     /// Errors of a summary that cannot be read.
@@ -175,7 +175,7 @@ impl Sweep {
     }
 }
 
-/// A name for the folder of a point: the last parts of its keys and its values.
+/// Returns a name for the folder of a point, made of the last parts of its keys and of its values.
 pub(crate) fn folder(keys: &[String], values: &[String]) -> String {
     let part = |(key, value): (&String, &String)| {
         let last = key.rsplit('.').next().unwrap_or(key);
@@ -189,7 +189,7 @@ pub(crate) fn folder(keys: &[String], values: &[String]) -> String {
     name.join("-").chars().take(NAME_LENGTH).map(safe).collect()
 }
 
-/// What came of a sweep.
+/// The outcome of a sweep.
 pub(crate) struct Outcome<'s> {
     sweep: &'s Sweep,
     results: Vec<Option<Results>>,
@@ -197,7 +197,7 @@ pub(crate) struct Outcome<'s> {
 }
 
 impl Outcome<'_> {
-    /// The paths of all figures that any point has, `yield.KEY` or `states.NAME.KEY`.
+    /// Returns the paths of all figures that any point has, `yield.KEY` or `states.NAME.KEY`.
     fn paths(&self) -> Vec<String> {
         let mut paths: Vec<String> = Vec::new();
         for results in self.results.iter().flatten() {
@@ -216,9 +216,9 @@ impl Outcome<'_> {
         paths
     }
 
-    /// The figures that tables and charts show where none are asked for: the loads that were found
-    /// for targets by a figure; the yield load; pressure, extent, approach and plastic strain under
-    /// the largest load; the dent at the end. Those that are 0 in all points are left out.
+    /// Returns the figures that tables and charts show if none are asked for: the loads that were
+    /// found for targets by a figure; the yield load; pressure, extent, approach and plastic strain
+    /// under the largest load; the dent at the end. Figures that are 0 in all points are left out.
     pub(crate) fn main_paths(&self) -> Vec<String> {
         let by_load = |a: &&State, b: &&State| a.load.total_cmp(&b.load);
         let with_states = |r: &&Results| !r.states.is_empty();
@@ -240,7 +240,7 @@ impl Outcome<'_> {
         ];
         let is_found = |e: &Effect| e.on && e.name == LOADS_FOUND;
         let finds_loads = results.effects.iter().any(is_found);
-        // A load that is the same in all points is given.
+        // A load that is the same in all points is given by the scene.
         let differs = |path: &String| {
             let mut loads = (0..self.results.len()).filter_map(|k| self.figure(k, path));
             let first = loads.next();
@@ -259,18 +259,19 @@ impl Outcome<'_> {
             .collect()
     }
 
-    /// A figure of a point.
+    /// Returns a figure of a point.
     pub(crate) fn figure(&self, point: usize, path: &str) -> Option<f64> {
         let found = value(self.results.get(point)?.as_ref()?, path);
         found.filter(|value| value.is_finite())
     }
 
-    /// How many factorisations the run of a point made: none where it took over another's factor.
+    /// Returns how many factorisations the run of a point made: none if it took over another
+    /// point's factor.
     pub(crate) fn factorizations(&self, point: usize) -> Option<usize> {
         Some(self.results.get(point)?.as_ref()?.counts.factorizations)
     }
 
-    /// What a figure is called, in lines, with its unit in the last.
+    /// Returns the heading of a figure, in lines, with the unit in the last.
     pub(crate) fn heading(&self, path: &str) -> String {
         let (place, key) = path.rsplit_once('.').unwrap_or(("", path));
         let place = place.strip_prefix("states.").unwrap_or(place);
@@ -290,7 +291,7 @@ impl Outcome<'_> {
         format!("{place}\n{name}{unit}")
     }
 
-    /// All of it as one object.
+    /// Returns the whole outcome as one JSON object.
     pub(crate) fn json(&self) -> Value {
         let paths = self.paths();
         let points = self.sweep.points.iter().enumerate().map(|(index, point)| {
@@ -313,7 +314,7 @@ impl Outcome<'_> {
     /// Writes the table and the charts of some figures; returns the names of the files.
     ///
     /// # Errors
-    /// `Io` naming the file, `Internal` where a chart cannot be drawn.
+    /// `Io` naming the file, `Internal` if a chart cannot be drawn.
     pub(crate) fn write(&self, dir: &Path, shown: &[String]) -> Result<Vec<String>> {
         atomic::replace(&dir.join(TABLE_FILE), &self.table()?)?;
         let mut names = vec![TABLE_FILE.to_string()];
@@ -355,8 +356,9 @@ impl Outcome<'_> {
             .map_err(|cause| Error::internal("a sweep is not plain data").because(cause))
     }
 
-    /// A figure against the first key, a curve for each combination of the others; `None` where its
-    /// values are no numbers, or fewer than two.
+    /// Draws a figure over the first key, with a curve for each combination of the other keys.
+    /// Returns `None` if the values of the first key are not numbers, or if there are fewer than
+    /// two.
     fn chart(&self, path: &str) -> Result<Option<String>> {
         let mut curves: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
         for (index, point) in self.sweep.points.iter().enumerate() {

@@ -1,13 +1,13 @@
-//! Rows as CSV: a header, full precision, an empty cell where a number is not finite. Texts are
-//! quoted where RFC 4180 asks for it; what a terminal would obey in them is written out, so that a
-//! row is a line.
+//! Rows as CSV: a header, full precision, an empty cell for a number that is not finite. Texts are
+//! quoted as RFC 4180 requires; control characters in them, which a terminal would obey, are
+//! written out, so that a row is a line.
 
 use crate::text::shown_in_line;
 use serde::Serialize;
 use serde_json::Value;
 use std::io::{self, Write};
 
-/// Writes `rows` under a header made of the keys of `Row` (those of `sample`, so that a table
+/// Writes `rows` under a header made of the keys of `Row` (taken from `sample`, so that a table
 /// without rows has its header too).
 ///
 /// # Errors
@@ -25,8 +25,8 @@ pub(super) fn write<Row: Serialize>(
     )
 }
 
-/// As [`write`], with columns of these names behind those of the rows, and their numbers beside
-/// each row.
+/// Writes a table like [`write`], with more columns of the given names after those of the rows, and
+/// the numbers of these columns beside each row.
 ///
 /// # Errors
 /// Errors of `out`.
@@ -48,7 +48,7 @@ pub(super) fn write_with<Row: Serialize>(
     csv.flush()
 }
 
-/// Names of the columns that the fields of a row make.
+/// Returns the names of the columns, which are the fields of a row.
 ///
 /// # Errors
 /// A row without named fields.
@@ -56,12 +56,13 @@ pub(super) fn keys(sample: &impl Serialize) -> io::Result<Vec<String>> {
     Ok(cells(sample)?.into_iter().map(|(key, _)| key).collect())
 }
 
-/// Keys and cells of a row. By way of JSON values, where numbers that are not finite are null.
+/// Returns the keys and cells of a row. The row is converted to JSON values, in which numbers that
+/// are not finite are null.
 fn cells(row: &impl Serialize) -> io::Result<Vec<(String, String)>> {
     let Value::Object(fields) = serde_json::to_value(row)? else {
         return Err(io::Error::other("a row of a table has no named columns"));
     };
-    // Lists are columns of their own.
+    // Lists are left out: their values are in columns of their own.
     let fields = fields.into_iter().filter(|(_, value)| !value.is_array());
     Ok(fields.map(|(key, value)| (key, cell(value))).collect())
 }

@@ -2,13 +2,14 @@
 //! one grid (`.pvtu`), and collections (`.pvd`).
 //!
 //! The head is XML; each array is a block of the appended section, at a byte offset counted from
-//! after its leading `_`:
+//! the byte after its leading `_`:
 //!
 //! ```text
 //! <AppendedData encoding="raw">_ [n: u64][n bytes] [n: u64][n bytes] ... </AppendedData>
 //! ```
 //!
-//! Little endian throughout. No value is formatted, so writing costs about a copy in memory.
+//! All numbers are little endian. No value is formatted, so writing costs about as much as a copy
+//! in memory.
 //!
 //! # Source
 //! VTK file formats, <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
@@ -18,13 +19,13 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesEnd, BytesStart, BytesText, Event};
 use std::io::{self, Write};
 
-/// Items that are encoded between two writes.
+/// Number of items that are encoded between two writes.
 const CHUNK: usize = 2048;
-/// Bytes of a block's length.
+/// Number of bytes that hold the length of a block.
 const LENGTH_BYTES: u64 = 8;
-/// The array of a piece that has the numbers of its points in the whole, from 0.
+/// The array of a piece with the numbers of its points in the whole mesh, from 0.
 pub(super) const NODE_IDS: &str = "GlobalNodeIds";
-/// The array of a piece that has the numbers of its cells in the whole, from 0.
+/// The array of a piece with the numbers of its cells in the whole mesh, from 0.
 pub(super) const ELEMENT_IDS: &str = "GlobalElementIds";
 
 /// A mesh with data on it.
@@ -43,7 +44,7 @@ pub(super) struct DataArray<'a> {
 }
 
 impl<'a> DataArray<'a> {
-    /// An array with as many components as its values have by themselves.
+    /// Creates an array with the number of components that follows from its values.
     pub(super) fn new(name: &'static str, values: Values<'a>) -> Self {
         let components = match values {
             Values::Planar(_) | Values::Spatial(_) => 3,
@@ -58,7 +59,7 @@ impl<'a> DataArray<'a> {
         }
     }
 
-    /// An array with a component per name.
+    /// Creates an array with one component per name.
     pub(super) fn named(name: &'static str, names: &'a [&'a str], values: Values<'a>) -> Self {
         DataArray {
             name,
@@ -69,23 +70,23 @@ impl<'a> DataArray<'a> {
     }
 }
 
-/// The values of an array, as they lie in memory, and by the variant as what they are written.
+/// The values of an array as they lie in memory; the variant says how they are written.
 pub(super) enum Values<'a> {
     /// Numbers, written as they are.
     Float64(&'a [f64]),
     /// `n x 2`, written as `n x 3` with 0 for the third component.
     Planar(&'a [f64]),
-    /// `n x 3`, as they are.
+    /// `n x 3`, written as they are.
     Spatial(&'a [f64]),
     /// Symmetric, `n x [xx yy zz xy yz zx]`, written as `n x 9`, row by row.
     Tensors(&'a [f64]),
     /// Bytes, written as they are.
     UInt8(&'a [u8]),
-    /// Small numbers (bodies).
+    /// Small numbers, such as those of bodies.
     Int32(&'a [u32]),
     /// Numbers of nodes, from 0.
     Int64(&'a [u32]),
-    /// Ends of the elements' nodes in the connectivity.
+    /// For each element, the index behind its last node in the connectivity.
     Offsets(&'a [usize]),
     /// VTK cell types.
     CellTypes(&'a [Shape]),
@@ -111,7 +112,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Bytes as written, without the length in front.
+    /// Returns the number of bytes that are written, without the length in front.
     fn n_bytes(&self) -> u64 {
         let n = match self {
             Values::Float64(values) | Values::Spatial(values) => 8 * values.len(),
@@ -144,7 +145,7 @@ impl<'a> Values<'a> {
     }
 }
 
-/// The bytes of a plane vector in space.
+/// Returns the bytes of a plane vector, written in three dimensions.
 fn planar(v: [f64; 2]) -> [u8; 24] {
     let mut bytes = [0; 24];
     bytes[..8].copy_from_slice(&v[0].to_le_bytes());
@@ -152,7 +153,7 @@ fn planar(v: [f64; 2]) -> [u8; 24] {
     bytes
 }
 
-/// The bytes of a symmetric tensor `[xx yy zz xy yz zx]`, row by row.
+/// Returns the bytes of a symmetric tensor `[xx yy zz xy yz zx]`, row by row.
 fn tensor([xx, yy, zz, xy, yz, zx]: [f64; 6]) -> [u8; 72] {
     let mut bytes = [0; 72];
     let rows = [xx, xy, zx, xy, yy, yz, zx, yz, zz];
@@ -237,7 +238,8 @@ pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
     close_file(&mut xml)
 }
 
-/// Writes what says that files in the same directory are the pieces of a grid with these arrays.
+/// Writes the file which says that other files in the same directory are the pieces of a grid with
+/// these arrays.
 ///
 /// # Errors
 /// Errors of `out`.
@@ -273,7 +275,7 @@ pub(super) fn write_pieces(
     close_file(&mut xml)
 }
 
-/// Writes a collection of files, each at its time.
+/// Writes a collection of files, each with its time.
 ///
 /// # Errors
 /// Errors of `out`.
@@ -321,7 +323,7 @@ fn close<W: Write>(xml: &mut Writer<W>, name: &str) -> io::Result<()> {
     xml.write_event(Event::End(BytesEnd::new(name)))
 }
 
-/// The attribute of a section that says which of its arrays has numbers in the whole.
+/// Returns the attribute of a section that names its array of numbers in the whole mesh.
 fn ids_of(arrays: &[DataArray<'_>]) -> Vec<(&'static str, String)> {
     let is_ids = |array: &&DataArray| [NODE_IDS, ELEMENT_IDS].contains(&array.name);
     let ids = arrays.iter().filter(is_ids);
@@ -329,7 +331,7 @@ fn ids_of(arrays: &[DataArray<'_>]) -> Vec<(&'static str, String)> {
         .collect()
 }
 
-/// Declares an array; `place` says where its values are.
+/// Declares an array; `place` says where its values are stored.
 fn declare<W: Write>(
     xml: &mut Writer<W>,
     kind: &str,

@@ -1,5 +1,5 @@
-//! Fields read back from the `.vtu` and `.pvtu` files that [`super::vtu`] writes. Not a reader of
-//! VTK files in general.
+//! Fields read back from the `.vtu` and `.pvtu` files that [`super::vtu`] writes. This is not a
+//! reader of VTK files in general.
 
 use super::{fields, vtu};
 use crate::error::{Error, Result};
@@ -12,15 +12,15 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Beginning of the binary part.
+/// Beginning of the binary part of a file.
 const APPENDED: &[u8] = b"<AppendedData";
-/// Bytes of a block's length.
+/// Number of bytes that hold the length of a block.
 const LENGTH_BYTES: usize = 8;
 
-/// Reads the fields of a state on a mesh, in one piece or in several.
+/// Reads the fields of a state on a mesh, from one piece or several.
 ///
 /// # Errors
-/// `Io` where a file cannot be read, `Input` naming it where it is damaged or belongs to another
+/// `Io` if a file cannot be read, `Input` naming the file if it is damaged or belongs to another
 /// mesh.
 pub(super) fn read(path: &Path, mesh: &Mesh) -> Result<Fields> {
     let bytes = files::read("read", path, None)?;
@@ -82,7 +82,8 @@ fn does_not_fit(path: &Path, why: &str) -> Error {
     damaged(path, format!("the file does not fit the mesh: {why}"))
 }
 
-/// The pieces of a state that a file names, beside it, with their content.
+/// Reads the pieces of a state that a file lists, which lie beside it; returns their paths and
+/// contents.
 fn pieces(path: &Path, bytes: &[u8]) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     let damaged = |what: String| damaged(path, what);
     let text =
@@ -100,7 +101,7 @@ fn pieces(path: &Path, bytes: &[u8]) -> Result<Vec<(PathBuf, Vec<u8>)>> {
         return Err(damaged("the file names no piece".to_string()));
     }
     let piece = |name: String| {
-        // A file of the same directory, whatever is written there.
+        // Only a file of the same directory is read, whatever path the list gives.
         let piece = path.with_file_name(Path::new(&name).file_name().unwrap_or_default());
         let bytes = files::read("read", &piece, None)?;
         Ok((piece, bytes))
@@ -108,8 +109,8 @@ fn pieces(path: &Path, bytes: &[u8]) -> Result<Vec<(PathBuf, Vec<u8>)>> {
     names.into_iter().map(piece).collect()
 }
 
-/// The array with the numbers that a file's nodes or elements have in the whole, and how many the
-/// whole has.
+/// The name of the array with the numbers that a file's nodes or elements have in the whole mesh,
+/// and the number of nodes or elements in the whole mesh.
 type Items<'a> = (&'a str, usize);
 
 /// The files of a state.
@@ -120,7 +121,8 @@ impl<'a> StateFiles<'a> {
         self.0.iter().all(|(_, blocks)| blocks.has(name))
     }
 
-    /// The bytes of an array, `size` for each item. Those of pieces go where their numbers say.
+    /// Returns the bytes of an array, `size` for each item. The items of pieces are placed by their
+    /// numbers in the whole mesh.
     fn bytes(&self, name: &str, (ids, n): Items, size: usize) -> Result<Cow<'a, [u8]>> {
         if let [(path, blocks)] = self.0.as_slice()
             && !blocks.has(ids)
@@ -175,7 +177,7 @@ fn empty_elements(
     }
 }
 
-/// The blocks of a file by the name of their array: where they begin.
+/// The blocks of a file: where each begins, by the name of its array.
 struct Blocks<'a> {
     appended: &'a [u8],
     offsets: BTreeMap<String, usize>,
@@ -258,7 +260,8 @@ mod tests {
         let mesh = mesh();
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("state.vtu");
-        // The first bytes of a number spell the mark: only the offset counts.
+        // The first bytes of a number look like the mark of the binary part: only the offset
+        // counts.
         let underscore = f64::from_le_bytes(*b"_<Append");
         let (u, one, four) = (
             [0.1, -2.0, 1e-300, 4.0, underscore, 6.0],
@@ -287,7 +290,7 @@ mod tests {
         let fields = read(&path, &mesh).unwrap();
         assert_eq!(fields.displacement, u);
         assert_eq!((fields.stress, fields.yielded), (four.to_vec(), vec![1]));
-        // Everything up to the last array that is read; what follows is the mesh.
+        // Everything up to the last array that is read is needed; the mesh follows behind it.
         let needed = bytes.len() - 300;
         for length in 0..bytes.len() {
             std::fs::write(&path, &bytes[..length]).unwrap();

@@ -10,8 +10,8 @@ const FONT: &str = "Helvetica, Arial, sans-serif";
 const SIZE: (u32, u32) = (960, 540);
 /// Width of the names beside the plot.
 const LEGEND: u32 = 190;
-/// Colours of the series, told apart by readers who do not see all (P. Wong, Nature Methods 8
-/// (2011) 441, doi:10.1038/nmeth.1618).
+/// Colours of the series, which readers with a colour vision deficiency can tell apart (P. Wong,
+/// Nature Methods 8 (2011) 441, doi:10.1038/nmeth.1618).
 const COLORS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -21,22 +21,23 @@ const COLORS: [RGBColor; 7] = [
     RGBColor(86, 180, 233),
     RGBColor(90, 90, 90),
 ];
-/// Errors below this are drawn there: round-off.
+/// Errors below this value, which are round-off, are drawn at it.
 const FLOOR: f64 = 1e-9;
 /// Largest error that is drawn.
 const CEILING: f64 = 10.0;
 
-/// The quantities that get a plot.
+/// Returns the quantities that get a plot.
 pub(super) fn plotted(study: &Study) -> Vec<&QuantityStudy> {
     let mut out = foremost(&study.quantities);
     out.retain(|q| q.errors.iter().flatten().any(|e| *e <= CEILING));
     out
 }
 
-/// The work-precision plot of a quantity of a study as SVG: the error of each run over its time.
+/// Draws the work-precision plot of a quantity of a study as SVG: the error of each run over its
+/// time.
 ///
 /// # Errors
-/// `Internal` where drawing fails.
+/// `Internal` if drawing fails.
 pub fn plot(study: &Study, quantity: &QuantityStudy) -> Result<String> {
     let mut text = String::new();
     draw(study, quantity, &mut text)
@@ -54,7 +55,8 @@ struct PlottedCurve<'s> {
     points: Vec<PlottedPoint>,
 }
 
-/// Curves by series: those of meshes by element size (finest first), the others by time.
+/// Returns a curve for each series: runs on different meshes by element size (finest first), others
+/// by time.
 fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<PlottedCurve<'s>> {
     let mut order: Vec<usize> = (0..study.runs.len()).collect();
     order.sort_by(|&a, &b| study.runs[a].ratio.total_cmp(&study.runs[b].ratio));
@@ -77,7 +79,7 @@ fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<PlottedCurve<'s
     out
 }
 
-/// The range of some positive values, a decade's eighth wider on either side.
+/// Returns the range of some positive values, extended by an eighth of a decade on either side.
 fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(l, h), v| (l.min(v), h.max(v)));
     let wider = 10f64.powf(0.125);
@@ -117,7 +119,7 @@ fn draw(
         .light_line_style(TRANSPARENT)
         .bold_line_style(BLACK.mix(0.12))
         .draw()?;
-    // A front of one run is a point that its own curve shows.
+    // A front of a single run is left out: its own curve shows that point.
     let front: Vec<PlottedPoint> = quantity
         .pareto
         .iter()
@@ -141,13 +143,13 @@ fn draw(
     }
     for (i, curve) in curves.iter().enumerate() {
         let color = COLORS[i % COLORS.len()];
-        // Runs with one knob turned are points round the scene's own: a line would suggest an
-        // order.
+        // Runs with one knob turned are points round the run of the scene itself: a line would
+        // suggest an order.
         let (style, radius) = match curve.is_mesh {
             true => (color.filled(), 4),
             false => (color.stroke_width(2), 3),
         };
-        // Where colours come again the marks are others.
+        // If colours are used a second time, the marks differ.
         let again = i >= COLORS.len();
         let [x, y] = place(i + 1);
         if curve.is_mesh {
@@ -179,18 +181,18 @@ fn draw(
     Ok(())
 }
 
-/// Where the mark of an entry of the legend is drawn.
+/// Returns the place at which the mark of a legend entry is drawn.
 fn place(entry: usize) -> [i32; 2] {
     [20, 52 + 22 * entry as i32]
 }
 
-/// The name of an entry of the legend, beside its mark.
+/// Returns the name of a legend entry, placed beside its mark.
 fn name(text: &str, [x, y]: [i32; 2]) -> Text<'_, (i32, i32), &str> {
     Text::new(text, (x + 18, y - 7), (FONT, 13).into_font())
 }
 
-/// The label of a tick of a logarithmic axis, rounded to a digit: only 1, 2 and 5 of each decade,
-/// which do not run into each other.
+/// Returns the label of a tick of a logarithmic axis, rounded to one digit. Only 1, 2 and 5 of each
+/// decade get a label, so that labels do not run into each other.
 fn tick(value: f64, label: impl Fn(f64) -> String) -> String {
     let rounded = format!("{value:.0e}");
     match rounded.parse() {

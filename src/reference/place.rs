@@ -5,7 +5,7 @@ use crate::results::{Results, State};
 use crate::scene::{PlaceQuantity, Reference};
 use crate::space::{Vector, difference, length};
 
-/// The value of a quantity of a place in the state that it names. `None` where the run has no such
+/// The value of a quantity of a place in the state that it names. `None` if the run has no such
 /// state, or no fields there.
 pub(super) fn value(model: &Model, results: &Results, entry: &Reference) -> Option<f64> {
     let (state, what) = PlaceQuantity::of(entry.quantity.as_deref()?, model.kind)?;

@@ -5,7 +5,7 @@ use crate::analytical::{HertzLine, HertzPoint};
 use crate::model::Model;
 
 /// Pressure over the distance from the middle of an elastic contact under a load, from there to its
-/// edge in so many equal parts. `None` where the scene names neither a line nor a point of Hertz.
+/// edge in so many equal parts. `None` if the scene names neither a line nor a point of Hertz.
 pub fn hertz_pressure(model: &Model, load: f64, parts: usize) -> Option<Vec<[f64; 2]>> {
     let references = &model.scene.reference;
     let line = references.iter().find_map(|r| r.hertz_line);

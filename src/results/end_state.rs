@@ -16,7 +16,7 @@ pub struct EndState {
     pub equivalent: Vec<f64>,
     /// Strains of the back stresses that fade, as many at each point.
     pub back_strains: Vec<[f64; 6]>,
-    /// Work per volume that was lost with them at each point; empty where there are none.
+    /// Work per volume that was lost with them at each point; empty if there are none.
     pub lost_work: Vec<f64>,
     /// Model that left this state.
     pub left_by: Option<LeftBy>,

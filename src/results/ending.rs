@@ -56,7 +56,7 @@ impl Results {
 }
 
 impl Ending<'_> {
-    /// The kind that decides the exit code; `None` where all was kept.
+    /// The kind that decides the exit code; `None` if all was kept.
     pub fn kind(&self) -> Option<ErrorKind> {
         match self {
             Ending::Complete => None,

@@ -68,7 +68,7 @@ pub struct PathPoint {
 
 impl Results {
     /// Stiffness with which unloading begins: slope of the load over the approach in the first
-    /// increment after the largest load, up to whose end contact is as it was. `None` where the
+    /// increment after the largest load, up to whose end contact is as it was. `None` if the
     /// history does not follow the approach ([`crate::scene::Program::history`]) or the load does
     /// not come down.
     pub fn unloading_stiffness(&self) -> Option<f64> {

@@ -100,7 +100,7 @@ pub struct Quantity {
     pub heading: &'static str,
     /// Whether narrow tables leave it out.
     pub is_detail: bool,
-    /// Key of the quantity that makes this column redundant where both are equal.
+    /// Key of the quantity that makes this column redundant if both are equal.
     pub twin: Option<&'static str>,
     /// Estimate of the quantity's error, if there is one.
     pub estimated: Option<Estimated>,
@@ -231,7 +231,7 @@ enum QuantityPlace<'r> {
 }
 
 /// The number at a path of `summary.json`: `yield.KEY` or `states.NAME.KEY`, where the number of
-/// the state, from 0, may stand for its name. `None` where the run has none such.
+/// the state, from 0, may stand for its name. `None` if the run has none such.
 pub fn value(results: &Results, path: &str) -> Option<f64> {
     let (head, rest) = path.split_once('.')?;
     if head == "yield" {

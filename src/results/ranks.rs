@@ -13,7 +13,7 @@ pub struct Ranks {
     pub requests: u64,
     /// Bytes that it sent and received for that, without those of MUMPS.
     pub bytes: u64,
-    /// The most memory that each of them has held, in bytes; null where the system does not report
+    /// The most memory that each of them has held, in bytes; null if the system does not report
     /// it.
     pub peak_memory_bytes: Vec<Option<u64>>,
 }

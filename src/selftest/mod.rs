@@ -36,7 +36,7 @@ pub struct Row {
     pub figure: &'static str,
     /// Number of cases.
     pub cases: usize,
-    /// The worst figure; infinite where a case did not run.
+    /// The worst figure; infinite if a case did not run.
     pub worst: f64,
     /// Largest figure that is allowed.
     pub bound: f64,

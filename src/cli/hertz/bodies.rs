@@ -65,7 +65,7 @@ pub(super) struct Body {
     pub radii: [f64; 2],
     /// Name in the list of materials.
     pub material: Option<String>,
-    /// Young's modulus; infinite where it is rigid.
+    /// Young's modulus; infinite if it is rigid.
     pub youngs_modulus: f64,
     /// Poisson's ratio.
     pub poissons_ratio: f64,

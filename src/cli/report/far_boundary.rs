@@ -4,7 +4,7 @@ use crate::mesh::generate::contact_size;
 use crate::number::significant;
 use crate::scene::Scene;
 
-/// A line on the size of the bodies, in units of the contact; `None` where no generator made them.
+/// A line on the size of the bodies, in units of the contact; `None` if no generator made them.
 pub(super) fn in_words(scene: &Scene) -> Option<String> {
     let mesh = &scene.mesh;
     let solid = (mesh.curved_bodies.as_ref()).map(|p| (p.far_size, "half axes"));

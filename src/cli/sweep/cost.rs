@@ -23,7 +23,7 @@ struct PointCost {
 /// Prints what each point and the whole will take; points that are finished take nothing.
 ///
 /// # Errors
-/// What is wrong with the model of a point; `Input` where the points that run at a time do not fit
+/// What is wrong with the model of a point; `Input` if the points that run at a time do not fit
 /// into memory.
 pub(super) fn predict(arguments: &SweepArguments, sweep: &Sweep) -> Result<()> {
     let costs = sweep.points.iter().map(|point| match point.is_finished() {

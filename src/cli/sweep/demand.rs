@@ -4,7 +4,7 @@ use crate::output::sweep::SweepPoint;
 use crate::scene::{Load, Scene};
 use crate::space::length;
 
-/// The largest number of a load over the least yield stress; 0 where either is not known. Only the
+/// The largest number of a load over the least yield stress; 0 if either is not known. Only the
 /// order of the runs depends on it.
 pub(super) fn of(scene: &Scene) -> f64 {
     let bodies = scene.bodies.values();

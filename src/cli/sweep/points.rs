@@ -68,7 +68,7 @@ fn combinations(vary: &[Varied]) -> Vec<Vec<String>> {
 /// The values of all keys taken together: the first of each, the second of each, and so on.
 ///
 /// # Errors
-/// `Input` where one key has more values than another.
+/// `Input` if one key has more values than another.
 fn together(vary: &[Varied]) -> Result<Vec<Vec<String>>> {
     let n = vary.first().map_or(0, |varied| varied.values.len());
     if let Some(other) = vary.iter().find(|varied| varied.values.len() != n) {
@@ -95,7 +95,7 @@ impl Points {
     ///
     /// # Errors
     /// `Input` of the table, of values that cannot be taken together, and of a key that is given
-    /// twice; `Io` where the table cannot be read.
+    /// twice; `Io` if the table cannot be read.
     pub fn new(table: Option<&Path>, vary: &[Varied], zip: bool) -> Result<Self> {
         let varied = match zip {
             true => together(vary)?,

@@ -22,7 +22,7 @@ use std::time::Instant;
 /// How a run ended.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Ended {
-    /// `None` where a signal ended the process.
+    /// `None` if a signal ended the process.
     pub exit_code: Option<i32>,
     pub message: String,
 }

@@ -1,11 +1,11 @@
-//! Tables of results as `*NODE PRINT`, `*EL PRINT`, `*CONTACT PRINT` and `*SECTION PRINT` of
-//! CalculiX write them into its `.dat` file.
+//! Tables of results in the form in which `*NODE PRINT`, `*EL PRINT`, `*CONTACT PRINT` and
+//! `*SECTION PRINT` of CalculiX write them into its `.dat` file.
 //!
-//! The time of a state is that of the deck, of a scene its load factor. Forces are what acts from
-//! outside: loads and reactions; of an axisymmetric model those on the whole circle, of a plane one
-//! those on the thickness of the deck. Values of elements are those at the integration points, in
-//! the order of CalculiX ([`points`]); where a run did not keep them the means of elements, as
-//! integration point 0. Shear strains are those of the tensor.
+//! The time of a state is the time of the deck; for a scene it is the load factor. Forces are those
+//! that act from outside: loads and reactions. In an axisymmetric model they act on the whole
+//! circle, in a plane model on the thickness of the deck. Values of elements are those at the
+//! integration points, in the order of CalculiX ([`points`]); if a run did not keep them, the means
+//! of elements are written as integration point 0. Shear strains are those of the tensor.
 
 mod points;
 mod section;
@@ -35,7 +35,7 @@ pub fn write_dat(path: &Path, model: &Model, results: &Results) -> Result<()> {
 }
 
 /// Writes the tables that the model's scene asks for ([`crate::scene::Moment::prints`]) into a
-/// file, which is empty where it asks for none.
+/// file, which is empty if it asks for none.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Io`] naming the file.

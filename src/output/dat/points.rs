@@ -1,18 +1,18 @@
 //! The order in which CalculiX lists the integration points of an element.
 //!
-//! Its elements of the plane are solids of one layer: their points repeat over the thickness.
-//! Points of full integration are in its order from the first.
+//! Elements of the plane are solids of one layer in CalculiX, so their points repeat over the
+//! thickness. Points of full integration are in the order of CalculiX from the first point on.
 
 use crate::mesh::Shape;
 #[cfg(test)]
 use crate::shape::Integration;
 
-/// Points whose mean is listed.
+/// Indices of points whose mean is listed as one point.
 pub(super) type Mean = &'static [usize];
 
-/// The points of an element of a shape that has `n_points` of its own, in the order of CalculiX.
+/// Returns the points of an element in the order of CalculiX; the shape has `n_points` points here.
 pub(super) fn order(shape: Shape, n_points: usize) -> Vec<Mean> {
-    // First along the first coordinate, then along the second, then along the third.
+    // The first coordinate varies fastest, then the second, then the third.
     const SQUARE: [Mean; 4] = [&[0], &[1], &[3], &[2]];
     const CUBE: [Mean; 8] = [&[0], &[1], &[3], &[2], &[4], &[5], &[7], &[6]];
     const EACH: [Mean; 27] = [
@@ -50,7 +50,7 @@ pub(super) fn order(shape: Shape, n_points: usize) -> Vec<Mean> {
         (Shape::Tri3, 1) => EACH[..1].repeat(2),
         (Shape::Tri6, 3) => EACH[..3].repeat(3),
         (Shape::Hex8 | Shape::Hex20, 8) => CUBE.to_vec(),
-        // Two points there, on the axis.
+        // CalculiX has two points in a prism, both on its axis.
         (Shape::Prism6, 6) => vec![&[0, 1, 2], &[3, 4, 5]],
         _ => EACH.iter().copied().take(n_points).collect(),
     }

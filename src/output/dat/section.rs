@@ -1,4 +1,4 @@
-//! The force that passes a surface: `*SECTION PRINT`.
+//! The force that acts across a surface: `*SECTION PRINT`.
 
 use super::statistics::ContactSums;
 use super::tables::{Tables, fortran};
@@ -9,19 +9,19 @@ use crate::shape::{Integration, Place, Shape};
 use crate::space::{Space, Vector, along, cross, dot, length};
 use std::io::{self, Write};
 
-/// Half the angle of the slice that CalculiX makes of an axisymmetric model.
+/// Half the angle of the slice that represents an axisymmetric model in CalculiX.
 const HALF_SLICE: f64 = std::f64::consts::PI / 180.0;
 
 impl Tables<'_> {
-    /// Writes force and moment about the origin of the stresses on a surface, along its outward
-    /// normal, its centre of gravity, mean normal and area.
+    /// Writes force and moment about the origin of the stresses on a surface, the force along the
+    /// outward normal, and the surface's centre of gravity, mean normal and area.
     ///
-    /// As CalculiX has them: the stresses at nodes, means over their elements of what the
-    /// integration points give there, are interpolated over each face and integrated by the rule
-    /// that goes with the element. They are in equilibrium with the loads as far as the mesh
-    /// resolves the stresses, other than the forces at nodes, which are exactly. Of a plane model
-    /// the whole thickness counts, of an axisymmetric one a slice of 2 degrees with z along the
-    /// hoop.
+    /// The integrals are computed as in CalculiX: the stresses at nodes (extrapolated from the
+    /// integration points of each element, then averaged over the elements) are interpolated over
+    /// each face and integrated by the rule of the element. They are in equilibrium with the loads
+    /// only as far as the mesh resolves the stresses, whereas the forces at nodes are exactly in
+    /// equilibrium. In a plane model the whole thickness counts, in an axisymmetric one a slice of
+    /// 2 degrees with z along the hoop direction.
     pub(super) fn section(
         &self,
         out: &mut impl Write,
@@ -65,7 +65,7 @@ impl Tables<'_> {
         sums.write(out, heads, &last)
     }
 
-    /// Adds what passes a face.
+    /// Adds the force across a face.
     fn add_face(&self, (element, local): (usize, usize), stress: &[f64], sums: &mut ContactSums) {
         let (mesh, space) = (&self.model.mesh, self.model.kind);
         let shape = mesh.shapes[element];
@@ -116,8 +116,9 @@ impl ContactSums {
         self.area += size;
     }
 
-    /// Adds what a force and an area along r and z are over the slice, the middle of which has the
-    /// hoop along z: what is along r is turned, what is odd in the angle vanishes.
+    /// Adds the integral of a force and an area along r and z over the slice, the middle of which
+    /// has the hoop direction along z: the component along r is rotated with the angle, components
+    /// that are odd in the angle vanish.
     fn add_turned(&mut self, [r, z, _]: Vector, weight: f64, force: Vector, area: Vector) {
         let (all, turned) = (2.0 * HALF_SLICE, 2.0 * HALF_SLICE.sin());
         let weight = weight * r;
@@ -133,8 +134,8 @@ impl ContactSums {
     }
 }
 
-/// The points of a face at which CalculiX takes the stresses, by the element that it makes of the
-/// shape: those of the plane are solids of one layer, triangles prisms.
+/// Returns the points of a face at which CalculiX takes the stresses, for the element into which it
+/// turns the shape: plane elements become solids of one layer, triangles prisms.
 ///
 /// # Source
 /// *CalculiX CrunchiX User's Manual* 2.20, section 6.2; chapter 7, `*SECTION PRINT`.

@@ -1,4 +1,4 @@
-//! The force that a contact passes on: `CF`, `CFN` and `CFS` of `*CONTACT PRINT`.
+//! The force that acts across a contact: `CF`, `CFN` and `CFS` of `*CONTACT PRINT`.
 
 use super::tables::{Tables, fortran, row};
 use crate::results::{Fields, State};
@@ -6,7 +6,7 @@ use crate::scene::ContactForce;
 use crate::space::{Vector, along, cross, difference, dot};
 use std::io::{self, Write};
 
-/// What acts on a surface, or on the part of a slave surface that presses.
+/// Sums over a surface, or over the part of a slave surface that presses.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct ContactSums {
     pub(super) force: Vector,
@@ -17,7 +17,7 @@ pub(super) struct ContactSums {
 }
 
 impl ContactSums {
-    /// Means over the area of what was summed with it.
+    /// Divides the sums of places and normals by the area, which makes them means.
     pub(super) fn center(&mut self) {
         if self.area > 0.0 {
             self.center = self.center.map(|x| x / self.area);
@@ -25,12 +25,13 @@ impl ContactSums {
         }
     }
 
-    /// The moment about the centre of gravity.
+    /// Returns the moment about the centre of gravity.
     pub(super) fn about_center(&self) -> Vector {
         difference(self.moment, cross(self.center, self.force))
     }
 
-    /// Writes its blocks, the first and the last with these heads, the last with these values.
+    /// Writes the blocks of the sums: `first` and `last` are the heads of the first and last block,
+    /// `values` the numbers of the last.
     pub(super) fn write(
         &self,
         out: &mut impl Write,
@@ -53,9 +54,8 @@ impl ContactSums {
 }
 
 impl Tables<'_> {
-    /// Writes force and moment about the origin, the centre of gravity and the mean normal of the
-    /// part of the slave surface that presses, and its area; places are those of the deformed
-    /// surface.
+    /// Writes force and moment about the origin, and centre of gravity, mean normal and area of the
+    /// part of the slave surface that presses. Places are those of the deformed surface.
     pub(super) fn statistics(
         &self,
         out: &mut impl Write,
@@ -89,7 +89,7 @@ impl Tables<'_> {
             else {
                 continue;
             };
-            // The normal of a pair points away from its own slave.
+            // The normal of a pair points away from the slave of the pair.
             let side = match self.slaves.is_on_first(pair.slave, contact) {
                 true => 1.0,
                 false => -1.0,

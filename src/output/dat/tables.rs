@@ -1,4 +1,4 @@
-//! One table.
+//! Writing of a single table.
 
 use super::points;
 use crate::element::volume_points;
@@ -77,13 +77,13 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// Indices of the nodes of a set.
+    /// Returns the indices of the nodes of a set.
     fn nodes(&self, print: &Print) -> impl Iterator<Item = (u64, usize)> {
         let labels = print.set.labels.iter();
         labels.filter_map(|&label| Some((label, self.nodes.get(label)? as usize)))
     }
 
-    /// Indices of the elements of a set.
+    /// Returns the indices of the elements of a set.
     fn elements(&self, print: &Print) -> impl Iterator<Item = (u64, usize)> {
         let labels = print.set.labels.iter();
         labels.filter_map(|&label| Some((label, self.elements.get(label)? as usize)))
@@ -105,7 +105,7 @@ impl<'a> Tables<'a> {
         writeln!(out, "\n {head}\n")?;
         for (label, node) in self.nodes(print) {
             let vector = self.vector(node, values).map(|v| factor * v);
-            // Marked as CalculiX marks it.
+            // A row in local axes is marked with L, as in CalculiX.
             let own = self.model.scene.requests.axes.get(&label);
             match own.filter(|_| !print.is_global) {
                 Some(axes) => {
@@ -127,7 +127,7 @@ impl<'a> Tables<'a> {
         sum
     }
 
-    /// Gap and pressure of the pairs that press.
+    /// Writes gap and pressure of the pairs that press.
     fn of_contact(&self, out: &mut impl Write, state: &State, time: f64) -> io::Result<()> {
         let (time, slaves) = (fortran(time), &self.slaves);
         for (what, normal) in [
@@ -174,8 +174,8 @@ impl<'a> Tables<'a> {
         Ok(())
     }
 
-    /// The volume of an element: in the plane over the thickness, of an axisymmetric model that of
-    /// a slice of 2 degrees, which is what CalculiX makes of it.
+    /// Returns the volume of an element: in the plane over the thickness, in an axisymmetric model
+    /// over the slice of 2 degrees that CalculiX computes.
     fn volume(&self, element: usize) -> f64 {
         let (mesh, space) = (&self.model.mesh, self.model.kind);
         let nodes = mesh.nodes(element).iter();
@@ -189,7 +189,7 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// Values at the integration points of elements.
+    /// Writes values at the integration points of elements.
     fn of_elements(
         &self,
         out: &mut impl Write,
@@ -225,7 +225,8 @@ impl<'a> Tables<'a> {
         for (label, e) in self.elements(print) {
             let mut line = |number: usize, of: &[f64]| {
                 let at = |k: usize| of.get(k).copied().unwrap_or(0.0);
-                // Ours run xx, yy, zz, xy, yz, zx.
+                // The components here are in the order xx, yy, zz, xy, yz, zx; CalculiX has xz
+                // before yz.
                 let shear = [3, 5, 4].map(|k| of_shear * at(k));
                 let all = [at(0), at(1), at(2), shear[0], shear[1], shear[2]];
                 let shown = if size == 1 { &all[..1] } else { &all };
@@ -255,7 +256,7 @@ pub(super) fn row(values: &[f64]) -> String {
     each.collect()
 }
 
-/// Seven digits with an exponent of two, as C prints them.
+/// Formats a number with seven digits and an exponent of two digits, as C prints it.
 fn scientific(value: f64) -> String {
     let text = format!("{value:.6E}");
     let Some((digits, exponent)) = text.split_once('E') else {
@@ -267,7 +268,8 @@ fn scientific(value: f64) -> String {
     }
 }
 
-/// Seven digits behind a zero, with an exponent of two, as FORTRAN prints them.
+/// Formats a number with seven digits after a leading zero and an exponent of two digits, as
+/// FORTRAN prints it.
 pub(in crate::output) fn fortran(value: f64) -> String {
     let text = format!("{value:.6E}");
     let Some((digits, exponent)) = text.split_once('E') else {

@@ -34,7 +34,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// The values of a block; `None` where the state does not have them.
+    /// Returns the values of a block; `None` if the state does not have them.
     pub(super) fn of(&self, item: ResultItem) -> Option<OfNodes> {
         let (model, fields) = (self.model, self.fields);
         let extrapolated = self.extrapolated.as_ref();
@@ -70,7 +70,8 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Tensors in the order xx, yy, zz, xy, yz, zx, the last three times a factor.
+    /// Returns tensors in the order xx, yy, zz, xy, yz, zx, with the last three multiplied by a
+    /// factor.
     fn tensors(&self, values: &[f64], of_shear: f64) -> OfNodes {
         let each = values.chunks_exact(2 * self.model.mesh.dimension);
         let at = |t: &[f64], k: usize| t.get(k).copied().unwrap_or(0.0);
@@ -84,8 +85,8 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Gap, two slips that are not known, pressure, and two shear stresses that frictionless
-    /// surfaces do not have.
+    /// Returns gap, two slips that are not known, pressure, and two shear stresses, which are zero
+    /// on frictionless surfaces.
     fn contact(&self) -> OfNodes {
         let mesh = &self.model.mesh;
         let mut values = vec![0.0; 6 * mesh.n_nodes()];
@@ -107,7 +108,7 @@ fn scalars(values: &[f64]) -> OfNodes {
     }
 }
 
-/// Name of a block, and names of its components with the kind of each: scalar, vector or tensor.
+/// Returns the name of a block and the names of its components.
 fn names(item: ResultItem) -> (&'static str, &'static [&'static str]) {
     match item {
         ResultItem::Displacement => ("DISP", &["D1", "D2", "D3"]),
@@ -125,7 +126,7 @@ fn names(item: ResultItem) -> (&'static str, &'static [&'static str]) {
     }
 }
 
-/// Writes a block: what its components are, and the values of some nodes.
+/// Writes a block: the description of its components, and the values of some nodes.
 pub(super) fn write(
     out: &mut impl Write,
     item: ResultItem,
@@ -134,7 +135,7 @@ pub(super) fn write(
 ) -> io::Result<()> {
     let (name, components) = names(item);
     let n = components.len();
-    // A vector has its length as a further component, which readers compute.
+    // A vector has its length as an additional component, which readers compute.
     let n_listed = if n == 3 { 4 } else { n };
     writeln!(out, " -4  {name:<8}{n_listed:5}{:5}", 1)?;
     const PLACES: [[usize; 2]; 6] = [[1, 1], [2, 2], [3, 3], [1, 2], [2, 3], [3, 1]];

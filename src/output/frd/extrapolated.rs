@@ -1,10 +1,10 @@
-//! Values at nodes from those at the integration points of the elements around them.
+//! Values at nodes, extrapolated from the integration points of the elements around them.
 
 use crate::mesh::{Mesh, Shape};
 use crate::results::PointValues;
 use crate::shape::{Extrapolation, Integration};
 
-/// Means over the elements of each node.
+/// Extrapolated values at the nodes, averaged over the elements of each node.
 pub(in crate::output) struct Extrapolated {
     /// `n_nodes x n_components`.
     pub(in crate::output) stress: Vec<f64>,
@@ -12,7 +12,7 @@ pub(in crate::output) struct Extrapolated {
     pub(in crate::output) strain: Vec<f64>,
     /// Equivalent plastic strain, `n_nodes`.
     pub(in crate::output) plastic_strain: Vec<f64>,
-    /// Extrapolations by the numbers of integration and shape.
+    /// Extrapolations, indexed by the numbers of integration and shape.
     of_shapes: Vec<Extrapolation>,
 }
 
@@ -46,9 +46,9 @@ impl Extrapolated {
         }
     }
 
-    /// How much the stress jumps between elements: the largest von Mises stress of the difference
-    /// between an element's values at its nodes and the means there, in percent of the largest von
-    /// Mises stress; at a node the largest of its elements.
+    /// Returns the jump of the stress between elements at each node: the largest von Mises stress
+    /// of the difference between an element's values at its nodes and the means there, in percent
+    /// of the largest von Mises stress. At a node the largest value of its elements counts.
     pub(in crate::output) fn stress_jumps(&self, mesh: &Mesh, points: &PointValues) -> Vec<f64> {
         let c = points.n_components();
         let all = self.stress.chunks_exact(c);
@@ -70,7 +70,7 @@ impl Extrapolated {
     }
 }
 
-/// How many elements each node has.
+/// Returns the number of elements of each node.
 fn count(mesh: &Mesh) -> Vec<u32> {
     let mut out = vec![0; mesh.n_nodes()];
     for &node in &mesh.connectivity {
@@ -79,7 +79,7 @@ fn count(mesh: &Mesh) -> Vec<u32> {
     out
 }
 
-/// The values of an element at its nodes: node, components.
+/// Returns the values of an element at its nodes, indexed by node and component.
 fn at_nodes<'a>(
     mesh: &'a Mesh,
     of_shapes: &'a [Extrapolation],

@@ -1,4 +1,4 @@
-//! What stands in front of the mesh: title, date, program, materials.
+//! The lines in front of the mesh: title, date, program, materials.
 
 use crate::model::Model;
 use crate::scene::Scene;
@@ -20,7 +20,8 @@ const MONTHS: [&str; 12] = [
     "december",
 ];
 
-/// Names of the materials, numbered from 1 in elements: those of the deck, else of the scene.
+/// Returns the names of the materials, which elements refer to by numbers from 1: the names of the
+/// deck, or else of the scene.
 pub(super) fn materials(model: &Model) -> Vec<String> {
     let of_deck = &model.scene.requests.materials;
     if !of_deck.is_empty() {
@@ -70,7 +71,7 @@ pub(super) fn write(out: &mut impl Write, scene: &Scene, materials: &[String]) -
     Ok(())
 }
 
-/// Date and time of day, universal.
+/// Returns date and time of day in UTC.
 fn now() -> (String, String) {
     let since = SystemTime::now().duration_since(UNIX_EPOCH);
     let seconds = since.map_or(0, |since| since.as_secs());
@@ -84,13 +85,13 @@ fn now() -> (String, String) {
     )
 }
 
-/// Year, month and day of a number of days since 1970.
+/// Converts a number of days since 1970 to year, month and day.
 ///
 /// # Source
 /// H. Hinnant, *chrono-Compatible Low-Level Date Algorithms* (2013), `civil_from_days`: years begin
 /// in March, so that the leap day is the last of a year.
 fn date(days: u64) -> [u64; 3] {
-    // Days since 1 March of the year 0, in eras of 400 years.
+    // Days since 1 March of the year 0, split into eras of 400 years.
     let days = days + 719_468;
     let (era, of_era) = (days / 146_097, days % 146_097);
     let year = (of_era - of_era / 1460 + of_era / 36_524 - of_era / 146_096) / 365;

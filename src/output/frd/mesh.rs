@@ -1,11 +1,11 @@
-//! Nodes and elements.
+//! Nodes and elements of a `.frd` file.
 
 use super::text;
 use crate::mesh::{Mesh, Shape};
 use crate::model::Model;
 use std::io::{self, Write};
 
-/// Most nodes in a line.
+/// Largest number of nodes in a line.
 const NODES_PER_LINE: usize = 10;
 
 /// Nodes and elements in the ascending order of their numbers.
@@ -31,14 +31,14 @@ impl Numbered {
         }
     }
 
-    /// The number of a node.
+    /// Returns the number of a node.
     pub(super) fn label(&self, node: usize) -> u64 {
         self.labels[node]
     }
 }
 
-/// The type of an element, and its nodes in the order of the file: of hexahedra and prisms the
-/// middles of edges between base and top come before those of the top.
+/// Returns the type of an element, and its nodes in the order of the file. In hexahedra and prisms
+/// the mid-side nodes of the edges between base and top come before those of the top.
 fn element_type(shape: Shape) -> (usize, &'static [usize]) {
     const IN_ORDER: [usize; 12] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11];
     const HEXAHEDRON: [usize; 20] = [
@@ -103,7 +103,7 @@ pub(super) fn write(
     writeln!(out, " -3")
 }
 
-/// The number of a body's material.
+/// Returns the number of a body's material.
 fn material(model: &Model, body: &str, materials: &[String]) -> usize {
     let Some(body) = model.scene.bodies.get(body) else {
         return 1;

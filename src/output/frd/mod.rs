@@ -1,8 +1,9 @@
-//! Results in the `.frd` format of CalculiX, as text: mesh, and values at the nodes state by state.
+//! Results in the `.frd` format of CalculiX, as text: the mesh, and values at the nodes state by
+//! state.
 //!
-//! Which states and values are written stands in [`crate::scene::Requests`]. The mesh is written
-//! with the numbers of the deck, in ascending order. Each state of a scene is a step of its own,
-//! whose time is the load factor.
+//! [`crate::scene::Requests`] says which states and values are written. The mesh is written with
+//! the numbers of the deck, in ascending order. Each state of a scene is a separate step whose time
+//! is the load factor.
 //!
 //! | block | values at a node |
 //! |---|---|
@@ -13,7 +14,7 @@
 //! | `ZZSTR` | stresses of the polynomials fitted around a node ([`crate::results::Fields::nodal_stress`]) |
 //! | `ERROR` | by how much the stresses of the elements of a node jump, in percent of the largest von Mises stress; CalculiX has another measure |
 //!
-//! Strains are those of the tensor: shear strains are halves of engineering ones. Axes of an
+//! Strains are those of the tensor: shear strains are half the engineering strains. The axes of an
 //! axisymmetric model are r, z and the hoop direction.
 //!
 //! # Source
@@ -42,7 +43,7 @@ use std::path::Path;
 /// The file in a result directory.
 pub(super) const FIELDS_FILE: &str = "fields.frd";
 
-/// Writes the file of a result directory, where results are asked for.
+/// Writes the `.frd` file of a result directory if the scene asks for results in it.
 ///
 /// # Errors
 /// `Io` naming the file.
@@ -93,7 +94,7 @@ pub(super) fn write(out: &mut impl Write, model: &Model, results: &Results) -> i
     writeln!(out, " 9999")
 }
 
-/// Indices of the nodes of a block, by their numbers.
+/// Returns the indices of the nodes of a block, in the order of their numbers.
 fn rows(request: &FileRequest, numbered: &Numbered, labels: &[u64]) -> Vec<usize> {
     let Some(set) = &request.nodes else {
         return numbered.nodes.clone();
@@ -107,7 +108,8 @@ fn rows(request: &FileRequest, numbered: &Numbered, labels: &[u64]) -> Vec<usize
     found.map(|node| node as usize).collect()
 }
 
-/// The lines in front of a block: numbers of block and moment, and how many nodes it has.
+/// Writes the lines in front of a block: numbers of the block and of the moment, and how many nodes
+/// the block has.
 fn block_head(
     out: &mut impl Write,
     [block, number, n_nodes]: [usize; 3],

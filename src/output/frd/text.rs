@@ -1,6 +1,6 @@
-//! Numbers as `.frd` files have them.
+//! The format of numbers in `.frd` files.
 
-/// Six digits in twelve columns, in single precision: `-1.23457E-04`.
+/// Appends a number with six digits in twelve columns, in single precision: `-1.23457E-04`.
 pub(super) fn number(value: f64, out: &mut String) {
     let text = format!("{:.5E}", value as f32);
     let (digits, exponent) = text.split_once('E').unwrap_or((&text, "0"));
@@ -9,12 +9,13 @@ pub(super) fn number(value: f64, out: &mut String) {
         None => ('+', exponent),
     };
     let written = format!("{digits}E{sign}{size:0>2}");
-    // What is no number has no exponent.
+    // A value that is not a number has no exponent.
     let written = if value.is_finite() { &written } else { digits };
     out.push_str(&format!("{written:>12}"));
 }
 
-/// A time in eleven columns: ten digits from 1 on, six with an exponent below.
+/// Formats a time in eleven columns: with ten digits from 1 on, below 1 with six digits and an
+/// exponent.
 pub(super) fn time(value: f64) -> String {
     let before_point = value.max(1.0).log10().floor() as usize;
     if value >= 1.0 && before_point < 9 {

@@ -1,4 +1,4 @@
-//! Charts along a contact of a plane model: pressures at the states, the shape of the dent.
+//! Charts along a contact of a plane model: pressures at the states, and the shape of the dent.
 
 use super::chart::{Chart, Curve, Pen};
 use super::curves::{Titled, curve};
@@ -10,13 +10,13 @@ use crate::reference::hertz_pressure;
 use crate::results::{PairState, Results, State, Status};
 use plotters::prelude::SeriesLabelPosition;
 
-/// Most states in a chart of profiles.
+/// Largest number of states in a chart of profiles.
 const MOST_PROFILES: usize = 8;
-/// Pieces of the curve of a reference.
+/// Number of straight pieces in the curve of a reference solution.
 const PIECES: usize = 60;
 
-/// Place along a contact: an angle from the middle of its axis where the surface is a circle, else
-/// the length of arc.
+/// Positions along a contact: the angle from the middle of its axis if the surface is a circle,
+/// else the arc length.
 struct Along {
     label: String,
     is_angle: bool,
@@ -28,7 +28,7 @@ impl Along {
         let surface = &model.contacts[contact];
         let pairs = &model.pairs[surface.range.clone()];
         let circle = surface.circle.filter(|(center, radius)| {
-            // On a small part of a large circle lengths say more.
+            // On a small part of a large circle the arc length is more useful than the angle.
             let angle = |p: [f64; 2]| (p[1] - center[1]).atan2(p[0] - center[0]);
             let ends = [pairs.first(), pairs.last()]
                 .map(|p| p.map_or(0.0, |p| angle(model.mesh.in_plane(p.slave))));
@@ -48,7 +48,8 @@ impl Along {
             },
             None => {
                 let begin = pairs.iter().map(|p| p.arc).fold(f64::INFINITY, f64::min);
-                // From the side on which the surfaces are closest, which is where contact begins.
+                // The arc length counts from the side on which the surfaces are closest, because
+                // contact begins there.
                 let turned = pairs
                     .first()
                     .zip(pairs.last())
@@ -66,7 +67,7 @@ impl Along {
         }
     }
 
-    /// A value of the pairs of a state along the contact, in order.
+    /// Returns a value of the pairs of a state along the contact, in order.
     fn curve(
         &self,
         model: &Model,
@@ -85,7 +86,8 @@ impl Along {
     }
 }
 
-/// Pressure along a contact at the states, as far as anything was closed (and a little beyond).
+/// Draws the pressure along a contact at the states, over the range in which any pair was closed
+/// (and a little beyond).
 pub(super) fn pressure_profiles(
     model: &Model,
     results: &Results,
@@ -109,12 +111,12 @@ pub(super) fn pressure_profiles(
         .enumerate()
         .map(|(i, state)| {
             let points = along.curve(model, contact, &state.pairs, |pair| pair.pressure);
-            // The way back in dashes.
+            // Unloading is drawn dashed.
             let pen = if i > top { Pen::Dashed } else { Pen::Dotted };
             curve(&state.name, i, pen, points)
         })
         .collect();
-    // Where nothing is pressed in any state there is nothing to see, but for one point on each
+    // Stretches on which no pair presses in any state are left out, except for one point on each
     // side.
     let pressed: Vec<f64> = curves
         .iter()
@@ -175,7 +177,7 @@ fn numbered(name: &str, contact: usize, several: bool) -> String {
     }
 }
 
-/// The shape of the dent, where a state without contact force shows it.
+/// Draws the shape of the dent if a state without contact force shows it.
 pub(super) fn dent_profile(
     model: &Model,
     results: &Results,
@@ -200,7 +202,8 @@ pub(super) fn dent_profile(
     let mut points = along.curve(model, contact, &free.pairs, |pair| {
         pair.gap - model.pairs[pair.pair].gap
     });
-    // The pair that was farthest apart did not take part: what it shows is rigid motion.
+    // The pair with the largest initial gap took no part in the contact: its change of gap is rigid
+    // motion.
     let outermost = range
         .clone()
         .max_by(|&a, &b| model.pairs[a].gap.total_cmp(&model.pairs[b].gap))?;
@@ -228,8 +231,8 @@ pub(super) fn dent_profile(
     })
 }
 
-/// Hertz' pressure compared with that of a state in which nothing has yielded, of a half model with
-/// one contact.
+/// Returns Hertz' pressure for a state in which nothing has yielded, if the model is a half model
+/// with one contact.
 fn elastic_pressure(model: &Model, state: &State) -> Option<Vec<[f64; 2]>> {
     let is_alone = model.contacts.len() == 1 && model.materials.len() == 2;
     let compares = state.plastic_points == 0 && is_alone && mirrors(model)[0];

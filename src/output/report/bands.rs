@@ -13,12 +13,12 @@ pub(super) struct Bands {
     step: f64,
     count: usize,
     scale: Scale,
-    /// What the numbers are.
+    /// Name of the unit of the numbers.
     unit: String,
 }
 
 impl Bands {
-    /// Bands that cover `values`.
+    /// Creates bands that cover `values`.
     pub(super) fn new(values: [f64; 2], scale: Scale, unit: &str) -> Self {
         let [low, high] = values;
         let extent = if high > low {
@@ -38,12 +38,12 @@ impl Bands {
         }
     }
 
-    /// Lower ends of the bands and their colours, from the lowest on.
+    /// Returns the lower ends of the bands and their colours, from the lowest band on.
     pub(super) fn levels(&self) -> impl Iterator<Item = (f64, RGBColor)> {
         (0..self.count).map(|band| (self.low + band as f64 * self.step, self.color(band)))
     }
 
-    /// A band in words: from where to where.
+    /// Describes a band in words by its two ends.
     pub(super) fn words(&self, band: usize) -> String {
         let from = self.low + band as f64 * self.step;
         let [from, to] = [from, from + self.step].map(tick);
@@ -60,7 +60,7 @@ impl Bands {
         }
     }
 
-    /// A column of the colours with the numbers between them, from `at` down.
+    /// Draws a column of the colours with the numbers between them, from `at` downwards.
     pub(super) fn draw(&self, area: &Area, at: [f64; 2], height: f64) -> Result<()> {
         let (left, right) = (at[0] + 14.0, at[0] + 28.0);
         let line = 18.0;
@@ -73,7 +73,7 @@ impl Bands {
             INK,
         )?;
         let band = (bottom - top) / self.count as f64;
-        // Numbers that would touch are left out.
+        // Numbers that would touch each other are left out.
         let every = (line / band).ceil().max(1.0) as usize;
         for i in 0..=self.count {
             let y = bottom - i as f64 * band;

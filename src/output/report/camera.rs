@@ -1,29 +1,29 @@
-//! From where solids are looked at.
+//! The viewpoint from which solids are drawn.
 
 use super::contact_frame::global;
 use super::window::{extent, mirrors};
 use crate::model::Model;
 use crate::space::{Vector, along, cross, difference, direction, dot};
 
-/// Distance of the eye, in half diagonals of what is shown.
+/// Distance of the eye, in half diagonals of the part that is shown.
 pub(super) const DISTANCE: f64 = 5.0;
-/// Where the eye is: how far round from the first axis, how far up, in degrees.
+/// Direction of the eye: degrees round from the first axis, and degrees up.
 const ROUND: f64 = 36.0;
 const UP: f64 = 24.0;
-/// Share of the lower body's height by which one that lies on another may reach down into it.
+/// Share of the lower body's height by which a body that lies on it may reach down into it.
 const OVERLAP: f64 = 0.1;
 
-/// From where something is looked at.
+/// A viewpoint with the axes of the picture.
 pub(super) struct Camera {
-    /// Where the eye is.
+    /// Position of the eye.
     pub eye: Vector,
     /// Axes of the picture: to the right, up, and towards the eye.
     pub axes: [Vector; 3],
 }
 
 impl Camera {
-    /// Looks at a middle from `distance`. Up is along `up`; of the axes across it those along which
-    /// the model is a half are seen from the side of its planes of symmetry.
+    /// Looks at `center` from `distance`, with `up` upwards, from a direction between the two axes
+    /// `across`.
     pub(super) fn new(center: Vector, distance: f64, up: Vector, across: [Vector; 2]) -> Self {
         let [round, high] = [ROUND, UP].map(f64::to_radians);
         let level = along(across[0].map(|x| x * round.cos()), round.sin(), across[1]);
@@ -35,7 +35,7 @@ impl Camera {
         }
     }
 
-    /// Right and up over the distance along the line of sight, and that distance.
+    /// Projects a point: right and up over the distance along the line of sight, and that distance.
     pub(super) fn project(&self, x: Vector) -> ([f64; 2], f64) {
         let way = difference(x, self.eye);
         let depth = -dot(way, self.axes[2]);
@@ -43,16 +43,16 @@ impl Camera {
     }
 }
 
-/// The way up and the axes across it, towards the eye.
+/// The upward direction and the axes across it, which point towards the eye.
 pub(super) struct Stand {
-    /// Direction up, a unit vector.
+    /// Upward direction, a unit vector.
     pub up: Vector,
-    /// Directions across the way up.
+    /// Directions across the upward direction.
     pub across: [Vector; 2],
 }
 
 impl Stand {
-    /// Up along a normal of the contact; planes of symmetry face the eye.
+    /// Takes a normal of the contact as upward direction; planes of symmetry face the eye.
     pub(super) fn new(model: &Model, up: Vector, across: [Vector; 2]) -> Self {
         let mirror = mirrors(model);
         let [low, high] = extent(model);
@@ -69,8 +69,8 @@ impl Stand {
     }
 }
 
-/// The bodies from the lowest to the highest along a direction; one rank for those that reach into
-/// each other's heights by more than [`OVERLAP`].
+/// Ranks the bodies from the lowest to the highest along a direction. Bodies that overlap in height
+/// by more than [`OVERLAP`] get the same rank.
 pub(super) fn ranks(model: &Model, up: Vector) -> Vec<usize> {
     let mesh = &model.mesh;
     let mut heights = vec![[f64::INFINITY, f64::NEG_INFINITY]; mesh.bodies.len()];

@@ -7,9 +7,10 @@ use crate::number::significant;
 use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
 
-/// Size of a chart in pixels: two fit beside each other on a screen, one on a phone is still read.
+/// Size of a chart in pixels: two fit beside each other on a screen, and one is still legible on a
+/// phone.
 const SIZE: [u32; 2] = [520, 330];
-/// Points of a curve that a chart shows.
+/// Largest number of points of a curve that a chart shows.
 const MOST_POINTS: usize = 600;
 
 /// How a curve is drawn.
@@ -27,9 +28,9 @@ pub(super) enum Pen {
 
 /// A curve of a chart.
 pub(super) struct Curve {
-    /// Name in the legend; empty: none.
+    /// Name in the legend; empty if there is none.
     pub label: String,
-    /// Number of its colour; `None`: faint.
+    /// Index of the colour; `None` for a faint curve.
     pub color: Option<usize>,
     /// Line and dots that draw the curve.
     pub pen: Pen,
@@ -43,19 +44,19 @@ pub(super) struct Chart {
     pub labels: [String; 2],
     /// Curves of the chart.
     pub curves: Vec<Curve>,
-    /// Whether each axis holds 0 although no value does.
+    /// Whether each axis includes 0 even if no value does.
     pub from_zero: [bool; 2],
-    /// Share by which the horizontal axis is longer than the curves, to give the legend room.
+    /// Share by which the horizontal axis is longer than the curves, to make room for the legend.
     pub widened: f64,
-    /// Where the legend stands.
+    /// Position of the legend.
     pub legend: SeriesLabelPosition,
 }
 
 impl Chart {
-    /// Draws it.
+    /// Draws the chart.
     ///
     /// # Errors
-    /// `Internal` where the plotting library fails.
+    /// `Internal` if the plotting library fails.
     pub(super) fn draw(&self) -> Result<Drawing> {
         let mut x = range(&self.curves, 0, self.from_zero[0]);
         x[1] += self.widened * (x[1] - x[0]);
@@ -139,7 +140,7 @@ impl Chart {
         Ok(drawing)
     }
 
-    /// A spot that shows the values of a point where a pointer rests on it.
+    /// Returns a spot that shows the values of a point when a pointer rests on it.
     fn value(&self, label: &str, point: [f64; 2], at: (i32, i32)) -> String {
         let number = |k: usize| format!("{}: {}", self.labels[k], significant(point[k], 5));
         let label = if label.is_empty() {
@@ -158,10 +159,11 @@ impl Chart {
     }
 }
 
-/// Most points of a curve that tell their values.
+/// Largest number of points of a curve that show their values.
 const MOST_TOLD: usize = 60;
 
-/// The points of a curve that tell their values: all, or as many of them in equal steps.
+/// Returns the points of a curve that show their values: all of them, or [`MOST_TOLD`] in equal
+/// steps.
 fn told(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let finite = points
         .iter()
@@ -175,7 +177,7 @@ fn told(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     out
 }
 
-/// The strokes beside a curve's name, from and to.
+/// Returns the strokes beside a curve's name in the legend, from and to.
 fn strokes(pen: Pen) -> [[f64; 2]; 2] {
     match pen {
         Pen::Line | Pen::Dotted => [[0.0, 24.0], [24.0, 24.0]],
@@ -184,7 +186,7 @@ fn strokes(pen: Pen) -> [[f64; 2]; 2] {
     }
 }
 
-/// A range round all values that ends at nice numbers.
+/// Returns a range that contains all values and ends at nice numbers.
 fn range(curves: &[Curve], axis: usize, from_zero: bool) -> [f64; 2] {
     let values = curves.iter().flat_map(|c| &c.points).map(|p| p[axis]);
     let finite = values.filter(|v| v.is_finite());
@@ -203,7 +205,7 @@ fn range(curves: &[Curve], axis: usize, from_zero: bool) -> [f64; 2] {
         (low, high) = (low - room, high + room);
     }
     let step = nice_step(high - low, 20);
-    // A curve that ends at a tick still has room for its line.
+    // A curve that ends at a tick gets room for the width of its line.
     let (begin, end) = ((low / step).floor() * step, (high / step).ceil() * step);
     let room = 0.02 * (high - low);
     [
@@ -220,7 +222,7 @@ fn range(curves: &[Curve], axis: usize, from_zero: bool) -> [f64; 2] {
     ]
 }
 
-/// Thins a curve to at most [`MOST_POINTS`] finite points, ends and extremes kept.
+/// Thins a curve to at most [`MOST_POINTS`] finite points; ends and extremes are kept.
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let points: Vec<[f64; 2]> = points
         .iter()
@@ -230,7 +232,7 @@ fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     if points.len() <= MOST_POINTS {
         return points;
     }
-    // Of each stretch the lowest and the highest point stay, in their order.
+    // The lowest and the highest point of each stretch stay, in their order.
     let stretch = points.len().div_ceil(MOST_POINTS / 2);
     let mut out = Vec::with_capacity(MOST_POINTS + 2);
     for part in points.chunks(stretch) {

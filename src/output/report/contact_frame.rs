@@ -1,4 +1,4 @@
-//! Where the contact of solids is, and along which axes it is looked at.
+//! The position of the contact of solids, and the axes along which it is viewed.
 
 use super::window::Window;
 use crate::model::{Model, Pair};
@@ -6,7 +6,7 @@ use crate::output::labels::{Labels, labelled};
 use crate::results::State;
 use crate::space::{Vector, along, cross, direction, dot, unit};
 
-/// The contact that carries most: its middle, normal and axes.
+/// The contact that carries the largest force: its middle, normal and axes.
 pub(super) struct ContactFrame {
     /// Index of the contact.
     pub contact: usize,
@@ -14,21 +14,21 @@ pub(super) struct ContactFrame {
     pub center: Vector,
     /// Mean normal, from the second body to the first.
     pub normal: Vector,
-    /// The normal or its opposite: along a positive coordinate axis.
+    /// The normal or its opposite, whichever points along a positive coordinate axis.
     pub up: Vector,
-    /// Directions across it: those of the patch's half axes.
+    /// Directions across the normal: those of the patch's half axes.
     pub axes: [Vector; 2],
-    /// Largest half axes of all states along these.
+    /// Largest half axes of all states along `axes`.
     pub reach: [f64; 2],
 }
 
-/// Share by which half axes differ at least for their direction to mean something.
+/// Relative difference of the half axes from which on their directions are meaningful.
 const ROUND: f64 = 0.05;
-/// How many times longer than wide a patch without end counts as.
+/// Ratio of length to width that is assumed for a patch without end.
 const ENDLESS: f64 = 2.0;
 
 impl ContactFrame {
-    /// Frame of the contact over some states; `None` where no patch carries force.
+    /// Returns the frame of the contact over some states; `None` if no patch carries force.
     pub(super) fn new(model: &Model, states: &[State]) -> Option<Self> {
         let patches = || states.iter().flat_map(|state| &state.patches);
         let strongest = patches().max_by(|a, b| a.force.total_cmp(&b.force))?;
@@ -36,7 +36,8 @@ impl ContactFrame {
         let pairs = &model.pairs[model.contacts.get(contact)?.range.clone()];
         let sum = |sum, pair: &Pair| along(sum, pair.area, pair.normal);
         let normal = direction(pairs.iter().fold([0.0; 3], sum));
-        // The global axis that is most nearly in the plane, unless the patch has one of its own.
+        // The axis is the global one that lies most nearly in the plane, unless the patch has a
+        // direction of its own.
         let [long, short] = strongest.semi_axes;
         let global = (0..3).min_by(|a, b| normal[*a].abs().total_cmp(&normal[*b].abs()))?;
         let first = match long - short > ROUND * long {
@@ -51,7 +52,7 @@ impl ContactFrame {
                 .fold([0.0f64; 2], |reach, patch| {
                     let [long, short] = patch.semi_axes;
                     let long = long.min(ENDLESS * short);
-                    // Half the extent of a turned ellipse along an axis.
+                    // Half the extent of a rotated ellipse along an axis.
                     [0, 1].map(|d| {
                         let (c, s) = (
                             dot(axes[d], patch.direction),
@@ -70,7 +71,7 @@ impl ContactFrame {
         })
     }
 
-    /// What surrounds the contact in the plane of one of the axes and the normal.
+    /// Returns the surroundings of the contact in the plane of one of the axes and the normal.
     pub(super) fn window(&self, model: &Model, axis: usize, mirror: [bool; 2]) -> Option<Window> {
         let axes = [self.axes[axis], self.up];
         let mesh = &model.mesh;
@@ -84,7 +85,7 @@ impl ContactFrame {
         ))
     }
 
-    /// The label of an axis: its own name where it is a global one.
+    /// Returns the label of an axis: the name of the global axis if it is one.
     pub(super) fn label(axis: Vector, labels: &Labels) -> String {
         labelled(
             global(axis).map_or("along the contact", |d| ["x", "y", "z"][d]),
@@ -93,12 +94,13 @@ impl ContactFrame {
     }
 }
 
-/// The coordinate axis that a direction is.
+/// Returns the coordinate axis along which a direction points; `None` if there is none.
 pub(super) fn global(axis: Vector) -> Option<usize> {
     (0..3).find(|&d| dot(axis, unit(d)).abs() > 1.0 - 1e-9)
 }
 
-/// The direction whose largest component is positive; exactly a coordinate axis where it is one.
+/// Returns the direction or its opposite, whichever has a positive largest component; exactly a
+/// coordinate axis if it is one.
 fn positive(axis: Vector) -> Vector {
     if let Some(d) = global(axis) {
         return unit(d);

@@ -16,14 +16,15 @@ use crate::output::Labels;
 use crate::results::{ContactPatch, State};
 use crate::space::{Vector, along, cross, dot};
 
-/// How far the map reaches, in half axes of the largest patch of all states.
+/// Extent of the map, in half axes of the largest patch of all states.
 const REACH: f64 = 1.3;
-/// Pieces of the line round a patch.
+/// Number of straight pieces of the line round a patch.
 const PIECES: usize = 180;
-/// Half lengths, in half widths, that stand for a patch without end.
+/// Half length of a patch without end, in half widths.
 const ENDLESS: f64 = 1e4;
 
-/// Draws the pressures of states in the plane across the normal of the contact that carries most.
+/// Draws the pressures of states in the plane across the normal of the contact that carries the
+/// largest force.
 pub(super) struct ContactMap<'m> {
     model: &'m Model,
     frame: &'m ContactFrame,
@@ -36,8 +37,8 @@ pub(super) struct ContactMap<'m> {
 }
 
 impl<'m> ContactMap<'m> {
-    /// The map of a run, mirrored where the model is a half in an axis of it; `None` where nothing
-    /// is to be seen.
+    /// Returns the map of a run, mirrored in the axes along which the model is a half; `None` if
+    /// there is nothing to show.
     pub(super) fn new(
         model: &'m Model,
         frame: &'m ContactFrame,
@@ -63,7 +64,7 @@ impl<'m> ContactMap<'m> {
             mirror,
             negligible(model),
         );
-        // No further than there are pairs.
+        // The window ends with the pairs.
         let all = Window::round(patchwork.places(&model.mesh, None).into_iter())?;
         let center = frame.axes.map(|axis| dot(axis, frame.center));
         let mut window = all;
@@ -85,13 +86,13 @@ impl<'m> ContactMap<'m> {
         })
     }
 
-    /// The ellipse of a patch's half axes.
+    /// Returns the ellipse of a patch's half axes.
     fn outline(&self, patch: &ContactPatch) -> Vec<[f64; 2]> {
         let other = cross(self.frame.normal, patch.direction);
         let place = |x: Vector| self.frame.axes.map(|axis| dot(axis, x));
         let at = |k: usize| {
             let (s, c) = (2.0 * std::f64::consts::PI * k as f64 / PIECES as f64).sin_cos();
-            // A strip without end: its sides, out of the picture.
+            // A strip without end shows its sides; its ends lie outside the picture.
             let long = patch.semi_axes[0].min(ENDLESS * patch.semi_axes[1]);
             let x = along(patch.centroid, long * c, patch.direction);
             place(along(x, patch.semi_axes[1] * s, other))
@@ -99,9 +100,9 @@ impl<'m> ContactMap<'m> {
         (0..PIECES).map(at).collect()
     }
 
-    /// The pressures of a state by pair. Of pairs beside the contact it is the opposite of the
-    /// largest that they share a face with: between two that touch and do not, no pressure reaches
-    /// beyond the middle.
+    /// Returns the pressures of a state by pair. An open pair next to closed ones gets the negative
+    /// of the largest pressure among the pairs with which it shares a face: then the interpolated
+    /// pressure between a closed and an open pair vanishes in the middle or before.
     fn pressures(&self, state: &State) -> Vec<f64> {
         let mut pressure = vec![0.0; self.model.pairs.len()];
         for pair in &state.pairs {
@@ -124,17 +125,17 @@ impl<'m> ContactMap<'m> {
             .of_nodes(|node| self.pairs[node].map_or(0.0, &value))
     }
 
-    /// The pressures of a state.
+    /// Draws the pressures of a state.
     ///
     /// # Errors
-    /// `Internal` where the plotting library fails.
+    /// `Internal` if the plotting library fails.
     pub(super) fn draw(&self, state: &State) -> Result<Drawing> {
         let places = self.patchwork.places(&self.model.mesh, None);
         let pressures = self.pressures(state);
         let sheet = self
             .patchwork
             .sheet(places, self.at_nodes(|pair| pressures[pair]));
-        // Half way between what touches and what does not, as pairs have their areas.
+        // The outline lies half way between closed and open pairs, like the areas of the pairs.
         let touches = self.at_nodes(|pair| f64::from(u8::from(pressures[pair] > 0.0)));
         let touches = TriangleSheet {
             places: sheet.places.clone(),

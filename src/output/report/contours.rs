@@ -1,27 +1,29 @@
-//! Lines of equal value over triangles, joined to closed ones.
+//! Lines of equal value over triangles, joined to closed lines.
 
 use super::path::Spot;
 
-/// A point on a line: a corner of a triangle (twice), or the place between two where a value lies.
+/// A point on a line: a corner of a triangle (its number twice), or the place between two corners
+/// at which the value is reached.
 type LinePoint = [u32; 2];
 
-/// Triangles of the plane with a value at each corner; between them values are linear.
+/// Triangles of the plane with a value at each corner; the values are linear in each triangle.
 pub(super) struct TriangleSheet<'t> {
-    /// Corners of the triangles, in the same sense all over.
+    /// Corners of the triangles, all in the same sense of rotation.
     pub triangles: &'t [[u32; 3]],
-    /// Sides that belong to one triangle, in its sense.
+    /// Sides that belong to only one triangle, in the sense of that triangle.
     pub border: &'t [[u32; 2]],
-    /// Where the corners are.
+    /// Positions of the corners.
     pub places: Vec<[f64; 2]>,
     /// Values at the corners.
     pub values: Vec<f64>,
 }
 
 impl TriangleSheet<'_> {
-    /// Closed lines round all that is not below a value; with minus infinity round all.
+    /// Returns closed lines round all places at which the value is at least `level`; minus infinity
+    /// includes all places.
     ///
-    /// Inside, sides of triangles cancel: what is left is the line of the value through each
-    /// triangle and what of the border is above it.
+    /// Inside, the sides of neighbouring triangles cancel: the lines that remain are the level line
+    /// through each triangle and the part of the border above the level.
     pub(super) fn above(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let is_above = |k: u32| self.values[k as usize] >= level || level == f64::NEG_INFINITY;
         let cut = |a: u32, b: u32| [a.min(b), a.max(b)];
@@ -58,7 +60,7 @@ impl TriangleSheet<'_> {
             .collect()
     }
 
-    /// The corner with the largest value among those in view.
+    /// Returns the corner with the largest value among the corners in view.
     pub(super) fn largest(&self, seen: impl Fn([f64; 2]) -> bool) -> Option<usize> {
         let shown = (0..self.values.len()).filter(|&k| self.values[k].is_finite());
         shown
@@ -66,7 +68,8 @@ impl TriangleSheet<'_> {
             .max_by(|&a, &b| self.values[a].total_cmp(&self.values[b]).then(b.cmp(&a)))
     }
 
-    /// Values along the line through a point: distance from it and value, by distance.
+    /// Returns the values along the line through a point, as distance from the point and value,
+    /// sorted by distance.
     pub(super) fn along(
         &self,
         [from, way]: [Spot; 2],
@@ -93,14 +96,15 @@ impl TriangleSheet<'_> {
             }
         }
         out.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        // A side has a triangle on each side.
+        // The point on a side is found from the triangles on either side of it: one copy is
+        // removed.
         out.dedup();
         out
     }
 }
 
-/// Joins segments end to start: closed lines where as many end at each point as start there. The
-/// order of the lines depends on the points alone.
+/// Joins segments end to start. The lines are closed if as many segments end at each point as start
+/// there. The order of the lines depends on the points alone.
 pub(super) fn joined<K: Ord + Copy>(mut segments: Vec<(K, K)>) -> Vec<Vec<K>> {
     segments.sort_unstable();
     let mut used = vec![false; segments.len()];
@@ -124,7 +128,7 @@ pub(super) fn joined<K: Ord + Copy>(mut segments: Vec<(K, K)>) -> Vec<Vec<K>> {
     out
 }
 
-/// Sides that belong to one polygon alone, each in the sense of its polygon.
+/// Returns the sides that belong to only one polygon, each in the sense of its polygon.
 pub(super) fn border<K: Ord + Copy>(sides: impl Iterator<Item = (K, K)>) -> Vec<(K, K)> {
     let mut all: Vec<(K, K, bool)> = sides
         .map(|(a, b)| if a < b { (a, b, false) } else { (b, a, true) })
@@ -139,7 +143,7 @@ pub(super) fn border<K: Ord + Copy>(sides: impl Iterator<Item = (K, K)>) -> Vec<
         .collect()
 }
 
-/// Area inside closed lines, holes taken off.
+/// Returns the area inside closed lines, without holes.
 #[cfg(test)]
 pub(super) fn area(rings: &[Vec<[f64; 2]>]) -> f64 {
     let of = |ring: &Vec<[f64; 2]>| -> f64 {
@@ -193,8 +197,8 @@ mod tests {
         }
     }
 
-    /// A linear field is linear on the triangles: what is above a level is a piece of the square,
-    /// to round-off.
+    /// A linear field is linear on the triangles, so the region above a level is a piece of the
+    /// square, to round-off.
     #[test]
     fn areas_above_levels_of_a_linear_field_are_exact() {
         let n = 8;
@@ -204,7 +208,7 @@ mod tests {
         let whole = area(&sheet.above(f64::NEG_INFINITY));
         assert!((whole - (1.0 - hole)).abs() < 1e-14, "{whole}");
         assert_eq!(sheet.above(f64::NEG_INFINITY).len(), 2, "border and hole");
-        // On nodes, between them, through the hole, and above all.
+        // The levels lie on nodes, between nodes, through the hole, and above all values.
         for (level, expected) in [
             (0.25, 0.75 - hole),
             (0.3, 0.7 - hole),
@@ -226,7 +230,8 @@ mod tests {
         assert!(line.is_sorted_by(|a, b| a[0] < b[0]) && line[0] == [0.0, 0.0]);
     }
 
-    /// What is above rises as the level falls, and a bump away from the border is one closed line.
+    /// The region above a level grows as the level falls, and a bump away from the border is one
+    /// closed line.
     #[test]
     fn a_bump_has_one_line_round_it() {
         let bump = |p: [f64; 2]| 1.0 - (p[0] - 0.25).hypot(p[1] - 0.3);

@@ -1,4 +1,4 @@
-//! Which charts a run has, and their curves.
+//! The charts of a run, and their curves.
 
 use super::along_contact::{dent_profile, pressure_profiles};
 use super::chart::{Chart, Curve, Pen};
@@ -11,19 +11,19 @@ use crate::results::{HistoryRow, PathPoint, Results};
 use crate::scene::Unit;
 use plotters::prelude::SeriesLabelPosition;
 
-/// A chart with its words.
+/// A chart with its title and caption.
 pub(super) struct Titled {
     /// Short name, for the file.
     pub name: String,
     /// Heading above the chart.
     pub title: String,
-    /// Caption: what the chart shows.
+    /// Caption that says what the chart shows.
     pub caption: String,
     /// The chart itself.
     pub chart: Chart,
 }
 
-/// All charts of a run, those about the load first.
+/// Returns all charts of a run, those about the load first.
 pub(super) fn charts(
     model: &Model,
     results: &Results,
@@ -58,7 +58,7 @@ pub(super) fn charts(
             |point| point.half_width,
             |y| y.half_width,
         ));
-        // Of solids pressure is no curve.
+        // The pressure of solids is not a curve.
         let contacts = model.contacts.iter().enumerate();
         for (index, contact) in contacts.filter(|_| !model.kind.is_solid()) {
             out.extend(pressure_profiles(
@@ -86,18 +86,18 @@ pub(super) fn load_label(labels: &Labels) -> String {
     labelled("load", labels.load())
 }
 
-/// What becomes of a figure as the load goes to zero within an increment, in which statuses do not
-/// change and all contact forces are therefore in proportion to the load.
+/// Behaviour of a figure as the load goes to zero within an increment, in which statuses do not
+/// change and all contact forces are therefore proportional to the load.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum AtZero {
-    /// A figure that goes to zero with the load: a pressure.
+    /// A figure that goes to zero with the load, such as a pressure.
     Proportional,
-    /// A figure that stays as it is until nothing is pressed any more: an extent.
+    /// A figure that stays constant until nothing is pressed any more, such as an extent.
     Constant,
 }
 
 impl AtZero {
-    /// The points of a path, and where the figure jumps.
+    /// Returns the points of a path, with the jumps of the figure.
     fn path(self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         let mut out: Vec<[f64; 2]> = points.first().copied().into_iter().collect();
         for pair in points.windows(2) {
@@ -113,7 +113,7 @@ impl AtZero {
     }
 }
 
-/// What is drawn against the load.
+/// A figure that is drawn over the load.
 struct Figure<'t> {
     name: &'t str,
     title: &'t str,
@@ -121,7 +121,7 @@ struct Figure<'t> {
     at_zero: AtZero,
 }
 
-/// A figure of the history against the load, way there and way back, with first yield and the
+/// Draws a figure of the history over the load, in loading and unloading, with first yield and the
 /// states.
 fn against_load(
     results: &Results,
@@ -140,7 +140,7 @@ fn against_load(
         let mut out = Vec::new();
         for (index, row) in rows.iter().enumerate() {
             if index > 0 {
-                // Both are in the order of the run.
+                // The history and the path are both in the order of the run.
                 let first = results
                     .path
                     .partition_point(|p| p.increment < row.increment);
@@ -154,7 +154,7 @@ fn against_load(
     };
     let mut loading = points(&history[..=top]);
     if history[0].load > 0.0 && results.states.iter().all(|s| s.alpha >= 0.0) {
-        // Without load nothing is closed, unless an interference or a preload presses.
+        // Without load no pair is closed, unless an interference or a preload presses.
         let pressed = results
             .effects
             .iter()
@@ -206,7 +206,7 @@ pub(super) fn curve(label: &str, color: usize, pen: Pen, points: Vec<[f64; 2]>) 
     }
 }
 
-/// The dent against the load at which it was made.
+/// Draws the dent over the load at which it was made.
 fn residual_depth(results: &Results, labels: &Labels) -> Option<Titled> {
     let deepest = results
         .states
@@ -236,8 +236,8 @@ fn residual_depth(results: &Results, labels: &Labels) -> Option<Titled> {
     })
 }
 
-/// Load against the approach of the bodies, without contact against the displacement of the loaded
-/// surface: the stiffness.
+/// Draws the load over the approach of the bodies, or without contact over the displacement of the
+/// loaded surface, which shows the stiffness.
 fn displacement(results: &Results, labels: &Labels, has_contact: bool) -> Option<Titled> {
     if results.states.len() < 2 || results.states.iter().all(|s| s.approach == 0.0) {
         return None;
@@ -270,9 +270,9 @@ fn displacement(results: &Results, labels: &Labels, has_contact: bool) -> Option
     })
 }
 
-/// Largest plastic strain against the load factor.
+/// Draws the largest plastic strain over the load factor.
 fn plastic_strain(results: &Results, labels: &Labels) -> Option<Titled> {
-    // A prescribed displacement without contact has a load at the states only.
+    // With a prescribed displacement without contact the load is known at the states only.
     let known = results.history.iter().all(|row| row.load.is_finite());
     let points: Vec<[f64; 2]> = results
         .history
@@ -304,7 +304,7 @@ fn plastic_strain(results: &Results, labels: &Labels) -> Option<Titled> {
     })
 }
 
-/// What a load factor of 1 is, in words.
+/// Says in words what a load factor of 1 means.
 pub(super) fn factor_unit(unit: Unit) -> &'static str {
     match unit {
         Unit::Load => "a multiple of the scene's loads",

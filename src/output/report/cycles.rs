@@ -1,13 +1,13 @@
-//! What a program of cycles came to.
+//! The outcome of a program of cycles.
 
 use crate::number::number;
 use crate::results::{CycleRow, Results};
 use maud::{Markup, PreEscaped, html};
 
-/// Cycles that are shown at the beginning, and at the end, of a long list.
+/// Number of cycles that are shown at the beginning and at the end of a long list.
 const CYCLES: usize = 8;
 
-/// What the cycles came to, and the strains of each.
+/// Returns the outcome of the cycles, and the strains of each cycle.
 pub(super) fn table(results: &Results) -> Markup {
     let Some(cycles) = &results.cycles else {
         return PreEscaped(String::new());

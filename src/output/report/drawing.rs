@@ -1,7 +1,7 @@
-//! A drawing: SVG text made by the plotting library, with paths laid under it.
+//! A drawing: SVG text made by the plotting library, with additional paths under and over it.
 //!
 //! The library places everything on whole units. Drawings are therefore made [`FINE`] times as
-//! large as they are shown, which puts lines to an eighth of a pixel.
+//! large as they are shown, which makes the positions of lines accurate to an eighth of a pixel.
 
 use super::theme::{self, FAINT, INK, PAPER};
 use crate::error::{Error, Result};
@@ -11,9 +11,9 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-/// Units of a drawing per pixel that it is meant to be shown at.
+/// Units of a drawing per pixel of its intended size.
 pub(super) const FINE: u32 = 8;
-/// Letters in pixels.
+/// Size of letters in pixels.
 pub(super) const LETTERS: f64 = 13.0;
 const FONT: &str = "system-ui, -apple-system, Segoe UI, Roboto, Helvetica, Arial, sans-serif";
 
@@ -32,7 +32,7 @@ impl Drawing {
     /// Draws on an area of `width` by `height` pixels.
     ///
     /// # Errors
-    /// `Internal` where the plotting library fails.
+    /// `Internal` if the plotting library fails.
     pub(super) fn new(
         [width, height]: [u32; 2],
         draw: impl FnOnce(&Area) -> Result<()>,
@@ -54,17 +54,17 @@ impl Drawing {
         })
     }
 
-    /// Puts elements of SVG under what is drawn.
+    /// Puts SVG elements under the drawing.
     pub(super) fn underlay(&mut self, elements: &str) {
         self.content.insert_str(0, elements);
     }
 
-    /// Puts elements of SVG over what is drawn.
+    /// Puts SVG elements over the drawing.
     pub(super) fn overlay(&mut self, elements: &str) {
         self.content.push_str(elements);
     }
 
-    /// The text of a file of its own: fixed colours on a ground of their own.
+    /// Returns the text of a separate file: fixed colours on a background of its own.
     pub(super) fn file(&self) -> String {
         let ground = format!(
             "<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n",
@@ -74,8 +74,8 @@ impl Drawing {
         format!("{}{ground}{}</svg>\n", self.tag(&size), self.content)
     }
 
-    /// The text for the page: colours by name, as wide as there is room. `label` says to those who
-    /// do not see it what it shows, `id` is its name within the page.
+    /// Returns the text for the page: colours by name, as wide as there is room. `label` describes
+    /// the drawing for readers who do not see it, `id` is its name within the page.
     pub(super) fn inline(&self, label: &str, id: &str) -> String {
         let label = label
             .replace('&', "&amp;")
@@ -100,8 +100,8 @@ impl Drawing {
     }
 }
 
-/// The library's text without what it repeats: the font, which is the whole drawing's, full
-/// opacity, empty lines.
+/// Removes from the library's text what it repeats: the font, which is set for the whole drawing,
+/// full opacity, empty lines.
 fn compact(text: &str) -> String {
     text.replace(&font(), "")
         .replace(" opacity=\"1\"", "")
@@ -109,39 +109,39 @@ fn compact(text: &str) -> String {
         .replace(" dx=\"0\" dy=\"0\"", "")
 }
 
-/// The attributes of the usual letters, as the library writes them: its size of a font is that of a
-/// line, 1.24 times the letters'.
+/// Returns the attributes of the usual letters as the library writes them: its font size is the
+/// height of a line, 1.24 times that of the letters.
 fn font() -> String {
     let size = LETTERS * f64::from(FINE) / 1.24;
     format!(" font-family=\"{FONT}\" font-size=\"{size}\"")
 }
 
-/// Text as it stands in XML, what a terminal would obey written out.
+/// Escapes a text for XML, with control characters (which a terminal would obey) written out.
 pub(super) fn escaped(text: &str) -> String {
     shown(text).replace('&', "&amp;").replace('<', "&lt;")
 }
 
-/// What shows where a pointer rests on the element that holds it.
+/// Returns the element whose text is shown when a pointer rests on its parent.
 pub(super) fn title(text: &str) -> String {
     format!("<title>{}</title>", escaped(text))
 }
 
-/// An error of the plotting library.
+/// Wraps an error of the plotting library.
 pub(super) fn failed(cause: impl std::error::Error + Send + Sync + 'static) -> Error {
     Error::internal("a figure of the report cannot be drawn").because(cause)
 }
 
-/// Letters of the usual size.
+/// Returns the style of letters of the usual size.
 pub(super) fn letters(color: RGBColor) -> TextStyle<'static> {
     (FONT, LETTERS * f64::from(FINE)).into_font().color(&color)
 }
 
-/// A line `width` pixels wide.
+/// Returns the style of a line `width` pixels wide.
 pub(super) fn stroke(color: RGBColor, width: f64) -> ShapeStyle {
     color.stroke_width((width * f64::from(FINE)).round() as u32)
 }
 
-/// Pixels in units of the drawing.
+/// Converts pixels to units of the drawing.
 pub(super) fn units(pixels: f64) -> i32 {
     (pixels * f64::from(FINE)).round() as i32
 }
@@ -149,7 +149,7 @@ pub(super) fn units(pixels: f64) -> i32 {
 /// Writes `text` with its `anchor` at a place in pixels.
 ///
 /// # Errors
-/// `Internal` where the plotting library fails.
+/// `Internal` if the plotting library fails.
 pub(super) fn write(
     area: &Area,
     text: &str,
@@ -165,7 +165,7 @@ pub(super) fn write(
 /// Draws a chart's axes, ticks and grid.
 ///
 /// # Errors
-/// `Internal` where the plotting library fails.
+/// `Internal` if the plotting library fails.
 pub(super) fn axes<'a>(
     chart: &mut ChartContext<
         'a,
@@ -175,7 +175,7 @@ pub(super) fn axes<'a>(
     labels: [&str; 2],
     grid: bool,
 ) -> Result<()> {
-    // What round-off leaves of a zero is small compared with the other ticks.
+    // The round-off that is left of a zero is small compared with the other ticks.
     let extent = |range: std::ops::Range<f64>| 1e-9 * (range.end - range.start).abs();
     let small = [extent(chart.x_range()), extent(chart.y_range())];
     let text = |value: f64, small: f64| tick(if value.abs() < small { 0.0 } else { value });
@@ -204,7 +204,7 @@ pub(super) fn axes<'a>(
         .map_err(failed)
 }
 
-/// A number at a tick: as short as it can be said.
+/// Formats a number at a tick as briefly as possible.
 pub(super) fn tick(value: f64) -> String {
     let text = trimmed(value, 5);
     match text.strip_prefix('-') {
@@ -213,8 +213,8 @@ pub(super) fn tick(value: f64) -> String {
     }
 }
 
-/// Steps of 1, 2, 2.5 or 5 times a power of ten: the finest that covers `extent` with at most
-/// `most` of them.
+/// Returns a step of 1, 2, 2.5 or 5 times a power of ten: the finest that covers `extent` with at
+/// most `most` steps.
 pub(super) fn nice_step(extent: f64, most: usize) -> f64 {
     let rough = (extent / most as f64).max(f64::MIN_POSITIVE);
     let power = 10f64.powf(rough.log10().floor());
@@ -271,7 +271,7 @@ mod tests {
         ));
         for text in [drawing.file(), drawing.inline("a & \"b\" <c>", "svg-a")] {
             roxmltree::Document::parse(&text).unwrap();
-            // Of the whole drawing alone.
+            // The font size is stated once, for the whole drawing.
             assert_eq!(text.matches("font-size").count(), 1, "{text}");
         }
         assert!(drawing.inline("", "svg-a").contains("var(--ink)"));

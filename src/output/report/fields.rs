@@ -1,5 +1,5 @@
 //! Pictures of a state: von Mises stress, pressure, plastic zone, on the deformed contour of a
-//! plane model or of a cut through a solid one.
+//! plane model or of a cut through a solid.
 
 use super::bands::Bands;
 use super::contours::TriangleSheet;
@@ -16,19 +16,19 @@ use crate::results::{Fields, State};
 use plotters::style::RGBColor;
 use rayon::prelude::*;
 
-/// Field that a picture shows.
+/// A field that a picture can show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ShownField {
     /// Von Mises stress.
     VonMises,
     /// Mean pressure `-(s_xx + s_yy + s_zz)/3`, compressive positive.
     Pressure,
-    /// Equivalent plastic strain where the material has yielded.
+    /// Equivalent plastic strain in the elements that have yielded.
     PlasticZone,
 }
 
 impl ShownField {
-    /// Value of the field in an element.
+    /// Returns the value of the field in an element.
     fn of(self, mesh: &Mesh, fields: &Fields, element: usize) -> f64 {
         match self {
             ShownField::VonMises => fields.von_mises[element],
@@ -56,7 +56,7 @@ impl ShownField {
     }
 }
 
-/// A plane that is looked at.
+/// A plane that pictures show.
 pub(super) struct View {
     /// Short name, for files; may be empty.
     pub name: &'static str,
@@ -66,7 +66,7 @@ pub(super) struct View {
     pub patchwork: Patchwork,
     /// Window of the plane that is shown.
     pub window: Window,
-    /// Labels of its axes.
+    /// Labels of the axes of the plane.
     pub labels: [String; 2],
 }
 
@@ -80,20 +80,20 @@ pub(super) struct StatePicture {
     pub quantity: ShownField,
     /// The picture itself.
     pub drawing: Drawing,
-    /// Whether its scale is not that of the other states.
+    /// Whether the scale of the picture differs from that of the other states.
     pub has_own_scale: bool,
 }
 
-/// A state whose values reach less than this share of the largest ones has a scale of its own:
-/// residual stresses are to be seen.
+/// A state whose values reach less than this share of the largest ones gets a scale of its own, so
+/// that residual stresses are visible.
 const FAINT: f64 = 0.3;
-/// The border of the plastic zone is where this share of the elements round a node has yielded.
+/// Share of the yielded elements round a node at which the border of the plastic zone is drawn.
 const ZONE: f64 = 0.5;
-/// Bodies where nothing is shown of them.
+/// Colour of bodies on which no values are shown.
 const NEUTRAL: RGBColor = RGBColor(0x9a, 0xa5, 0xb1);
 
-/// Values of a quantity in a state on a view, and the share of the elements round that have
-/// yielded.
+/// Values of a quantity in a state on a view, and the share of the elements round each point that
+/// have yielded.
 struct ViewValues<'v> {
     state: usize,
     view: usize,
@@ -102,10 +102,10 @@ struct ViewValues<'v> {
     zone: Vec<f64>,
 }
 
-/// Draws the quantities in the states on the views. Quantities of all states have one scale.
+/// Draws the quantities in the states on the views. Each quantity has the same scale in all states.
 ///
 /// # Errors
-/// `Internal` where one cannot be drawn.
+/// `Internal` if one cannot be drawn.
 pub(super) fn draw(
     mesh: &Mesh,
     labels: &Labels,
@@ -137,7 +137,7 @@ pub(super) fn draw(
         let window = views[values.view].window;
         let shown = values.sheet.places.iter().zip(&values.sheet.values);
         let shown = shown.filter(|(place, value)| value.is_finite() && window.sees(&[**place]));
-        // Zero always within.
+        // The range always contains zero.
         shown.fold([0.0f64; 2], |[low, high], (_, v)| {
             [low.min(*v), high.max(*v)]
         })
@@ -180,7 +180,8 @@ fn draw_one(labels: &Labels, view: &View, shown: &ViewValues, range: [f64; 2]) -
     let zone = zone.above(ZONE);
     let mut picture = Picture::new(view.window);
     let all = sheet.above(f64::NEG_INFINITY);
-    // Each band lies on the one below it: between two there is no gap for the ground to show.
+    // Each band extends under the band above it, so that no background shows through between two
+    // bands.
     let is_zone = quantity == ShownField::PlasticZone;
     if is_zone {
         picture.fill(&all, NEUTRAL, 0.35);
@@ -217,8 +218,8 @@ fn rounded(value: f64) -> f64 {
     significant(value, 3).parse().unwrap_or(value)
 }
 
-/// States to show: at most `most` of those of interest, the first, the one with the largest load
-/// and the last among them.
+/// Chooses the states to show: at most `most` of the states of interest, among them the first, the
+/// one with the largest load and the last.
 pub(super) fn chosen(
     states: &[State],
     most: usize,
@@ -239,7 +240,7 @@ pub(super) fn chosen(
         .collect();
     out.sort_unstable();
     out.dedup();
-    // Then, again and again, the one in the middle of the widest hole.
+    // After these the state in the middle of the widest gap is added, again and again.
     while out.len() < most {
         let holes = out.windows(2).map(|pair| {
             let inside: Vec<usize> = with

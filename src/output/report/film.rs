@@ -1,5 +1,5 @@
-//! Films: the pictures of the states shown one after the other, by style alone. A picture of the
-//! page is not repeated, but used again by its name.
+//! Films: the pictures of the states shown one after the other by CSS alone. A picture of the page
+//! is not repeated, but referred to by its name.
 
 use super::drawing::{FINE, LETTERS, escaped};
 use super::page::Figure;
@@ -7,13 +7,13 @@ use super::states::{MAGNIFIED, of_state};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-/// What the drawing of a figure is called within the page.
+/// Returns the name of a figure's drawing within the page.
 pub(super) fn id(figure: &str) -> String {
     format!("svg-{figure}")
 }
 
-/// A film for each picture that several states have in the same scale; magnified shapes have scales
-/// of their own.
+/// Returns a film for each picture that several states have in the same scale. Magnified shapes are
+/// left out, because each has its own scale.
 pub(super) fn of(states: &[(String, Vec<Figure>)]) -> Vec<Figure> {
     let mut films: BTreeMap<&str, Vec<(&str, &Figure)>> = BTreeMap::new();
     for (state, figures) in states {
@@ -33,7 +33,7 @@ fn film(name: &str, scenes: &[(&str, &Figure)]) -> Figure {
     let size = scenes.iter().fold([0; 2], |[w, h], (_, figure)| {
         [w.max(figure.size[0]), h.max(figure.size[1])]
     });
-    // A line of words above the pictures.
+    // The line of text above the pictures.
     let line = (1.6 * LETTERS) as u32 * FINE;
     let [width, height] = size;
     let letters = LETTERS * f64::from(FINE);
@@ -79,7 +79,8 @@ mod tests {
         }
     }
 
-    /// A film of what two states have, in their order, and none of what one has alone.
+    /// A film consists of the pictures that both states have, in their order; a picture of one
+    /// state alone makes no film.
     #[test]
     fn films_are_of_pictures_that_several_states_have() {
         let states = [

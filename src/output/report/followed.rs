@@ -1,5 +1,5 @@
-//! Charts of what the history follows: the load against the approach in every increment, with the
-//! stiffness with which unloading begins, and the force on each set against its displacement.
+//! Charts of the additional columns of the history: the load over the approach in every increment,
+//! with the initial unloading stiffness, and the force on each set over its displacement.
 
 use super::chart::{Chart, Pen};
 use super::curves::{Titled, curve, load_label};
@@ -8,10 +8,11 @@ use crate::output::labels::{Labels, labelled};
 use crate::results::Results;
 use plotters::prelude::SeriesLabelPosition;
 
-/// Share of the largest load below which a force is round-off, or what keeps a body in place.
+/// Share of the largest load below which a force is round-off, or a force that only keeps a body in
+/// place.
 const ROUND_OFF: f64 = 1e-6;
 
-/// The charts of a run; none where its history follows nothing.
+/// Returns the charts of a run; none if its history has no additional columns.
 pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
     let columns = &results.history_columns;
     let column = |name: &str| columns.iter().position(|column| column == name);
@@ -50,7 +51,7 @@ pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
             let points: Vec<[f64; 2]> = rows
                 .map(|row| [row.measured[moved], row.measured[force]])
                 .collect();
-            // What is held or free along an axis shows nothing there, but round-off.
+            // A set that is held or free along an axis shows only round-off there.
             let size = |k: usize| points.iter().fold(0.0f64, |m, p| m.max(p[k].abs()));
             if size(0) == 0.0 || size(1) <= ROUND_OFF * largest {
                 continue;
@@ -71,7 +72,8 @@ pub(super) fn charts(results: &Results, labels: &Labels) -> Vec<Titled> {
     out
 }
 
-/// The force of each of several contacts against its approach; a single one carries the load.
+/// Draws the force of each of several contacts over its approach; a single contact carries the
+/// whole load.
 fn of_contacts(results: &Results, labels: &Labels) -> Vec<Titled> {
     let columns = &results.history_columns;
     let column = |name: String| columns.iter().position(|column| *column == name);
@@ -86,7 +88,7 @@ fn of_contacts(results: &Results, labels: &Labels) -> Vec<Titled> {
     let chart = |(n, approach, force): (usize, usize, usize)| {
         let rows = results.history.iter();
         let points = rows.map(|row| [row.measured[approach], row.measured[force]]);
-        // Where the normals of a contact cancel it has no approach.
+        // A contact whose normals cancel has no approach.
         let points: Vec<[f64; 2]> = points.filter(|p| p[0].is_finite()).collect();
         (!points.is_empty()).then(|| {
             titled(
@@ -105,7 +107,7 @@ fn of_contacts(results: &Results, labels: &Labels) -> Vec<Titled> {
     contacts.into_iter().filter_map(chart).collect()
 }
 
-/// Names of the sets among the columns, in their order.
+/// Returns the names of the sets among the columns, in their order.
 fn sets(columns: &[String]) -> Vec<&str> {
     let names = columns.iter();
     names

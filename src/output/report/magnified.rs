@@ -1,4 +1,4 @@
-//! The deformed contour with displacements magnified so far that they are seen.
+//! The deformed contour, with displacements magnified until they are visible.
 
 use super::drawing::{Drawing, nice_step};
 use super::fields::View;
@@ -9,16 +9,16 @@ use crate::mesh::Mesh;
 use crate::number::trimmed;
 use crate::results::Fields;
 
-/// The largest displacement that is shown, over the width of the picture.
+/// Largest displacement that is shown, over the width of the picture.
 const SHARE: f64 = 0.1;
-/// Displacements that would be magnified less are seen at true scale.
+/// Smallest magnification: with a smaller one true scale shows the displacements.
 const LEAST: f64 = 2.0;
 
-/// The contour of a view in a state over the undeformed one, and how many times displacements are
-/// magnified; `None` where nothing moves, or true scale shows it.
+/// Draws the contour of a view in a state over the undeformed one, and returns the drawing with its
+/// magnification; `None` if nothing moves or true scale shows it.
 ///
 /// # Errors
-/// `Internal` where it cannot be drawn.
+/// `Internal` if it cannot be drawn.
 pub(super) fn draw(mesh: &Mesh, view: &View, fields: &Fields) -> Result<Option<(Drawing, f64)>> {
     let patchwork = &view.patchwork;
     let at_rest = patchwork.places(mesh, None);
@@ -48,10 +48,10 @@ pub(super) fn draw(mesh: &Mesh, view: &View, fields: &Fields) -> Result<Option<(
     Ok(Some((picture.finish(labels, None, |_| Ok(()))?, times)))
 }
 
-/// A round number of times.
+/// Returns the magnification, a round number.
 fn magnification(largest: f64, width: f64) -> Option<f64> {
     let most = SHARE * width / largest;
-    // The next nice number above half of it, which is at most twice as much.
+    // The next nice number above half of `most` is at most `most`.
     let times = nice_step(0.5 * most, 1);
     (largest > 0.0 && most.is_finite() && times >= LEAST).then_some(times)
 }

@@ -1,6 +1,7 @@
-//! `report.html`: a run to look at, and its figures as files of their own.
+//! `report.html`: a run for readers, with its figures as separate files.
 //!
-//! One page without scripts that needs no network, to be read on a screen, a phone and paper.
+//! The report is one page without scripts that needs no network, to be read on a screen, a phone
+//! and paper.
 //!
 //! | file | what |
 //! |---|---|
@@ -14,8 +15,8 @@
 //! | `picture`, `bands` | areas and lines under axes; scales of colours |
 //! | `drawing`, `theme` | SVG text, colours for light and dark |
 //!
-//! A picture costs a pass over the elements and what is in its window; its text is as long as the
-//! lines that can be seen, whatever the mesh.
+//! A picture costs one pass over the elements and the work for the part in its window. The length
+//! of its text depends on the lines that can be seen, not on the mesh.
 
 mod along_contact;
 mod bands;
@@ -62,13 +63,13 @@ use plotters::prelude::SeriesLabelPosition;
 use rayon::prelude::*;
 use std::borrow::Cow;
 
-/// A drawing with its words.
+/// A drawing with its title and caption.
 struct Captioned {
-    /// Short name, for the file and the place in the page.
+    /// Short name, for the file and the anchor in the page.
     name: String,
-    /// Heading; empty: none.
+    /// Heading; empty if there is none.
     title: String,
-    /// Caption: what the drawing shows.
+    /// Caption that says what the drawing shows.
     caption: String,
     drawing: Drawing,
 }
@@ -90,10 +91,10 @@ impl Captioned {
     }
 }
 
-/// A chart of some named curves, as the text of an SVG file.
+/// Draws a chart of some named curves and returns the text of an SVG file.
 ///
 /// # Errors
-/// `Internal` where it cannot be drawn.
+/// `Internal` if it cannot be drawn.
 #[cfg(feature = "cli")]
 pub(super) fn line_chart(
     labels: [String; 2],
@@ -115,10 +116,10 @@ pub(super) fn line_chart(
     Ok(shown(&chart.draw()?.file()).into_owned())
 }
 
-/// Names and contents of the report's files, the page last.
+/// Returns names and contents of the report's files, the page last.
 ///
 /// # Errors
-/// `Internal` where a figure cannot be drawn.
+/// `Internal` if a figure cannot be drawn.
 pub(super) fn files(
     header: &RunHeader,
     model: &Model,
@@ -161,7 +162,7 @@ pub(super) fn files(
     let page = page::page(header, model, results, labels, &figures);
     out.push((REPORT_FILE.to_string(), page));
     for (_, text) in &mut out {
-        // Titles and names with characters that are no XML.
+        // Titles and names may contain characters that XML does not allow.
         if let Cow::Owned(escaped) = shown(text) {
             *text = escaped;
         }

@@ -1,9 +1,10 @@
-//! What bounds bodies: facets of one element alone; and sides of elements joined to long lines.
+//! The boundary of bodies: facets that belong to only one element; and sides of elements joined to
+//! long lines.
 
 use crate::mesh::{Facet, Mesh};
 use std::collections::BTreeMap;
 
-/// The facets of some elements that belong to one element of their body alone.
+/// Returns the facets of some elements that belong to only one element of their body.
 pub(super) fn facets(mesh: &Mesh, elements: impl Iterator<Item = usize>) -> Vec<Facet> {
     let mut all: Vec<((u32, [usize; 4]), Facet)> = Vec::new();
     for element in elements {
@@ -25,7 +26,8 @@ pub(super) fn facets(mesh: &Mesh, elements: impl Iterator<Item = usize>) -> Vec<
     facets
 }
 
-/// Joins sides between nodes to long lines, each going on along the straightest side that is left.
+/// Joins sides between nodes to long lines; each line continues along the straightest side that is
+/// left.
 pub(super) fn long_lines(
     mut sides: Vec<[usize; 2]>,
     place: impl Fn(usize) -> [f64; 2],
@@ -51,7 +53,7 @@ pub(super) fn long_lines(
         }
         used[first] = true;
         let mut line = sides[first].to_vec();
-        // On from one end, then from the other.
+        // The line is extended from one end, then from the other.
         for _ in 0..2 {
             while let [.., a, b] = line[..] {
                 let other = |side: usize| sides[side][usize::from(sides[side][0] == b)];
@@ -71,14 +73,14 @@ pub(super) fn long_lines(
     out
 }
 
-/// Least cosine of the turn from a side of a line to the next.
+/// Smallest cosine of the angle between a side of a line and the next.
 const STRAIGHT: f64 = 0.7;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A grid of `n` by `n` cells: `n + 1` lines each way, every side once.
+    /// A grid of `n` by `n` cells has `n + 1` lines each way, and every side once.
     #[test]
     fn the_sides_of_a_grid_are_its_lines() {
         let n = 5;
@@ -89,7 +91,7 @@ mod tests {
             let (i, j) = (k % n, k / n);
             sides.extend([[node(i, j), node(i + 1, j)], [node(j, i + 1), node(j, i)]]);
         }
-        // Both neighbours name a side between them.
+        // A side between two cells is listed by both.
         sides.extend(sides.clone());
         let lines = long_lines(sides, place);
         assert_eq!(lines.len(), 2 * (n + 1));

@@ -1,4 +1,4 @@
-//! The page: sections in the order in which a reader asks.
+//! The page: its sections are in the order in which a reader asks.
 
 use super::cycles;
 use super::film;
@@ -17,13 +17,13 @@ const STYLE: &str = include_str!("report.css");
 
 /// A drawing in its place on the page.
 pub(super) struct Figure {
-    /// Name of the figure, its place in the page.
+    /// Name of the figure, which is also its anchor in the page.
     pub name: String,
-    /// Heading; empty: none.
+    /// Heading; empty if there is none.
     pub title: String,
-    /// Caption: what the figure shows.
+    /// Caption that says what the figure shows.
     pub caption: String,
-    /// The drawing, as it stands in the page.
+    /// The drawing as SVG text for the page.
     pub svg: String,
     /// Width and height of the figure, in units.
     pub size: [u32; 2],
@@ -32,7 +32,7 @@ pub(super) struct Figure {
 /// The figures of a report, by section.
 #[derive(Default)]
 pub(super) struct PageFigures {
-    /// The scene drawn.
+    /// Drawings of the scene.
     pub scene: Vec<Figure>,
     /// Drawings of the scene with the mesh, shown on demand.
     pub meshed: Vec<Figure>,
@@ -40,13 +40,13 @@ pub(super) struct PageFigures {
     pub charts: Vec<Figure>,
     /// Name and pictures of each state shown.
     pub states: Vec<(String, Vec<Figure>)>,
-    /// How many states with fields are not shown.
+    /// Number of states with fields that are not shown.
     pub states_left_out: usize,
-    /// What is said about the pictures.
+    /// Text about the pictures.
     pub about_pictures: String,
 }
 
-/// The whole page.
+/// Returns the whole page.
 pub(super) fn page(
     header: &RunHeader,
     model: &Model,
@@ -91,7 +91,7 @@ pub(super) fn page(
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 meta name="color-scheme" content="light dark";
                 meta name="generator" content=(concat!("brinell ", env!("CARGO_PKG_VERSION")));
-                // Without an icon of its own a browser would ask for one.
+                // Without an icon in the page a browser would request one.
                 link rel="icon" href="data:,";
                 title { (title) " \u{2013} brinell" }
                 style { (PreEscaped(theme::variables())) (PreEscaped(STYLE)) }
@@ -160,7 +160,7 @@ fn subtitle(header: &RunHeader, model: &Model) -> String {
     format!("{kind}{copies}{units}{file}")
 }
 
-/// Four digits; small and large numbers with a power of ten.
+/// Formats a number with four digits; small and large numbers have a power of ten.
 fn round(value: f64) -> String {
     if value != 0.0 && !(1e-3..1e6).contains(&value.abs()) {
         let text = format!("{value:.3e}");
@@ -183,7 +183,7 @@ fn superscript(digit: char) -> char {
     }
 }
 
-/// A number with its unit.
+/// Formats a number with its unit.
 fn quantity(value: f64, unit: &str) -> String {
     if unit.is_empty() {
         round(value)
@@ -192,13 +192,13 @@ fn quantity(value: f64, unit: &str) -> String {
     }
 }
 
-/// The run in a few sentences.
+/// Describes the run in a few sentences.
 fn story(header: &RunHeader, model: &Model, results: &Results, labels: &Labels) -> String {
     let mut text = String::new();
     let contact = !model.pairs.is_empty();
     match &results.first_yield {
         Some(first) => {
-            // A prescribed displacement without contact has a load at the states only.
+            // With a prescribed displacement without contact the load is known at the states only.
             let load = match first.load.is_finite() {
                 true => format!("load of {}", quantity(first.load, labels.load())),
                 false => format!("load factor of {}", round(first.alpha)),
@@ -306,8 +306,9 @@ fn cards(model: &Model, results: &Results, labels: &Labels) -> Markup {
     }
 }
 
-/// Figures beside each other. Each is a link to itself as the target of the page, which the style
-/// lets fill the screen, with a link back over it: enlarging needs no script.
+/// Lays out figures beside each other. Each figure is a link to itself as the target of the page;
+/// the style lets the target fill the screen, with a link back over it, so enlarging needs no
+/// script.
 pub(super) fn figures(list: &[Figure], class: &str) -> Markup {
     html! {
         div class=(class) {
@@ -382,7 +383,7 @@ fn files(results: &Results) -> Markup {
     }
 }
 
-/// What a load factor means, for the head of a column.
+/// Returns the meaning of a load factor, for the head of a column.
 pub(super) fn factor(unit: Unit) -> &'static str {
     match unit {
         Unit::Load => "load factor",

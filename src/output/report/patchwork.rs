@@ -1,5 +1,5 @@
-//! A mesh as triangles of a plane: plane elements, cuts through solid ones, faces of a contact;
-//! with their mirror images.
+//! A mesh as triangles of a plane, with their mirror images: plane elements, cuts through solids,
+//! or faces of a contact.
 
 use super::contours::{TriangleSheet, border};
 use super::window::Window;
@@ -7,7 +7,8 @@ use crate::mesh::{Facet, Mesh};
 use crate::space::{Vector, along, dot, unit};
 use std::collections::BTreeMap;
 
-/// What a point is a mean of: nodes, and elements numbered after them, with weights.
+/// The sources whose weighted mean a point is: nodes, and elements numbered after them, with
+/// weights.
 pub(super) type Mix = Vec<(usize, f64)>;
 
 /// A point of a patchwork.
@@ -15,13 +16,13 @@ pub(super) type Mix = Vec<(usize, f64)>;
 struct PatchworkPoint {
     mix: Mix,
     body: u32,
-    /// -1 along the axes in which it is a mirror image, else 1.
+    /// -1 along the axes in which the point is a mirror image, else 1.
     sign: [f64; 2],
 }
 
-/// Triangles that meet along whole sides; those of different bodies do not share points.
+/// Triangles that meet along whole sides; triangles of different bodies do not share points.
 pub(super) struct Patchwork {
-    /// The plane's axes in space.
+    /// Axes of the plane in space.
     axes: [Vector; 2],
     points: Vec<PatchworkPoint>,
     known: BTreeMap<(u32, [usize; 2]), u32>,
@@ -30,7 +31,7 @@ pub(super) struct Patchwork {
 }
 
 impl Patchwork {
-    /// A patchwork without triangles.
+    /// Creates a patchwork without triangles.
     pub(super) fn new(axes: [Vector; 2]) -> Self {
         Patchwork {
             axes,
@@ -41,7 +42,7 @@ impl Patchwork {
         }
     }
 
-    /// The elements of a plane mesh, each a fan of triangles round its middle.
+    /// Returns the elements of a plane mesh, each as a fan of triangles round its middle.
     pub(super) fn of_plane(mesh: &Mesh, elements: &[usize]) -> Self {
         let mut out = Patchwork::new([unit(0), unit(1)]);
         for &element in elements {
@@ -61,7 +62,7 @@ impl Patchwork {
         out.finished()
     }
 
-    /// Polygons of nodes.
+    /// Returns a patchwork of polygons, each given by its nodes.
     pub(super) fn of_polygons<'p>(
         axes: [Vector; 2],
         polygons: impl Iterator<Item = &'p [usize]>,
@@ -79,7 +80,7 @@ impl Patchwork {
         out.finished()
     }
 
-    /// The number of a point, by what identifies it in its body.
+    /// Returns the number of a point, which `key` identifies within its body.
     pub(super) fn point(&mut self, body: u32, key: [usize; 2], mix: impl FnOnce() -> Mix) -> u32 {
         let points = &mut self.points;
         *self.known.entry((body, key)).or_insert_with(|| {
@@ -96,7 +97,7 @@ impl Patchwork {
         self.triangles.push(corners);
     }
 
-    /// The patchwork with its border, once all triangles are there.
+    /// Completes the patchwork with its border, once all triangles are added.
     pub(super) fn finished(mut self) -> Self {
         let sides = self.triangles.iter();
         let sides = sides.flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
@@ -105,8 +106,8 @@ impl Patchwork {
         self
     }
 
-    /// The patchwork with its mirror images in the axes' zeros; points nearer to them than `small`
-    /// are their own.
+    /// Returns the patchwork with its mirror images in the lines on which an axis is zero; points
+    /// nearer to such a line than `small` are their own images.
     pub(super) fn mirrored(mut self, mesh: &Mesh, mirror: [bool; 2], small: f64) -> Self {
         for axis in (0..2).filter(|&axis| mirror[axis]) {
             let places = self.places(mesh, None);
@@ -130,17 +131,17 @@ impl Patchwork {
         self.finished()
     }
 
-    /// Whether there is nothing to be seen.
+    /// Whether there are no triangles.
     pub(super) fn is_empty(&self) -> bool {
         self.triangles.is_empty()
     }
 
-    /// Body of a point.
+    /// Returns the body of a point.
     pub(super) fn body(&self, point: u32) -> u32 {
         self.points[point as usize].body
     }
 
-    /// Where the points are, displaced or not.
+    /// Returns the positions of the points, displaced or not.
     pub(super) fn places(&self, mesh: &Mesh, displacement: Option<&[f64]>) -> Vec<[f64; 2]> {
         let at = |source: usize| place(mesh, displacement, source);
         let place = |point: &PatchworkPoint| {
@@ -151,7 +152,8 @@ impl Patchwork {
         self.points.iter().map(place).collect()
     }
 
-    /// Values of elements at the points: at nodes the mean of the elements of the body round them.
+    /// Returns values of elements at the points: at a node the mean over the elements of the body
+    /// round it.
     pub(super) fn of_elements(&self, mesh: &Mesh, value: impl Fn(usize) -> f64) -> Vec<f64> {
         let n = mesh.n_nodes();
         let mut out = vec![0.0; self.points.len()];
@@ -182,7 +184,7 @@ impl Patchwork {
         out
     }
 
-    /// Values of nodes at the points, of points that are nodes.
+    /// Returns values of nodes at the points; only points that are nodes have them.
     pub(super) fn of_nodes(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
         let mixed = |point: &PatchworkPoint| {
             point
@@ -194,7 +196,7 @@ impl Patchwork {
         self.points.iter().map(mixed).collect()
     }
 
-    /// A sheet with values at its points.
+    /// Returns a sheet with values at the points.
     pub(super) fn sheet(&self, places: Vec<[f64; 2]>, values: Vec<f64>) -> TriangleSheet<'_> {
         TriangleSheet {
             triangles: &self.triangles,
@@ -205,8 +207,8 @@ impl Patchwork {
     }
 }
 
-/// The nodes of a facet of a plane mesh from end to end, round that of a solid one: corners and
-/// mid-side nodes in turn.
+/// Returns the nodes of a facet, in a plane mesh from end to end, in a solid mesh round the facet:
+/// corners and mid-side nodes alternate.
 pub(super) fn ring(mesh: &Mesh, facet: Facet) -> impl Iterator<Item = usize> + '_ {
     let corners = mesh.facet_corners(facet);
     let nodes: Vec<usize> = mesh.facet_nodes(facet).collect();
@@ -217,7 +219,7 @@ pub(super) fn ring(mesh: &Mesh, facet: Facet) -> impl Iterator<Item = usize> + '
     })
 }
 
-/// Where a node is, or the middle of an element's nodes.
+/// Returns the position of a node, or of the middle of an element's nodes.
 pub(super) fn place(mesh: &Mesh, displacement: Option<&[f64]>, source: usize) -> Vector {
     let node = |node: usize| {
         let mut x = mesh.point(node);
@@ -237,8 +239,8 @@ pub(super) fn place(mesh: &Mesh, displacement: Option<&[f64]>, source: usize) ->
     }
 }
 
-/// Elements that a window of a plane sees, or sees a mirror image of: undeformed or in one of some
-/// states.
+/// Returns the elements that a window of a plane shows, directly or as a mirror image, undeformed
+/// or in one of some states.
 pub(super) fn seen(
     mesh: &Mesh,
     axes: [Vector; 2],
@@ -248,7 +250,7 @@ pub(super) fn seen(
 ) -> Vec<usize> {
     let window = match mirror {
         [false, false] => window,
-        // What only an image shows is as far on the other side.
+        // The part that only a mirror image shows lies at the same distance on the other side.
         _ => window.mirrored(mirror),
     };
     let sees = |element: usize, u: Option<&[f64]>| {

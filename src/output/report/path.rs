@@ -1,15 +1,16 @@
-//! Lines and areas as the text of SVG paths: cut to a rectangle, without points that nobody sees.
+//! Lines and areas as the text of SVG paths: cut to a rectangle, without points that would not be
+//! visible.
 
 use super::window::Window;
 use std::fmt::Write as _;
 
-/// A place in a drawing: right and down.
+/// A position in a drawing: right and down.
 pub(super) type Spot = [f64; 2];
 
-/// Distance by which a path may be off the curve that it stands for, in units of a drawing.
+/// Largest distance between a path and the curve that it represents, in units of a drawing.
 const OFF: f64 = 0.8;
 
-/// The data of a path round closed lines, as far as they lie in a rectangle.
+/// Returns the data of a path round closed lines, cut to a rectangle.
 pub(super) fn area(rings: &[Vec<Spot>], within: Window) -> String {
     let mut out = String::new();
     for ring in rings {
@@ -30,7 +31,7 @@ pub(super) fn area(rings: &[Vec<Spot>], within: Window) -> String {
     out
 }
 
-/// The data of a path along lines, as far as they lie in a rectangle.
+/// Returns the data of a path along lines, cut to a rectangle.
 pub(super) fn line(lines: &[Vec<Spot>], within: Window) -> String {
     let mut out = String::new();
     for piece in lines.iter().flat_map(|line| inside(line, within)) {
@@ -42,20 +43,20 @@ pub(super) fn line(lines: &[Vec<Spot>], within: Window) -> String {
     out
 }
 
-/// A ring as a line that ends where it begins.
+/// Returns a ring as a line that ends at its first point.
 pub(super) fn closed(mut ring: Vec<Spot>) -> Vec<Spot> {
     ring.extend(ring.first().copied());
     ring
 }
 
-/// Rounds points to whole units, none twice in a row.
+/// Rounds points to whole units; repeated points are dropped.
 fn whole(points: &[Spot]) -> Vec<[i64; 2]> {
     let mut out: Vec<[i64; 2]> = points.iter().map(|p| p.map(|x| x.round() as i64)).collect();
     out.dedup();
     out
 }
 
-/// The first point, then the ways from each to the next, as short as SVG allows.
+/// Writes the first point, then the steps from each point to the next, as briefly as SVG allows.
 fn write_line(out: &mut String, points: &[[i64; 2]]) {
     let mut last = [0; 2];
     for (index, point) in points.iter().enumerate() {
@@ -73,7 +74,8 @@ fn write_line(out: &mut String, points: &[[i64; 2]]) {
     }
 }
 
-/// What of a ring lies on one side of a bound of a coordinate (I. Sutherland, G. Hodgman 1974).
+/// Returns the part of a ring on one side of a bound of a coordinate (I. Sutherland, G. Hodgman
+/// 1974).
 fn cut(ring: &[Spot], d: usize, bound: f64, sign: f64) -> Vec<Spot> {
     let is_in = |p: &Spot| sign * (p[d] - bound) >= 0.0;
     let mut out = Vec::with_capacity(ring.len());
@@ -92,7 +94,7 @@ fn cut(ring: &[Spot], d: usize, bound: f64, sign: f64) -> Vec<Spot> {
     out
 }
 
-/// The pieces of a line in a rectangle (Y.-D. Liang, B. Barsky 1984).
+/// Returns the pieces of a line in a rectangle (Y.-D. Liang, B. Barsky 1984).
 fn inside(line: &[Spot], within: Window) -> Vec<Vec<Spot>> {
     let mut out: Vec<Vec<Spot>> = Vec::new();
     for ends in line.windows(2) {
@@ -102,7 +104,8 @@ fn inside(line: &[Spot], within: Window) -> Vec<Vec<Spot>> {
             let way = to[d] - from[d];
             let bounds = [within.low[d] - from[d], within.high[d] - from[d]];
             if way == 0.0 || !way.is_finite() {
-                // Inside or outside all along; what is not a number, outside.
+                // The stretch is parallel to the bound: it is entirely inside or outside; a value
+                // that is not a number is outside.
                 if bounds[0] > 0.0 || bounds[1] < 0.0 || !way.is_finite() {
                     shares = [1.0, 0.0];
                 }
@@ -137,8 +140,8 @@ fn simplified_ring(ring: &[Spot]) -> Vec<Spot> {
     out
 }
 
-/// A line without the points that it passes by less than [`OFF`] without them; the ends stay
-/// (D. Douglas, T. Peucker 1973).
+/// Returns a line without the points that deviate by less than [`OFF`] from the line through the
+/// rest; the ends stay (D. Douglas, T. Peucker 1973).
 fn simplified(line: &[Spot]) -> Vec<Spot> {
     let mut keep = vec![false; line.len()];
     if let [first, .., last] = &mut keep[..] {
@@ -159,7 +162,7 @@ fn simplified(line: &[Spot]) -> Vec<Spot> {
     kept.map(|(point, _)| *point).collect()
 }
 
-/// How far a point is from the stretch between two others.
+/// Returns the distance of a point from the stretch between two others.
 fn distance(p: Spot, a: Spot, b: Spot) -> f64 {
     let way = [b[0] - a[0], b[1] - a[1]];
     let square = way[0] * way[0] + way[1] * way[1];
@@ -203,7 +206,7 @@ mod tests {
         assert_eq!(line(&[vec![], vec![[1.0, 1.0]]], UNIT), "");
     }
 
-    /// A circle of many points keeps those that are seen: a chord of a circle of radius r is off by
+    /// A circle of many points keeps the visible ones: a chord of a circle of radius r is off by
     /// `r (1 - cos(t/2))`, so that [`OFF`] allows some `pi sqrt(r/(2 OFF))` of them.
     #[test]
     fn points_on_the_way_are_left_out() {

@@ -1,5 +1,5 @@
-//! Solids drawn in perspective: their outer faces, the farthest first (the painter's order), planes
-//! of symmetry towards the reader.
+//! Solids drawn in perspective: their outer faces, the farthest first (painter's algorithm), with
+//! planes of symmetry towards the reader.
 
 use super::camera::{Camera, DISTANCE, Stand, ranks};
 use super::contours::{border, joined};
@@ -20,24 +20,25 @@ use plotters::style::text_anchor::{HPos, VPos};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-/// Pixels across a drawing, and down at most.
+/// Width of a drawing in pixels, and its largest height.
 const ACROSS: f64 = 500.0;
 const DOWN: f64 = 440.0;
 /// Room for arrows and axes, in pixels.
 const ROOM: f64 = 34.0;
-/// Faces of one colour whose middles lie in one cube, this many pixels wide, are one area.
+/// Width in pixels of the cubes by which faces are grouped: faces of one colour whose middles lie
+/// in one cube are one area.
 const CELL: f64 = 64.0;
-/// Shades of a body.
+/// Number of shades of a body.
 const SHADES: f64 = 18.0;
-/// Cosine of the angle between faces from which on the edge between them is drawn.
+/// Cosine of the angle between two faces below which the edge between them is drawn.
 const EDGE: f64 = 0.8;
-/// Sides shorter than this many pixels are not drawn.
+/// Length in pixels below which sides are not drawn.
 const SHORTEST_SIDE: f64 = 4.0;
-/// Length of an arrow and of the axes, in pixels.
+/// Lengths of an arrow and of the axes, in pixels.
 const ARROW: f64 = 38.0;
 const AXIS: f64 = 24.0;
 
-/// A face that is seen.
+/// A face that is visible.
 struct SeenFace {
     nodes: Vec<usize>,
     body: usize,
@@ -47,19 +48,19 @@ struct SeenFace {
     depth: f64,
 }
 
-/// A view in the making.
+/// A perspective view under construction.
 pub(super) struct Perspective<'m> {
     model: &'m Model,
     camera: Camera,
-    /// Where nodes are in the drawing, in pixels.
+    /// Positions of nodes in the drawing, in pixels.
     spots: BTreeMap<usize, [f64; 2]>,
     faces: Vec<SeenFace>,
-    /// How high each body lies: those of one rank reach into each other's heights.
+    /// Rank of each body by height: bodies of the same rank overlap in height.
     ranks: Vec<usize>,
-    /// Sides of seen faces to be drawn: those of contact surfaces, and edges.
+    /// Sides of visible faces that are drawn: those of contact surfaces, and edges.
     contact_sides: BTreeSet<[usize; 2]>,
     edges: BTreeSet<[usize; 2]>,
-    /// Distance of the eye from the middle.
+    /// Distance of the eye from the middle of the part shown.
     distance: f64,
     scale: f64,
     origin: [f64; 2],
@@ -67,7 +68,7 @@ pub(super) struct Perspective<'m> {
 }
 
 impl<'m> Perspective<'m> {
-    /// The elements that some points of space let through, by the middles of elements.
+    /// Shows the elements for whose middle `is_shown` is true.
     pub(super) fn new(
         model: &'m Model,
         stand: &Stand,
@@ -129,7 +130,7 @@ impl<'m> Perspective<'m> {
         ]
     }
 
-    /// Faces turned to the eye, and which of their sides are drawn.
+    /// Takes the faces that are turned to the eye, and determines which of their sides are drawn.
     fn take(&mut self, facets: &[Facet]) {
         let mesh = &self.model.mesh;
         let names = self
@@ -150,7 +151,8 @@ impl<'m> Perspective<'m> {
             -0.35,
             self.camera.axes[0],
         ));
-        // Of each side the faces that it belongs to: normal, whether seen, whether of a contact.
+        // For each side the faces that it belongs to: normal, whether visible, whether of a
+        // contact.
         let mut sides: BTreeMap<[usize; 2], Vec<(Vector, bool, bool)>> = BTreeMap::new();
         for &facet in facets {
             let nodes: Vec<usize> = ring(mesh, facet).collect();
@@ -202,11 +204,11 @@ impl<'m> Perspective<'m> {
         }
     }
 
-    /// The drawing, with the sides of the faces that are large enough where these are asked for;
-    /// and the share of the area seen whose sides are.
+    /// Returns the drawing, with the sides of the faces that are large enough if they are asked
+    /// for, and the share of the visible area whose sides are drawn.
     ///
     /// # Errors
-    /// `Internal` where it cannot be drawn.
+    /// `Internal` if it cannot be drawn.
     pub(super) fn draw(&self, names: &[&str], meshed: bool) -> Result<(Drawing, f64)> {
         let (elements, share) = self.painted(meshed);
         let mut drawing = Drawing::new(self.size, |area| {
@@ -219,7 +221,7 @@ impl<'m> Perspective<'m> {
         Ok((drawing, share))
     }
 
-    /// The faces as paths.
+    /// Returns the faces as paths.
     fn painted(&self, meshed: bool) -> (String, f64) {
         type Key = (usize, bool, u8, [i64; 3]);
         let mut areas: BTreeMap<Key, Vec<&SeenFace>> = BTreeMap::new();
@@ -237,7 +239,7 @@ impl<'m> Perspective<'m> {
                 (sum / faces.len() as f64, key, faces)
             })
             .collect();
-        // The eye is above: what lies on something hides it.
+        // The eye is above: a body that lies on another hides it.
         areas.sort_by(|a, b| {
             let rank = |area: &(f64, Key, Vec<&SeenFace>)| self.ranks[area.1.0];
             rank(a).cmp(&rank(b)).then(b.0.total_cmp(&a.0))
@@ -316,10 +318,10 @@ impl<'m> Perspective<'m> {
         (out, if all > 0.0 { drawn / all } else { 0.0 })
     }
 
-    /// Arrows at some nodes of a load.
+    /// Draws arrows at some nodes of a load.
     fn arrows(&self, area: &Area, load: &LoadCase, entry: &Load) -> Result<()> {
         let mesh = &self.model.mesh;
-        // A pressure has no direction of its own.
+        // A pressure has no single direction.
         let nodes = match entry.pressure {
             Some(_) => Vec::new(),
             None => mesh.set_nodes(&entry.on).unwrap_or_default(),
@@ -333,7 +335,7 @@ impl<'m> Perspective<'m> {
         };
         let [w, h] = bounds.size();
         let mut at: Vec<usize> = Vec::new();
-        // The nodes nearest to the middle and to four places round it.
+        // The arrows are at the nodes nearest to the middle and to four places round it.
         for [x, y] in [[0.5, 0.5], [0.25, 0.5], [0.75, 0.5], [0.5, 0.2], [0.5, 0.8]] {
             let target = [bounds.low[0] + x * w, bounds.low[1] + y * h];
             let off = |node: &usize| {
@@ -372,7 +374,7 @@ impl<'m> Perspective<'m> {
         Ok(())
     }
 
-    /// The directions of the coordinates, in a corner.
+    /// Draws the directions of the coordinates in a corner.
     fn triad(&self, area: &Area, names: &[&str]) -> Result<()> {
         let origin = [ROOM + 8.0, f64::from(self.size[1]) - ROOM - 2.0];
         for (d, name) in names.iter().enumerate() {
@@ -391,7 +393,7 @@ impl<'m> Perspective<'m> {
     }
 }
 
-/// An arrow; an open one has two strokes for its head.
+/// Draws an arrow; the head of an open arrow is two strokes.
 fn arrow(area: &Area, from: [f64; 2], to: [f64; 2], color: RGBColor, open: bool) -> Result<()> {
     let way = [to[0] - from[0], to[1] - from[1]];
     let length = way[0].hypot(way[1]);
@@ -417,7 +419,7 @@ fn arrow(area: &Area, from: [f64; 2], to: [f64; 2], color: RGBColor, open: bool)
     .map_err(failed)
 }
 
-/// A body's colour in a shade; contact surfaces lean towards the colour of contact.
+/// Returns a body's colour in a shade; contact surfaces are mixed with the colour of contact.
 fn color(body: usize, is_contact: bool, shade: u8) -> RGBColor {
     let of_body = BODIES[body % BODIES.len()];
     let base = match is_contact {
@@ -431,7 +433,7 @@ fn color(body: usize, is_contact: bool, shade: u8) -> RGBColor {
     shaded(base, 0.62 + 0.66 * f64::from(shade) / SHADES)
 }
 
-/// Darker below 1, lighter above.
+/// Returns a colour made darker for `light` below 1, lighter above.
 fn shaded(color: RGBColor, light: f64) -> RGBColor {
     let of = |channel: u8| {
         let value = f64::from(channel);

@@ -1,4 +1,4 @@
-//! Pictures: areas and lines in their place under axes of one scale.
+//! Pictures: areas and lines under axes with one scale.
 
 use super::bands::Bands;
 use super::drawing::{Area, Drawing, FINE, LETTERS, axes, escaped, failed, title};
@@ -15,20 +15,20 @@ const RIGHT: u32 = 82;
 const TOP: u32 = 12;
 const BOTTOM: u32 = 46;
 
-/// A picture in the making.
+/// A picture under construction.
 pub(super) struct Picture {
     window: Window,
-    /// Pixels across without axes and colours.
+    /// Width in pixels without axes and colours.
     across: u32,
-    /// Room for colours.
+    /// Room for the scale of colours, in pixels.
     right: u32,
     /// The paths drawn so far, as SVG.
     elements: String,
 }
 
 impl Picture {
-    /// An empty picture of a window with room for a scale of colours. Three fit beside each other
-    /// on a screen.
+    /// Creates an empty picture of a window with room for a scale of colours. Three such pictures
+    /// fit beside each other on a screen.
     pub(super) fn new(window: Window) -> Self {
         Picture {
             window,
@@ -38,7 +38,7 @@ impl Picture {
         }
     }
 
-    /// An empty picture, larger, without a scale of colours.
+    /// Creates a larger empty picture without a scale of colours.
     pub(super) fn large(window: Window) -> Self {
         Picture {
             across: 430,
@@ -47,17 +47,17 @@ impl Picture {
         }
     }
 
-    /// Pixels per unit of length.
+    /// Returns the number of pixels per unit of length.
     fn scale(&self) -> f64 {
         f64::from(self.across) / self.window.size()[0]
     }
 
-    /// Height of the picture, in pixels.
+    /// Returns the height of the picture in pixels.
     fn down(&self) -> f64 {
         self.scale() * self.window.size()[1]
     }
 
-    /// A place in the drawing, in pixels as shown.
+    /// Returns the position of a point in the drawing, in pixels as shown.
     pub(super) fn place_of(&self, point: [f64; 2]) -> Spot {
         [
             f64::from(LEFT) + self.scale() * (point[0] - self.window.low[0]),
@@ -65,7 +65,7 @@ impl Picture {
         ]
     }
 
-    /// Lines in units of the drawing, and the rectangle that shows.
+    /// Converts lines to units of the drawing; also returns the rectangle that is visible.
     fn drawn(&self, lines: &[Vec<[f64; 2]>]) -> (Vec<Vec<Spot>>, Window) {
         let place = |p: &[f64; 2]| self.place_of(*p).map(|x| x * f64::from(FINE));
         let lines = lines.iter().map(|line| line.iter().map(place).collect());
@@ -77,12 +77,12 @@ impl Picture {
         (lines.collect(), shows)
     }
 
-    /// Fills what closed lines surround.
+    /// Fills the area inside closed lines.
     pub(super) fn fill(&mut self, rings: &[Vec<[f64; 2]>], color: RGBColor, opacity: f64) {
         self.fill_told(rings, color, opacity, "");
     }
 
-    /// As [`Picture::fill`], with words that show where a pointer rests on it.
+    /// Fills an area like [`Picture::fill`], with words that appear when a pointer rests on it.
     pub(super) fn fill_told(
         &mut self,
         rings: &[Vec<[f64; 2]>],
@@ -110,7 +110,7 @@ impl Picture {
         }
     }
 
-    /// Draws lines, some pixels wide.
+    /// Draws lines with a width in pixels.
     pub(super) fn stroke(&mut self, lines: &[Vec<[f64; 2]>], color: RGBColor, width: f64) {
         let (lines, shows) = self.drawn(lines);
         let data = path::line(&lines, shows);
@@ -129,7 +129,7 @@ impl Picture {
         self.stroke(&lines, color, width);
     }
 
-    /// Marks a point with a small ring and words beside it, legible on any colour.
+    /// Marks a point with a small ring and words beside it, which are legible on any colour.
     pub(super) fn mark(&mut self, point: [f64; 2], words: &str) {
         let fine = f64::from(FINE);
         let [x, y] = self.place_of(point);
@@ -138,7 +138,7 @@ impl Picture {
             true => ("start", 8.0),
             false => ("end", -8.0),
         };
-        // Words beside the lower border would lie on the numbers there.
+        // Words are kept off the lower border, where they would lie on the numbers of the axis.
         let below = (y + 4.5)
             .min(f64::from(TOP) + self.down() - 4.0)
             .max(f64::from(TOP) + LETTERS);
@@ -166,11 +166,11 @@ impl Picture {
         let _ = writeln!(self.elements, "{element}");
     }
 
-    /// The drawing: what was painted under axes, a scale of colours where there is one, and what
-    /// `over` draws on top.
+    /// Returns the drawing: the painted areas and lines under axes, a scale of colours if there is
+    /// one, and the additions of `over` on top.
     ///
     /// # Errors
-    /// `Internal` where the plotting library fails.
+    /// `Internal` if the plotting library fails.
     pub(super) fn finish(
         &self,
         labels: [&str; 2],

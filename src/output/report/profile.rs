@@ -1,4 +1,4 @@
-//! Stresses over the depth below the middle of the contact, as bearings are judged by.
+//! Stresses over the depth below the middle of the contact, by which bearings are judged.
 
 use super::chart::{Chart, Curve, Pen};
 use super::contact_frame::{ContactFrame, global};
@@ -15,11 +15,11 @@ use crate::space::{Vector, dot, unit};
 use nalgebra::Matrix3;
 use plotters::prelude::SeriesLabelPosition;
 
-/// How deep the curves reach, in half widths of the contact.
+/// Depth of the curves, in half widths of the contact.
 const DEPTH: f64 = 3.0;
 
-/// Von Mises and largest shear stress below the middle of the contact in each of its two bodies, in
-/// the state with the largest load that has fields.
+/// Draws von Mises and largest shear stress below the middle of the contact in each of its two
+/// bodies, in the state with the largest load that has fields.
 pub(super) fn chart(
     model: &Model,
     results: &Results,
@@ -109,7 +109,7 @@ pub(super) fn chart(
 
 type Below = (usize, [[f64; 2]; 2], Patchwork);
 
-/// The section through a patch along its first axis.
+/// Returns the section through a patch along its first axis.
 fn below_patch(model: &Model, frame: &ContactFrame, reach: f64) -> Option<Below> {
     let [cut, _] = SectionPlane::both(frame);
     let in_plane = |x: Vector| cut.axes.map(|axis| dot(axis, x));
@@ -122,8 +122,8 @@ fn below_patch(model: &Model, frame: &ContactFrame, reach: f64) -> Option<Below>
     Some((frame.contact, [from, way], patchwork))
 }
 
-/// The plane round the middle of what is closed in the contact that carries most: where a plane of
-/// symmetry cuts it, there.
+/// Returns the plane round the middle of the closed pairs in the contact that carries the largest
+/// force; if a plane of symmetry cuts the contact, the middle lies on it.
 fn below_line(model: &Model, state: &State, reach: f64) -> Option<Below> {
     let force = |contact: usize| -> f64 {
         let pairs = state.pairs.iter().filter(|p| p.contact == contact);
@@ -132,7 +132,7 @@ fn below_line(model: &Model, state: &State, reach: f64) -> Option<Below> {
     let contact = (0..model.contacts.len()).max_by(|&a, &b| force(a).total_cmp(&force(b)))?;
     let halves = mirrors(model);
     let small = negligible(model);
-    // Beyond the pairs is the point on the axis that carries no force.
+    // The point on the axis that carries no force is numbered beyond the pairs.
     let range = model.contacts[contact].range.clone();
     let is_closed = |p: &&PairState| range.contains(&p.pair) && p.status == Status::Closed;
     let closed: Vec<usize> = state
@@ -179,7 +179,7 @@ fn round(middle: [f64; 2], reach: f64) -> Window {
     }
 }
 
-/// The mean stress of an element, all six components.
+/// Returns the mean stress of an element, all six components.
 fn mean_stress(fields: &Fields, dimension: usize, element: usize) -> [f64; 6] {
     let mut out = [0.0; 6];
     let mean = &fields.stress[2 * dimension * element..][..2 * dimension];
@@ -191,7 +191,7 @@ fn mean_von_mises(fields: &Fields, dimension: usize, element: usize) -> f64 {
     von_mises(&mean_stress(fields, dimension, element))
 }
 
-/// Half the difference of the largest and the smallest principal stress.
+/// Returns half the difference of the largest and the smallest principal stress.
 fn largest_shear(fields: &Fields, dimension: usize, element: usize) -> f64 {
     let [xx, yy, zz, xy, yz, zx] = mean_stress(fields, dimension, element);
     let principal = Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz).symmetric_eigenvalues();
@@ -204,9 +204,9 @@ mod tests {
     use super::*;
     use crate::scene::Scene;
 
-    /// Below a line contact that is elastic the largest shear is 0.300 p0 at a depth of 0.786 b
-    /// (Johnson, Contact Mechanics, section 4.1(a)). With 8 elements over b the place is known to
-    /// one element, and the curve, of a curvature below 1/b^2, to 1/64; the pressure to 1 %.
+    /// Below an elastic line contact the largest shear is 0.300 p0 at a depth of 0.786 b (Johnson,
+    /// Contact Mechanics, section 4.1(a)). With 8 elements over b the place is known to one
+    /// element, and the curve, of a curvature below 1/b^2, to 1/64; the pressure to 1 %.
     #[test]
     fn the_largest_shear_of_a_line_contact_is_where_it_should_be() {
         let root = env!("CARGO_MANIFEST_DIR");

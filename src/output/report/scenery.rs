@@ -1,4 +1,4 @@
-//! The scene drawn: all of it, and the surroundings of the contact; then both with the mesh.
+//! Drawings of the scene: the whole, and the surroundings of the contact; then both with the mesh.
 
 use super::Captioned;
 use super::camera::Stand;
@@ -13,26 +13,26 @@ use crate::output::Labels;
 use crate::results::Results;
 use crate::space::{Vector, difference, dot, unit};
 
-/// Least share of the area whose elements are large enough to be seen that is worth a drawing of
-/// the mesh.
+/// Smallest share of the area with visible elements for which the mesh gets a drawing.
 const LEAST_MESH: f64 = 0.2;
-/// Width of the surroundings of the contact over that of the model from which on they are no
-/// drawing of their own.
+/// Width of the surroundings of the contact over the width of the model from which on the
+/// surroundings get no separate drawing.
 const MOST_NEAR: f64 = 0.6;
-/// How far the surroundings of a contact of solids reach, in its half axes.
+/// Extent of the surroundings of a contact of solids, in half axes of the contact.
 const REACH: f64 = 2.6;
 
-/// Draws one view without or with the mesh, and states the share of its area whose mesh is seen.
+/// A function that draws one view without or with the mesh, and returns the share of its area whose
+/// mesh is visible.
 type DrawView<'v> = (
     &'static str,
     &'static str,
     Box<dyn Fn(bool) -> Result<(Drawing, f64)> + 'v>,
 );
 
-/// The drawings without the mesh, and those with it where it is coarse enough to be seen.
+/// Draws the scene without the mesh, and with it if it is coarse enough to be visible.
 ///
 /// # Errors
-/// `Internal` where one cannot be drawn.
+/// `Internal` if a drawing fails.
 pub(super) fn draw(
     model: &Model,
     results: &Results,
@@ -119,7 +119,7 @@ fn solid<'v>(model: &'v Model, frame: Option<&ContactFrame>) -> Vec<DrawView<'v>
         .collect()
 }
 
-/// What a perspective does not show: the size.
+/// Describes the size of the model, which a perspective does not show.
 fn size(model: &Model, labels: &Labels) -> String {
     let [low, high] = window::extent(model);
     let sides = difference(high, low).map(|side| significant(side, 3));

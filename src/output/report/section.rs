@@ -15,11 +15,11 @@ pub(super) struct SectionPlane {
     pub axes: [Vector; 2],
 }
 
-/// Share of a window's size by which a cut keeps off nodes on its plane.
+/// Share of a window's size by which a cut is moved away from nodes on its plane.
 const OFF: f64 = 1e-6;
 
-/// Each order of a tetrahedron's corners is an even one: with the corners on the near side first,
-/// the cut runs round in the same sense.
+/// Orders of a tetrahedron's corners, all even permutations: with the corners on the near side
+/// first, every cut runs round in the same sense.
 const ONE: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0]];
 const TWO: [[usize; 4]; 6] = [
     [0, 1, 2, 3],
@@ -31,7 +31,7 @@ const TWO: [[usize; 4]; 6] = [
 ];
 
 impl SectionPlane {
-    /// The planes through the middle of a contact along its axes and normal.
+    /// Returns the planes through the middle of a contact along its axes and normal.
     pub(super) fn both(frame: &ContactFrame) -> [SectionPlane; 2] {
         frame.axes.map(|axis| SectionPlane {
             origin: frame.center,
@@ -39,8 +39,8 @@ impl SectionPlane {
         })
     }
 
-    /// The pieces of the elements whose nodes lie on both sides and in a window, undeformed or in
-    /// one of some states.
+    /// Returns the cuts of the elements that have nodes on both sides of the plane and lie in a
+    /// window, undeformed or in one of some states.
     pub(super) fn pieces(
         &self,
         mesh: &Mesh,
@@ -48,12 +48,13 @@ impl SectionPlane {
         mirror: [bool; 2],
         displacements: &[&[f64]],
     ) -> Patchwork {
-        // With what is behind the drawing above, pieces run round counter-clockwise.
+        // With the part behind the drawing counted as above, pieces run round counter-clockwise.
         let behind = cross(self.axes[1], self.axes[0]);
         let mut height: Vec<f64> = (0..mesh.n_nodes())
             .map(|node| dot(behind, difference(mesh.point(node), self.origin)))
             .collect();
-        // A plane of symmetry has all bodies on one side, and nodes on it: the cut is beside it.
+        // If the plane is a plane of symmetry, all bodies are on one side and have nodes on it: the
+        // cut is moved aside.
         let off = OFF * window.size()[0];
         let highest = height.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let shift = if highest > 2.0 * off { -off } else { off };
@@ -77,22 +78,22 @@ impl SectionPlane {
     }
 }
 
-/// The pieces in the making.
+/// Pieces of a cut under construction.
 struct CutPieces<'m> {
     mesh: &'m Mesh,
     /// Height of each node above the plane.
     height: Vec<f64>,
-    /// Middles of faces, numbered after nodes and elements, by the faces' corners.
+    /// Middles of faces, numbered after nodes and elements, by the corners of the face.
     faces: BTreeMap<[usize; 4], (usize, Mix)>,
     out: Patchwork,
 }
 
-/// A corner of a tetrahedron: its number, what it is a mean of, its height.
+/// A corner of a tetrahedron: its number, the mean that it is, its height.
 type Corner = (usize, Mix, f64);
 
 impl CutPieces<'_> {
-    /// The cut through the tetrahedra between the sides of the faces, their middles and the middle
-    /// of the element: elements of any shape fit together.
+    /// Adds the cut through the tetrahedra between the sides of the faces, the middles of the faces
+    /// and the middle of the element. With these tetrahedra elements of any shape fit together.
     fn element(&mut self, element: usize) {
         let (mesh, body) = (self.mesh, self.mesh.element_body[element]);
         let middle = mesh.n_nodes() + element;
@@ -126,7 +127,7 @@ impl CutPieces<'_> {
         (number, mix, height)
     }
 
-    /// The middle of a face.
+    /// Returns the middle of a face.
     fn face(&mut self, facet: Facet) -> Corner {
         let reference = self.mesh.facet_reference(facet);
         let mut key = [usize::MAX; 4];
@@ -142,7 +143,7 @@ impl CutPieces<'_> {
         self.corner(number, mix)
     }
 
-    /// The piece of a tetrahedron whose corners are in positive order.
+    /// Adds the piece of a tetrahedron whose corners are in positive order.
     fn tetrahedron(&mut self, body: u32, corners: [&Corner; 4]) {
         let above = corners.map(|corner| corner.2 >= 0.0);
         let of = |count: usize, side: bool| {
@@ -181,7 +182,7 @@ impl CutPieces<'_> {
         }
     }
 
-    /// The point where the plane cuts the side between two corners.
+    /// Returns the point at which the plane cuts the side between two corners.
     fn cut(&mut self, body: u32, a: &Corner, b: &Corner) -> u32 {
         let (a, b) = if a.0 < b.0 { (a, b) } else { (b, a) };
         let share = a.2 / (a.2 - b.2);
@@ -203,8 +204,8 @@ mod tests {
     use crate::mesh::Shape;
     use crate::space::{along, direction, unit};
 
-    /// A distorted block of two hexahedra, one of them as prisms or tetrahedra. The areas of cuts
-    /// add up to its volume, whatever their direction: by the trapezoid rule over `n` cuts to
+    /// A distorted block of two hexahedra, one of them also as prisms or tetrahedra. The areas of
+    /// cuts add up to its volume, whatever their direction: by the trapezoid rule over `n` cuts to
     /// O(1/n^2).
     #[test]
     fn the_areas_of_cuts_add_up_to_the_volume() {
@@ -220,7 +221,7 @@ mod tests {
         mesh.push_element(Shape::Hex8, 0, &[0, 1, 4, 3, 6, 7, 10, 9]);
         mesh.push_element(Shape::Prism6, 0, &[1, 2, 5, 7, 8, 11]);
         mesh.push_element(Shape::Prism6, 0, &[1, 5, 4, 7, 11, 10]);
-        // The warped faces are cut in four: the block's volume is that of its tetrahedra.
+        // The warped faces are cut in four triangles: the block's volume is that of its tetrahedra.
         let volume = |mesh: &Mesh| -> f64 {
             let mut sum = 0.0;
             for element in 0..mesh.n_elements() {
@@ -262,7 +263,7 @@ mod tests {
                 assert!(found >= -1e-12, "{across:?} {t}: {found}");
                 sum += found * 2.0 * reach / n as f64;
             }
-            // A piece as long as the step at each end, of an area below 3.
+            // The error is a piece at each end as long as the step, with an area below 3.
             let step = 2.0 * reach / f64::from(n);
             let off = 3.0 * step;
             assert!((sum - volume(&mesh)).abs() < off, "{across:?}: {sum}");

@@ -1,4 +1,4 @@
-//! The scene drawn: bodies, supports, loads, contact, and the mesh.
+//! Drawings of a plane scene: bodies, supports, loads, contact, and the mesh.
 
 use super::contours::joined;
 use super::drawing::{Area, Drawing, failed, stroke, units};
@@ -31,23 +31,23 @@ const FILL: f64 = 0.5;
 pub(super) const CONTACT: RGBColor = CURVES[1];
 pub(super) const SUPPORT: RGBColor = CURVES[2];
 pub(super) const LOAD: RGBColor = CURVES[4];
-/// Most signs along a set.
+/// Largest number of signs along a set.
 const MOST_SIGNS: usize = 7;
 /// Sizes of signs in pixels.
 const TRIANGLE: f64 = 10.0;
 const ARROW: f64 = 26.0;
 const HEAD: f64 = 7.0;
 
-/// Pixels across an element (the root of its area) from which on its sides are drawn.
+/// Width of an element in pixels (the root of its area) from which on its sides are drawn.
 const SMALLEST_SIDE: f64 = 4.0;
 /// Colour of the sides of elements.
 const SIDE: RGBColor = RGBColor(0x6a, 0x74, 0x80);
 
-/// Draws what lies in a window, undeformed; with `mesh` the sides of the elements too, of those
-/// that are large enough to be seen. Returns the share of the area whose elements are.
+/// Draws the part of the scene in a window, undeformed; with `mesh` also the sides of the elements
+/// that are large enough to be visible. Returns the share of the area of these elements.
 ///
 /// # Errors
-/// `Internal` where it cannot be drawn.
+/// `Internal` if it cannot be drawn.
 pub(super) fn draw(
     model: &Model,
     labels: &Labels,
@@ -80,8 +80,8 @@ pub(super) fn draw(
     Ok((drawing, meshed))
 }
 
-/// The sides of elements of which more than a grey would be seen, and these elements' share of the
-/// area.
+/// Returns the sides of elements that are large enough to be more than a grey area, and the share
+/// of the area of these elements.
 fn sides_seen(model: &Model, picture: &Picture, window: Window) -> (Vec<Vec<[f64; 2]>>, f64) {
     let mesh = &model.mesh;
     let pixel = {
@@ -114,7 +114,7 @@ fn sides_seen(model: &Model, picture: &Picture, window: Window) -> (Vec<Vec<[f64
     (lines, if all > 0.0 { drawn / all } else { 0.0 })
 }
 
-/// What is drawn on the bodies.
+/// The signs that are drawn on the bodies.
 struct Signs<'a> {
     model: &'a Model,
     picture: &'a Picture,
@@ -170,7 +170,7 @@ impl<'a> Signs<'a> {
                 .iter()
                 .filter(|&&node| self.is_outward(node, in_plane(load.direction)))
                 .count();
-            // Arrows of one direction lie on one side, also where the surface is along them.
+            // Arrows of one direction lie on one side, even if the surface runs along them.
             let outward = 2 * pulled > nodes.len();
             for node in nodes {
                 let direction = match (pressure, self.model.mesh.surfaces.get(on)) {
@@ -192,7 +192,8 @@ impl<'a> Signs<'a> {
         Ok(())
     }
 
-    /// 1 where a pressure acts into the body, -1 where it pulls; values at nodes count as pressing.
+    /// Returns 1 if a pressure acts into the body, -1 if it pulls; a pressure given by values at
+    /// nodes counts as pressing.
     fn sign(&self, pressure: &Field, node: usize) -> f64 {
         let at = pressure.function(self.model.kind);
         let value = at.map_or(1.0, |at| at(self.model.mesh.point(node)));
@@ -203,7 +204,7 @@ impl<'a> Signs<'a> {
         self.window.sees(&[self.model.mesh.in_plane(node)])
     }
 
-    /// The nodes of a set in order, as far as they have one.
+    /// Returns the nodes of a set in order, if they have an order.
     fn nodes(&self, name: &str) -> Vec<usize> {
         let mesh = &self.model.mesh;
         mesh.surfaces
@@ -213,7 +214,7 @@ impl<'a> Signs<'a> {
             .unwrap_or_default()
     }
 
-    /// Some of the visible nodes of a set, evenly along it.
+    /// Returns some of the visible nodes of a set, evenly spaced along it.
     fn spread(&self, name: &str) -> Vec<usize> {
         let mut nodes = self.nodes(name);
         nodes.retain(|&node| self.is_shown(node));
@@ -230,7 +231,7 @@ impl<'a> Signs<'a> {
         }
         let shown = |node: usize| self.picture.place_of(mesh.in_plane(node));
         let (a, b) = (shown(first), shown(last));
-        // Signs need room: one for about each forty pixels.
+        // Signs need room: there is one for about every forty pixels.
         let [left, right] =
             [self.window.low, self.window.high].map(|p| self.picture.place_of(p)[0]);
         let pixels = arc / self.window.size()[0] * (right - left);
@@ -252,7 +253,7 @@ impl<'a> Signs<'a> {
         out
     }
 
-    /// A contact surface.
+    /// Draws a contact surface.
     fn line(&self, area: &Area, name: &str) -> Result<()> {
         let nodes = self.nodes(name);
         let mut piece: Vec<(i32, i32)> = Vec::new();
@@ -287,7 +288,7 @@ impl<'a> Signs<'a> {
         (p[0] - middle[0]) * direction[0] + (p[1] - middle[1]) * direction[1] > 0.0
     }
 
-    /// Triangles with their tips at the held nodes, filled where both directions are held.
+    /// Draws triangles with their tips at the held nodes, filled if both directions are held.
     fn support(&self, area: &Area, support: &Support) -> Result<()> {
         let directions = support.directions();
         for node in self.spread(&support.on) {
@@ -297,7 +298,7 @@ impl<'a> Signs<'a> {
                     d = [-d[0], -d[1]];
                 }
                 let tip = self.picture.place_of(self.model.mesh.in_plane(node));
-                // Down in a drawing is -y.
+                // The downward direction in a drawing is -y.
                 let at = |along: f64, across: f64| {
                     (
                         units(tip[0] + along * d[0] - across * d[1]),
@@ -320,8 +321,8 @@ impl<'a> Signs<'a> {
         Ok(())
     }
 
-    /// An arrow whose tip or end is at a node, on the outer side. A prescribed displacement has an
-    /// open head.
+    /// Draws an arrow with its tip or end at a node, on the outer side. The arrow of a prescribed
+    /// displacement has an open head.
     fn arrow(
         &self,
         area: &Area,
@@ -361,7 +362,7 @@ impl<'a> Signs<'a> {
     }
 }
 
-/// The first two components of a vector.
+/// Returns the first two components of a vector.
 fn in_plane([x, y, _]: Vector) -> [f64; 2] {
     [x, y]
 }

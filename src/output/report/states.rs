@@ -1,4 +1,4 @@
-//! The pictures of the states: which, of what, and their words.
+//! The pictures of the states: the choice of states and fields, and their captions.
 
 use super::Captioned;
 use super::contact_frame::{ContactFrame, global};
@@ -15,25 +15,25 @@ use crate::output::Labels;
 use crate::results::{Fields, Results, State};
 use crate::space::unit;
 
-/// Most states whose pictures the page shows.
+/// Largest number of states whose pictures the page shows.
 const MOST_STATES: usize = 4;
-/// How names of pictures of magnified shapes begin.
+/// Beginning of the names of pictures of magnified shapes.
 pub(super) const MAGNIFIED: &str = "magnified";
 
 /// The pictures of a run.
 pub(super) struct Pictures {
     /// Index and pictures of each state shown.
     pub states: Vec<(usize, Vec<Captioned>)>,
-    /// How many states of interest are not shown.
+    /// Number of states of interest that are not shown.
     pub left_out: usize,
-    /// What all pictures show.
+    /// Text about all pictures.
     pub about: String,
 }
 
 /// Draws the states of a run.
 ///
 /// # Errors
-/// `Internal` where a picture cannot be drawn.
+/// `Internal` if a picture cannot be drawn.
 pub(super) fn draw(
     model: &Model,
     results: &Results,
@@ -111,12 +111,12 @@ pub(super) fn draw(
     })
 }
 
-/// What a picture of a state is called.
+/// Returns the name of a picture of a state.
 fn named(state: usize, what: &str) -> String {
     format!("state_{:02}_{what}", state + 1)
 }
 
-/// What a picture shows, of whichever state.
+/// Returns the part of a picture's name that is the same for all states.
 pub(super) fn of_state(name: &str) -> &str {
     let after = name.strip_prefix("state_");
     after
@@ -124,7 +124,7 @@ pub(super) fn of_state(name: &str) -> &str {
         .map_or(name, |(_, what)| what)
 }
 
-/// The plane of a plane model, or the cuts through the contact of a solid one.
+/// Returns the plane of a plane model, or the cuts through the contact of a solid one.
 fn views(
     model: &Model,
     results: &Results,

@@ -14,7 +14,8 @@ use crate::space::Components;
 use maud::{Markup, PreEscaped, html};
 use plotters::style::RGBColor;
 
-/// A table that may be wider than the page. Columns that hold numbers are flush right.
+/// Lays out a table that may be wider than the page. Columns that hold numbers are aligned to the
+/// right.
 pub(super) fn table(head: &[(bool, String)], rows: &[Vec<Markup>]) -> Markup {
     html! {
         div.wide tabindex="0" {
@@ -57,7 +58,7 @@ fn swatch(color: RGBColor, name: &str) -> Markup {
     html! { i.swatch style={ "background:" (hex(color)) } {} (name) }
 }
 
-/// Table of what the scene is made of, next to its drawing.
+/// Returns the table of the components of the scene, next to its drawing.
 pub(super) fn scene(model: &Model, labels: &Labels, drawn: &[Figure], meshed: &[Figure]) -> Markup {
     html! {
         (figures(drawn, "figures"))
@@ -134,12 +135,12 @@ fn bodies(model: &Model, labels: &Labels) -> Markup {
     table(&head, &rows)
 }
 
-/// A number of the input: as it was given, as far as six digits say it.
+/// Formats a number of the input as it was given, with up to six digits.
 fn given(value: f64) -> String {
     trimmed(value, 6)
 }
 
-/// A number with its unit, a formula as it is.
+/// Formats a number with its unit; a formula is shown as it is.
 fn stated(field: &Field, unit: &str) -> String {
     match field.uniform() {
         Some(value) => with_unit(&given(value), unit),
@@ -250,7 +251,7 @@ fn describe(model: &Model, load: &Load, labels: &Labels) -> String {
     }
 }
 
-/// The states, with the columns that carry information in this scene.
+/// Returns the table of states, with the columns that carry information in this scene.
 pub(super) fn states(model: &Model, results: &Results, labels: &Labels) -> Markup {
     let states = &results.states;
     if states.is_empty() {
@@ -278,7 +279,7 @@ pub(super) fn states(model: &Model, results: &Results, labels: &Labels) -> Marku
     }
 }
 
-/// Reference values compared with computed ones.
+/// Returns the table of reference values compared with computed ones.
 pub(super) fn reference(results: &Results) -> Markup {
     if results.reference.is_empty() {
         return PreEscaped(String::new());
@@ -322,7 +323,7 @@ pub(super) fn reference(results: &Results) -> Markup {
     table(&head, &rows)
 }
 
-/// How much more is computed than the reference says, where there is a ratio.
+/// Formats the excess of the computed value over the reference, if there is a ratio.
 fn difference(ratio: f64) -> String {
     if ratio.is_finite() {
         format!("{:+.2} %", 100.0 * (ratio - 1.0))
@@ -331,7 +332,7 @@ fn difference(ratio: f64) -> String {
     }
 }
 
-/// The ledger of effects.
+/// Returns the table of effects.
 pub(super) fn effects(results: &Results) -> Markup {
     if results.effects.is_empty() {
         return PreEscaped(String::new());
@@ -365,7 +366,7 @@ pub(super) fn effects(results: &Results) -> Markup {
     }
 }
 
-/// Time by phase, sizes, counts.
+/// Returns the tables of time by phase, sizes and counts.
 pub(super) fn cost(header: &RunHeader, results: &Results) -> Markup {
     let total = header.wall_seconds;
     let phases: Vec<&(String, f64)> = results.timings.iter().filter(|(_, t)| *t > 0.0).collect();
@@ -443,7 +444,7 @@ pub(super) fn cost(header: &RunHeader, results: &Results) -> Markup {
     }
 }
 
-/// A count with thin spaces between thousands.
+/// Formats a count with thin spaces between thousands.
 fn grouped(count: usize) -> String {
     let digits = count.to_string();
     let mut out = String::new();

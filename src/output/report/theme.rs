@@ -1,15 +1,16 @@
-//! Colours by what they stand for: fixed in a figure's own file, CSS variables in the page, so that
-//! one drawing is read on light and on dark ground and on paper.
+//! Colours by their role: fixed in the file of a figure, CSS variables in the page, so that one
+//! drawing is legible on a light and on a dark background and on paper.
 
 use plotters::style::RGBColor;
 
 /// Colour of text and axes.
 pub(super) const INK: RGBColor = RGBColor(0x1c, 0x21, 0x28);
-/// Secondary lines: grid, reference lines.
+/// Colour of secondary lines: grid, reference lines.
 pub(super) const FAINT: RGBColor = RGBColor(0x8a, 0x93, 0x9e);
-/// Colour of the ground.
+/// Colour of the background.
 pub(super) const PAPER: RGBColor = RGBColor(0xff, 0xff, 0xfe);
-/// Curves, in order: told apart by lightness too, for readers who do not tell all hues apart.
+/// Colours of curves, in order: they also differ in lightness, for readers who cannot distinguish
+/// all hues.
 pub(super) const CURVES: [RGBColor; 8] = [
     RGBColor(0x1f, 0x62, 0xad),
     RGBColor(0xc4, 0x44, 0x2f),
@@ -21,7 +22,7 @@ pub(super) const CURVES: [RGBColor; 8] = [
     RGBColor(0x5d, 0x67, 0x73),
 ];
 
-/// Name, light and dark value of a colour.
+/// Name of a colour, with its light and its dark value.
 struct Role {
     name: &'static str,
     light: RGBColor,
@@ -46,12 +47,12 @@ const fn role(name: &'static str, light: RGBColor, dark: &'static str) -> Role {
     Role { name, light, dark }
 }
 
-/// `#RRGGBB`, as the drawing library writes it.
+/// Formats a colour as `#RRGGBB`, as the drawing library writes it.
 pub(super) fn hex(color: RGBColor) -> String {
     format!("#{:02X}{:02X}{:02X}", color.0, color.1, color.2)
 }
 
-/// The colours of a drawing by name instead of by value.
+/// Replaces the values of the colours of a drawing by their names.
 pub(super) fn themed(svg: &str) -> String {
     ROLES.iter().fold(svg.to_string(), |text, role| {
         text.replace(
@@ -61,7 +62,8 @@ pub(super) fn themed(svg: &str) -> String {
     })
 }
 
-/// The variables: light, and dark where the reader prefers that and it is not for paper.
+/// Returns the CSS variables: light values, and dark values if the reader prefers them and the page
+/// is not printed.
 pub(super) fn variables() -> String {
     let list = |dark: bool| -> String {
         let value = |role: &Role| match dark {
@@ -84,16 +86,16 @@ pub(super) fn variables() -> String {
 /// A scale of colours from low to high.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Scale {
-    /// From dark blue to yellow (viridis): a quantity that is never negative.
+    /// From dark blue to yellow (viridis), for a quantity that is never negative.
     Rising,
-    /// Blue below zero, red above.
+    /// Blue below zero, red above zero.
     Diverging,
-    /// From pale yellow to dark red: where something happened at all.
+    /// From pale yellow to dark red, for a quantity that is zero in most places.
     Heat,
 }
 
 impl Scale {
-    /// The colour of `value` where values run from `low` to `high`.
+    /// Returns the colour of `value` if values run from `low` to `high`.
     pub(super) fn color(self, value: f64, low: f64, high: f64) -> RGBColor {
         const RISING: [[u8; 3]; 9] = [
             [68, 1, 84],
@@ -171,7 +173,7 @@ mod tests {
             assert_eq!(color(-5.0), color(-2.0));
             assert_eq!(color(5.0), color(2.0));
         }
-        // Zero is neutral, also where the values lie on one side.
+        // Zero is neutral, even if all values lie on one side of it.
         assert_eq!(
             Scale::Diverging.color(0.0, 0.0, 3.0),
             RGBColor(244, 243, 241)

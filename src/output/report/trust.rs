@@ -8,7 +8,7 @@ use crate::output::stated_errors::StatedErrors;
 use crate::results::Results;
 use maud::{Markup, PreEscaped, html};
 
-/// What each number may be wrong by.
+/// Returns the table of stated errors.
 pub(super) fn errors(results: &Results, labels: &Labels) -> Markup {
     let Some(accuracy) = &results.accuracy else {
         return PreEscaped(String::new());
@@ -60,7 +60,7 @@ fn stated_errors(stated: &StatedErrors) -> Markup {
     table(&head, &rows)
 }
 
-/// The figures of quality: the worst of the run, then each state's.
+/// Returns the table of quality: the worst figures of the run, then the figures of each state.
 pub(super) fn quality(results: &Results) -> Markup {
     let head = [
         text("state"),

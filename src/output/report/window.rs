@@ -13,9 +13,9 @@ pub(super) struct Window {
     pub high: [f64; 2],
 }
 
-/// How far a picture of the contact reaches, in half widths of what is or was closed.
+/// Extent of a picture of the contact, in half widths of the pairs that are or were closed.
 const REACH: [f64; 2] = [2.4, 2.0];
-/// Room round what a picture shows, as a share of its size.
+/// Room round the content of a picture, as a share of its size.
 const ROOM: f64 = 0.03;
 /// Room round the drawing of the whole model: for arrows and supports.
 const WIDE_ROOM: f64 = 0.1;
@@ -23,7 +23,7 @@ const WIDE_ROOM: f64 = 0.1;
 const SHAPE: [f64; 2] = [0.55, 1.1];
 
 impl Window {
-    /// The smallest window round some points; `None` without points.
+    /// Returns the smallest window round some points; `None` without points.
     pub(super) fn round(points: impl Iterator<Item = [f64; 2]>) -> Option<Self> {
         points.fold(None, |window: Option<Window>, p| {
             let mut window = window.unwrap_or(Window { low: p, high: p });
@@ -35,12 +35,12 @@ impl Window {
         })
     }
 
-    /// Width and height.
+    /// Returns width and height.
     pub(super) fn size(&self) -> [f64; 2] {
         [0, 1].map(|k| self.high[k] - self.low[k])
     }
 
-    /// Whether a box of some points may be seen.
+    /// Whether the bounding box of some points may be visible.
     pub(super) fn sees(&self, points: &[[f64; 2]]) -> bool {
         (0..2).all(|k| {
             points.iter().any(|p| p[k] >= self.low[k])
@@ -48,7 +48,7 @@ impl Window {
         })
     }
 
-    /// The window with its mirror images.
+    /// Returns the window with its mirror images.
     pub(super) fn mirrored(mut self, mirror: [bool; 2]) -> Self {
         for k in 0..2 {
             if mirror[k] {
@@ -59,7 +59,8 @@ impl Window {
         self
     }
 
-    /// What is round a patch of contact, as far as there is anything, with facets of a length.
+    /// Returns the surroundings of a patch of contact, cut to the window `all` of the model;
+    /// `facet` is the length of its facets.
     pub(super) fn surroundings(self, all: Window, facet: f64) -> Window {
         let [w, h] = self.size();
         let size = (0.5 * w.max(h)).max(3.0 * facet);
@@ -72,7 +73,8 @@ impl Window {
         window.framed(ROOM)
     }
 
-    /// Room on all sides, and neither a slit nor a tower: the shorter side grows.
+    /// Adds room on all sides and limits the ratio of height to width by letting the shorter side
+    /// grow.
     pub(super) fn framed(mut self, room: f64) -> Self {
         let [w, h] = self.size();
         let least = w.max(h).max(f64::MIN_POSITIVE);
@@ -87,7 +89,7 @@ impl Window {
     }
 }
 
-/// In which axes the model is a half of what it stands for: mirrored at x = 0, y = 0, z = 0.
+/// Returns the axes along which the model is a half of the whole: mirrored at x = 0, y = 0, z = 0.
 ///
 /// A support that only holds x, all of whose nodes lie on x = 0 with the model on one side, is a
 /// plane of symmetry; so is the axis of an axisymmetric model that reaches it.
@@ -110,7 +112,7 @@ pub(super) fn mirrors(model: &Model) -> [bool; 3] {
     [0, 1, 2].map(mirrors)
 }
 
-/// Smallest and largest coordinates of the mesh.
+/// Returns the smallest and largest coordinates of the mesh.
 pub(super) fn extent(model: &Model) -> [Vector; 2] {
     let start = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     (0..model.mesh.n_nodes()).fold(start, |[low, high], node| {
@@ -124,7 +126,7 @@ pub(super) fn extent(model: &Model) -> [Vector; 2] {
     })
 }
 
-/// A length that counts as none compared with the mesh.
+/// Returns a length that is negligible compared with the mesh.
 pub(super) fn negligible(model: &Model) -> f64 {
     let [low, high] = extent(model);
     (0..3)
@@ -132,14 +134,15 @@ pub(super) fn negligible(model: &Model) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The whole mesh.
+/// Returns the window of the whole mesh.
 pub(super) fn whole(model: &Model, mirror: [bool; 2]) -> Option<Window> {
     let mesh = &model.mesh;
     let all = Window::round((0..mesh.n_nodes()).map(|n| mesh.in_plane(n)))?;
     Some(all.mirrored(mirror).framed(WIDE_ROOM))
 }
 
-/// The surroundings of what is closed in any state, or the whole mesh where there is no contact.
+/// Returns the surroundings of the pairs that are closed in any state, or the whole mesh if there
+/// is no contact.
 pub(super) fn near_contact(model: &Model, results: &Results, mirror: [bool; 2]) -> Option<Window> {
     let mesh = &model.mesh;
     let all = Window::round((0..mesh.n_nodes()).map(|n| mesh.in_plane(n)))?.mirrored(mirror);

@@ -2,9 +2,9 @@
 
 use super::*;
 
-/// Two blocks: one increment to first yield, one further, and back to nothing. Without a change
-/// of contact the width of contact is that of the blocks for any load, pressures go with the
-/// load.
+/// Two blocks: one increment to first yield, one further, and back to zero. Without a change of
+/// contact the width of contact is that of the blocks for any load, and pressures are proportional
+/// to the load.
 #[test]
 fn an_extent_does_not_grow_with_the_load_from_zero() {
     let row = |load: f64, half_width: f64, max_pressure: f64| HistoryRow {
@@ -53,7 +53,7 @@ fn an_extent_does_not_grow_with_the_load_from_zero() {
     );
 }
 
-/// What bends between two increments is drawn through the points there.
+/// A curve that bends between two increments is drawn through the points of the path there.
 #[test]
 fn a_curve_goes_through_the_points_between_increments() {
     let root = env!("CARGO_MANIFEST_DIR");
@@ -66,7 +66,7 @@ fn a_curve_goes_through_the_points_between_increments() {
         crate::analysis::Analysis::new(model, crate::linalg::Backend::default()).unwrap();
     let results = analysis.run(&mut crate::progress::Silent).unwrap();
     assert!(!results.path.is_empty());
-    // Between the rows in every figure, in their order.
+    // The points lie between the rows in every figure, in their order.
     for point in &results.path {
         let [from, to] = [point.increment - 2, point.increment - 1].map(|i| &results.history[i]);
         let within = |value: f64, a: f64, b: f64| {
