@@ -1,17 +1,18 @@
-//! Begins the program anew where OpenBLAS, which reads its settings as it is loaded, needs others
-//! than it was given.
+//! Restarts the program if OpenBLAS, which reads its settings when it is loaded, needs other
+//! settings than it was given.
 
 use std::os::unix::process::CommandExt;
 use std::process::Command;
 
 const THREADS: &str = "OPENBLAS_NUM_THREADS";
-/// How long a thread of OpenBLAS spins after its work before it sleeps, as a power of two in cycles
-/// of the processor. OpenBLAS' own 26 is some 20 ms: where other processes run, each of its short
-/// calls keeps a processor from them, and from this one, for so long. `2^20` is a third of a
-/// millisecond, some ten times what it takes to wake a thread.
+/// Time that a thread of OpenBLAS spins after its work before it sleeps, as a power of two in
+/// cycles of the processor. OpenBLAS' default of 26 is some 20 ms: if other processes run, each
+/// short call of OpenBLAS keeps a processor from them, and from this process, for that long. `2^20`
+/// is a third of a millisecond, some ten times the time that it takes to wake a thread.
 const SPINNING: (&str, &str) = ("OPENBLAS_THREAD_TIMEOUT", "20");
 
-/// Begins anew with the settings that the BLAS should have had; returns where it has them.
+/// Restarts the program with the settings that the BLAS should have had; returns if it has them
+/// already.
 pub(super) fn start_with_better_settings() {
     let needed = [fewer_threads(), better_kernels()];
     let mut settings: Vec<_> = needed.into_iter().flatten().collect();
@@ -21,7 +22,7 @@ pub(super) fn start_with_better_settings() {
     if settings.is_empty() {
         return;
     }
-    // Beginning anew for this alone would cost more than it saves short runs.
+    // Restarting for this setting alone would cost more than it saves in short runs.
     if std::env::var_os(SPINNING.0).is_none() {
         settings.push(SPINNING);
     }
@@ -30,19 +31,19 @@ pub(super) fn start_with_better_settings() {
     if let Some(name) = arguments.next() {
         again.arg0(name);
     }
-    // Only returns where it fails; the run goes on as it is.
+    // Only returns if it fails; the run then continues as it is.
     let _ = again.args(arguments).envs(settings).exec();
 }
 
-/// One thread where limits of the process leave no room for the work buffers of more: these are
-/// asked for without end.
+/// Asks for one thread if limits of the process leave no room for the work buffers of more:
+/// OpenBLAS would request these buffers forever.
 fn fewer_threads() -> Option<(&'static str, &'static str)> {
     let is_set = std::env::var_os(THREADS).is_some_and(|threads| threads == "1");
     let are_too_many = !is_set && crate::linalg::cholmod::blas_threads_are_too_many();
     are_too_many.then_some((THREADS, "1"))
 }
 
-/// The kernels that the processor has, unless the user named some.
+/// Asks for the kernels of the processor, unless the user named some.
 fn better_kernels() -> Option<(&'static str, &'static str)> {
     use crate::linalg::cholmod::{KERNEL_SETTING, better_kernels};
     better_kernels().map(|kernels| (KERNEL_SETTING, kernels))

@@ -1,4 +1,4 @@
-//! What the user may type.
+//! The arguments of the command line.
 
 use super::study::StudyArguments;
 use crate::accuracy::Effort;
@@ -48,11 +48,11 @@ VALUE is TOML, or else taken as a string. A table is merged with the one in the 
 a list replaces the list. KEY= without a value removes the key:
   --set 'materials.steel={ tangent_modulus = 2000.0 }' --set materials.steel.plastic_modulus=";
 
-/// Presses elastic-plastic bodies together without friction and lets them go again: where they
-/// touch, how hard, where the material yields, and what dent stays.
+/// Presses elastic-plastic bodies together without friction and unloads them: where they touch, how
+/// hard, where the material yields, and what dent stays.
 ///
-/// A scene file (TOML) says what is pressed on what; see data/scenes for commented examples. Units
-/// are the scene's own.
+/// A scene file (TOML) says what is pressed on what; see data/scenes for commented examples. The
+/// scene chooses the units.
 #[derive(Debug, Parser)]
 #[command(name = "brinell", version, after_help = AFTER_HELP, max_term_width = 110)]
 pub(super) struct Arguments {
@@ -66,8 +66,8 @@ pub(super) enum Command {
     ///
     /// Writes summary.json, history.csv (a row per increment), contact.csv (a row per state and
     /// contact pair) and fields.pvd with .vtu files (for ParaView) to the output directory, and
-    /// prints a summary. Ctrl-C ends the run after the current increment and writes what there is;
-    /// a second one ends it at once.
+    /// prints a summary. Ctrl-C ends the run after the current increment and writes the results up
+    /// to then; a second Ctrl-C ends it at once.
     #[command(after_help = "Example: brinell run data/scenes/disc_in_plate.toml --out disc")]
     Run(ProgramArguments),
     /// Compute the yield load only: the load at which the material first yields
@@ -80,14 +80,15 @@ pub(super) enum Command {
     Yield(RunArguments),
     /// Check the scene and predict what a run will cost, without running it
     ///
-    /// Reads the scene, builds the mesh and the model, and says which effects the run will simulate
-    /// and why, its size, and the time and memory of the factorisation, predicted from the pattern
-    /// of the matrix. Of a deck also what was understood, taken otherwise and ignored, and why.
+    /// Reads the scene, builds the mesh and the model, and prints which effects the run will
+    /// simulate and why, its size, and the time and memory of the factorisation, predicted from the
+    /// pattern of the matrix. For a deck it also prints what was understood, taken otherwise and
+    /// ignored, and why.
     #[command(after_help = "Example: brinell check data/scenes/disc_in_plate.toml")]
     Check(CheckArguments),
     /// Write the scene and the mesh that a deck of Abaqus or CalculiX describes
     ///
-    /// The scene (TOML) and beside it its mesh (Gmsh) can be edited and run: the results are those
+    /// The scene (TOML) and its mesh (Gmsh) next to it can be edited and run: the results are those
     /// of the deck.
     #[command(
         after_help = "Example: brinell convert press.inp --out press.toml && brinell run press.toml"
@@ -95,58 +96,59 @@ pub(super) enum Command {
     Convert(super::convert::ConvertArguments),
     /// Run a deck in the place of CalculiX' program ccx, for FreeCAD, PrePoMax and others
     ///
-    /// Reads NAME.inp, leaves NAME.frd, NAME.dat, NAME.sta and NAME.cvg beside it, prints to
-    /// standard output alone. Exit code 201 where there is an error, as of ccx.
+    /// Reads NAME.inp, leaves NAME.frd, NAME.dat, NAME.sta and NAME.cvg next to it, prints to
+    /// standard output only. The exit code is 201 if there is an error, as with ccx.
     #[command(after_help = "Example: brinell ccx -i press")]
     Ccx(super::ccx::CcxArguments),
     /// Run hard cases on this machine and build: worst figure of each family, its bound, pass or
     /// fail
     ///
-    /// Takes less than a minute. Exit code 7 where a family fails.
+    /// Takes less than a minute. The exit code is 7 if a family fails.
     Selftest(super::selftest::SelftestArguments),
     /// Study what accuracy costs: errors against time over mesh, elements, increments, tolerances,
     /// algorithms
     ///
     /// Runs the scene with many settings, cheapest first, and writes accuracy.json, accuracy.csv
-    /// and log-log plots of error over time. Errors are measured against the closed form where the
+    /// and log-log plots of error over time. Errors are measured against the closed form if the
     /// scene names one, else against the values extrapolated from the finest meshes. Ctrl-C ends
-    /// the study and keeps what it has.
+    /// the study and keeps the runs done so far.
     #[command(
         after_help = "Example: brinell accuracy data/scenes/thick_cylinder.toml --budget 60s"
     )]
     Accuracy(StudyArguments),
     /// Run the scene with other values of some keys: a table, a CSV file and charts
     ///
-    /// Every point is a run with a directory of its own. Ctrl-C ends the sweep and keeps what it
-    /// has; the same command goes on where it was.
+    /// Every point is a run with a directory of its own. Ctrl-C ends the sweep and keeps the points
+    /// done so far; the same command continues where it stopped.
     Sweep(super::sweep::SweepArguments),
-    /// Do the runs that standard input asks for, one after the other, for `brinell sweep`
+    /// Carry out the runs requested on standard input, one after the other, for `brinell sweep`
     #[command(hide = true)]
     Runs,
-    /// List steels and alloys that a scene takes by name, with the sources of their numbers
+    /// List steels and alloys that a scene can refer to by name, with the sources of their numbers
     Materials(super::materials::MaterialsArguments),
     /// Print Hertz's closed forms for two bodies: pressure, half axes, approach, stresses below the
     /// surface, first yield
     ///
-    /// Elastic bodies that touch in a point or along a line, by their radii; no mesh, no run.
+    /// For elastic bodies that touch in a point or along a line, given by their radii; no mesh, no
+    /// run.
     Hertz(super::hertz::HertzArguments),
-    /// Read an indentation by a ball off a result directory: Brinell hardness, mean pressure,
+    /// Read an indentation by a ball from a result directory: Brinell hardness, mean pressure,
     /// pile-up, unloading stiffness and the modulus that follows from it
     #[command(
         after_help = "Example: brinell new hardness --load 3000 --out test.toml && brinell \
                             run test.toml && brinell hardness test.out"
     )]
     Hardness(super::hardness::HardnessArguments),
-    /// Print a commented scene to start from, or list those there are
+    /// Print a commented scene to start from, or list the available ones
     Example(super::example::ExampleArguments),
     /// Write a commented scene for a common problem from a few numbers
     New(super::new::NewArguments),
-    /// Print the JSON schema of scenes, for editors that complete and check
+    /// Print the JSON schema of scenes, for editors that complete and check them
     Schema(super::schema::SchemaArguments),
-    /// Make the report of a result directory anew, or plot its main figures in the terminal
+    /// Write the report of a result directory again, or plot its main figures in the terminal
     ///
-    /// Writes report.html and its figures from what the directory holds, without running anything;
-    /// prints where the report is. Serves nothing and opens nothing.
+    /// Writes report.html and its figures from the contents of the directory, without running
+    /// anything; prints the path of the report. Starts no server and opens no window.
     View(super::view::ViewArguments),
     /// Print completions for a shell
     #[command(after_help = "Example: brinell completions bash > \
@@ -158,7 +160,7 @@ pub(super) enum Command {
 }
 
 impl Command {
-    /// The arguments of a command that computes in this process.
+    /// Returns the arguments of a command that computes in this process.
     pub(super) fn common(&self) -> Option<&CommonArguments> {
         match self {
             Command::Run(program) => Some(&program.run.common),
@@ -169,7 +171,7 @@ impl Command {
         }
     }
 
-    /// Whether standard error is for JSON lines alone.
+    /// Whether only JSON lines may go to standard error.
     pub(super) fn progress_is_json(&self) -> bool {
         match self {
             Command::Run(program) => program.run.progress_is_json(),
@@ -191,14 +193,14 @@ pub(super) struct ProgramArguments {
 pub(super) struct RunArguments {
     #[command(flatten)]
     pub common: CommonArguments,
-    /// Directory for the results; `run` takes SCENE with the ending .out if it is not given
+    /// Directory for the results; if it is not given, `run` uses SCENE with the ending .out
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Run finer and finer meshes until the stated errors are within this: 1% for all quantities,
-    /// load=0.5%,dent=2% for those that are named; like the scene's key `accuracy`
+    /// load=0.5%,dent=2% for the named ones; like the scene's key `accuracy`
     #[arg(long, value_name = "DEMAND")]
     pub accuracy: Option<String>,
-    /// Time for that, such as 60s or 10min: a mesh that would not fit is not begun
+    /// Time for --accuracy, such as 60s or 10min: a mesh that would not fit is not started
     #[arg(long, value_name = "TIME", value_parser = super::study::duration)]
     pub budget: Option<f64>,
     #[command(flatten)]
@@ -210,7 +212,8 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "FILE")]
     pub dat: Option<PathBuf>,
     /// File for displacements, stresses, strains, forces and contact at the nodes, in the format of
-    /// CalculiX (.frd); a deck that asks for results has them in fields.frd among its own
+    /// CalculiX (.frd); for a deck that asks for results they are also in fields.frd in the result
+    /// directory
     #[arg(long, value_name = "FILE")]
     pub frd: Option<PathBuf>,
     /// How progress is shown on standard error
@@ -222,7 +225,7 @@ pub(super) struct RunArguments {
 }
 
 impl RunArguments {
-    /// Whether standard error is for JSON lines alone.
+    /// Whether only JSON lines may go to standard error.
     pub(super) fn progress_is_json(&self) -> bool {
         self.progress == ProgressKind::Json && !self.quiet
     }
@@ -232,7 +235,7 @@ impl RunArguments {
 pub(super) struct CheckArguments {
     #[command(flatten)]
     pub common: CommonArguments,
-    /// List the effects that are off too, each with the reason
+    /// Also list the effects that are off, each with the reason
     #[arg(long)]
     pub effects: bool,
 }
@@ -242,7 +245,7 @@ pub(super) struct CommonArguments {
     /// The scene file, or a deck of Abaqus or CalculiX (.inp)
     #[arg(value_name = "SCENE")]
     pub scene: PathBuf,
-    /// What factors the stiffness matrix
+    /// The solver that factors the stiffness matrix
     #[arg(long, value_enum, value_name = "SOLVER", default_value_t)]
     pub solver: Solver,
     /// Number of threads, at most 16 for each processor (or 64); by default as many as there are
@@ -265,8 +268,8 @@ pub(super) struct CommonArguments {
     pub overrides: Vec<String>,
 }
 
-/// Threads for each processor that are taken at most, and for all of them at least: more only wait
-/// for each other.
+/// Largest number of threads for each processor, and lower bound of this limit over all processors:
+/// more threads would only wait for each other.
 const MOST_THREADS: [usize; 2] = [16, 64];
 
 fn threads(text: &str) -> Result<u16, String> {
@@ -280,10 +283,10 @@ fn threads(text: &str) -> Result<u16, String> {
     }
 }
 
-/// How much the estimate of errors may take.
+/// Options that limit the cost of the estimate of errors.
 #[derive(Debug, Clone, Copy, Args)]
 pub(super) struct EstimateArguments {
-    /// How much the estimate of the errors may take
+    /// How much the estimate of the errors may cost
     #[arg(long, value_enum, value_name = "EFFORT", default_value = "quick")]
     pub estimate: Estimate,
     /// Estimate no errors: --estimate none
@@ -302,12 +305,12 @@ impl EstimateArguments {
     }
 }
 
-/// The words for an [`Effort`].
+/// Names of an [`Effort`] on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Estimate {
-    /// No more than the run itself
+    /// No more time than the run itself
     Quick,
-    /// Whatever two meshes take on which every figure of the run can be read
+    /// The time that two meshes take on which every figure of the run can be read
     Full,
     /// Nothing: the errors are not estimated
     None,
@@ -319,7 +322,7 @@ pub(super) enum ProgressKind {
     /// Bars on a terminal, lines elsewhere
     #[default]
     Auto,
-    /// A bar per phase with elapsed time and what is left
+    /// A bar per phase with elapsed time and time left
     Bar,
     /// A line per phase and every few seconds
     Plain,
@@ -327,7 +330,7 @@ pub(super) enum ProgressKind {
     Json,
 }
 
-/// A backend by the name a user knows it by.
+/// A backend, by the name that users know.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Solver {
     /// Sparse Cholesky of SuiteSparse
@@ -336,7 +339,7 @@ pub(super) enum Solver {
     Faer,
     /// MUMPS over MPI: mpirun -n 4 brinell run SCENE --solver mumps
     Mumps,
-    /// Dense, by the textbook: a reference for small models
+    /// Dense matrices, by the textbook: a reference for small models
     Dense,
 }
 
@@ -379,7 +382,7 @@ mod tests {
             .lines()
             .filter_map(|line| line.split_whitespace().next()?.parse().ok())
             .collect();
-        // As wide as the help is where there is no terminal.
+        // The text is no wider than the help without a terminal.
         assert!(AFTER_HELP.lines().all(|line| line.len() <= 100));
         for kind in [
             Input,

@@ -8,15 +8,15 @@ use crate::results::State;
 use nalgebra::Matrix3;
 use std::path::Path;
 
-/// Distance from the line over the size of the mesh up to which a node lies on it: round-off.
+/// Distance from the line over the size of the mesh up to which a node counts as on it: round-off.
 const ON_LINE: f64 = 1e-9;
 
-/// Writes a row for each state with fields and node on the line x = 0 (in solids x = y = 0), body
-/// by body: place along y (solids: z), recovered stresses, von Mises stress, largest shear.
+/// Writes a row for each state with fields and each node on the line x = 0 (in solids x = y = 0),
+/// body by body: place along y (solids: z), recovered stresses, von Mises stress, largest shear.
 ///
 /// # Errors
-/// Errors of [`output::read`]; `Input` if no node lies on the line or no state has fields; `Io`
-/// if the file is there already.
+/// Errors of [`output::read`]; `Input` if no node lies on the line or no state has fields; `Io` if
+/// the file exists already.
 pub(super) fn write(dir: &Path, file: &Path) -> Result<()> {
     let within = |text: &str| Error::input(format!("{}: {text}", dir.display()));
     let recorded = output::read(dir)?;
@@ -37,14 +37,14 @@ pub(super) fn write(dir: &Path, file: &Path) -> Result<()> {
     print(&format!("{rows} rows written to {}\n", file.display()))
 }
 
-/// A node on the line, of a body.
+/// A node on the line, with its body.
 struct OnLine {
     body: usize,
     node: usize,
     place: f64,
 }
 
-/// The nodes on the line, body by body from below to above.
+/// Returns the nodes on the line, body by body, from the lowest to the highest.
 fn on_line(model: &Model) -> Vec<OnLine> {
     let mesh = &model.mesh;
     let along = mesh.dimension - 1;
@@ -71,7 +71,7 @@ fn on_line(model: &Model) -> Vec<OnLine> {
     nodes
 }
 
-/// The table and how many rows it has.
+/// Returns the table and its number of rows.
 fn table(recorded: &Recorded, nodes: &[OnLine]) -> Result<(Vec<u8>, usize)> {
     let model = &recorded.model;
     let components = model.kind.components();
@@ -105,14 +105,15 @@ fn table(recorded: &Recorded, nodes: &[OnLine]) -> Result<(Vec<u8>, usize)> {
     Ok((table, rows))
 }
 
-/// The recovered stress at a node, where the state has it.
+/// Returns the recovered stress at a node, if the state has it.
 fn stress(state: &State, node: usize, components: usize) -> Option<&[f64]> {
     let fields = state.fields.as_ref()?;
     let from = components * node;
     fields.nodal_stress.get(from..from + components)
 }
 
-/// Von Mises stress, and half the difference of the largest and the smallest principal stress.
+/// Returns the von Mises stress, and half the difference of the largest and the smallest principal
+/// stress.
 fn invariants(stress: &[f64]) -> [f64; 2] {
     let mut six = [0.0; 6];
     for (component, value) in six.iter_mut().zip(stress) {
@@ -131,7 +132,7 @@ mod tests {
 
     #[test]
     fn invariants_of_known_stresses() {
-        // A bar, and pure shear, in the plane and in space.
+        // Tension of a bar, and pure shear, in the plane and in space.
         for (stress, von_mises, shear) in [
             (&[0.0, -7.0, 0.0, 0.0][..], 7.0, 3.5),
             (&[0.0, 0.0, 0.0, 2.0], 12f64.sqrt(), 2.0),

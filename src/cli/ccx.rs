@@ -1,8 +1,8 @@
-//! `brinell ccx`: in the place of CalculiX' program `ccx`, for programs that start that.
+//! `brinell ccx`: a replacement of CalculiX' program `ccx` for programs that start it.
 //!
-//! It takes the arguments of ccx, leaves the files of ccx beside the deck, prints to standard
-//! output alone, and ends with the exit codes of ccx: 0, or 201 where there is an error, which
-//! stands in a line that begins with ` *ERROR`.
+//! The command takes the arguments of ccx, leaves the files of ccx next to the deck, prints to
+//! standard output only, and ends with the exit codes of ccx: 0, or 201 if there is an error, which
+//! is printed in a line that begins with ` *ERROR`.
 
 use super::commands::start_threads;
 use super::print;
@@ -20,15 +20,15 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-/// The exit code of ccx where there is an error.
+/// The exit code of ccx if there is an error.
 const FAILED: u8 = 201;
-/// Version of ccx whose command line and files these are.
+/// Version of ccx whose command line and files are imitated.
 const LIKE: &str = "2.20";
 
-/// What `brinell ccx` takes.
+/// Arguments of `brinell ccx`.
 #[derive(Debug, Args)]
 pub(super) struct CcxArguments {
-    /// The words that ccx takes: `-i NAME` or NAME, of the deck NAME.inp; `-v` for the version;
+    /// The arguments of ccx: `-i NAME` or NAME, for the deck NAME.inp; `-v` for the version;
     /// `--small-strain` as for `run`
     #[arg(
         value_name = "ARGUMENTS",
@@ -38,7 +38,7 @@ pub(super) struct CcxArguments {
     pub words: Vec<OsString>,
 }
 
-/// What the words of a command line ask for.
+/// The task that a command line asks for.
 enum CcxTask {
     Usage,
     Version,
@@ -53,7 +53,7 @@ struct Job {
 }
 
 impl CcxTask {
-    /// Some programs write a blank behind `-i`.
+    /// Reads the arguments; some programs write a blank after `-i`.
     fn new(words: &[OsString]) -> CcxTask {
         let mut options = Options {
             increments: true,
@@ -81,14 +81,15 @@ impl CcxTask {
     }
 }
 
-/// Whether a path to this program ends with `ccx` or `-ccx`, whatever its case and ending.
+/// Whether the file name of a path to this program ends with `ccx` or `-ccx`, ignoring case and
+/// file extension.
 pub(super) fn is_its_name(path: &OsStr) -> bool {
     let name = Path::new(path).file_stem().unwrap_or_default();
     let name = name.to_string_lossy().to_lowercase();
     name == "ccx" || name.ends_with("-ccx")
 }
 
-/// Does what ccx would do; the exit code.
+/// Does what ccx would do and returns the exit code.
 pub(super) fn run(arguments: &CcxArguments, start: Instant) -> u8 {
     let done = match CcxTask::new(&arguments.words) {
         CcxTask::Usage => {
@@ -133,7 +134,8 @@ impl Job {
         ))
     }
 
-    /// The model of the deck, with elements integrated as ccx does where it has no other kinds.
+    /// Returns the model of the deck, with elements integrated as in ccx if the deck has no other
+    /// kinds.
     fn model(&self) -> Result<Model> {
         let path = with_ending(&self.name, "inp");
         let deck = Deck::read(&path)?;
@@ -154,7 +156,7 @@ impl Job {
     }
 }
 
-/// A path with an ending behind all of its name.
+/// Appends an ending to a path, after the whole name.
 fn with_ending(name: &Path, ending: &str) -> PathBuf {
     let mut path = name.as_os_str().to_owned();
     path.push(".");
@@ -162,7 +164,7 @@ fn with_ending(name: &Path, ending: &str) -> PathBuf {
     path.into()
 }
 
-/// Warnings that the run added to those of the model.
+/// Returns the warnings that the run added to those of the model.
 fn new_warnings(results: &Results, model: &Model) -> Vec<String> {
     let known = |text: &&String| !model.warnings.contains(*text);
     results.warnings.iter().filter(known).cloned().collect()
@@ -188,13 +190,13 @@ fn warn_of(notes: &[Note]) -> Result<()> {
     print(&notes.iter().map(line).collect::<String>())
 }
 
-/// A message as ccx writes it: further lines are indented.
+/// Formats a message as ccx writes it: further lines are indented.
 fn message(head: &str, text: &str) -> String {
     let text = text.replace('\n', "\n        ");
     format!(" *{head}: {text}\n\n")
 }
 
-/// An error as ccx writes it; each keyword that is refused is one.
+/// Formats an error as ccx writes it; each refused keyword is an error of its own.
 fn lines_of(error: &Error) -> String {
     let text = error.to_string();
     let mut out = String::new();
@@ -217,7 +219,7 @@ fn lines_of(error: &Error) -> String {
     out
 }
 
-/// Place, keyword and text of a message `PLACE: *KEYWORD: TEXT`.
+/// Splits a message `PLACE: *KEYWORD: TEXT` into place, keyword and text.
 fn of_keyword(text: &str) -> Option<(&str, &str, &str)> {
     let (place, rest) = text.split_once(": *")?;
     let (keyword, text) = rest.split_once(": ")?;

@@ -1,4 +1,4 @@
-//! The commands that compute: the one place where the command line calls the analysis.
+//! The commands that compute: the only place at which the command line calls the analysis.
 
 use super::arguments::{Arguments, Command, CommonArguments, ProgramArguments, RunArguments};
 use super::progress::Progress;
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-/// Does what the user asked for.
+/// Executes the command of the user.
 pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
     match &arguments.command {
         Command::Run(program) => {
@@ -48,12 +48,12 @@ pub(super) fn execute(arguments: &Arguments, start: Instant) -> Result<()> {
         Command::View(view) => view::run(view),
         Command::Completions(completions) => completions::run(completions),
         Command::Man => completions::man(),
-        // It has exit codes of its own.
+        // The command `ccx` has its own exit codes and is run elsewhere.
         Command::Ccx(_) => Ok(()),
     }
 }
 
-/// The load program: what is to be printed, and the results.
+/// Runs the load program; returns the text to print and the results.
 pub(super) fn run(program: &ProgramArguments, start: Instant) -> Result<(String, Results)> {
     let run = &program.run;
     let out = (run.out.clone()).unwrap_or_else(|| run.common.scene.with_extension("out"));
@@ -61,8 +61,8 @@ pub(super) fn run(program: &ProgramArguments, start: Instant) -> Result<(String,
     analyse(run, restart, Some(out), Extent::Program, start)
 }
 
-/// Scene, model, analysis, files, summary. Where a run fails before it has results of its own,
-/// those of an earlier one are marked.
+/// Does all steps of a run: scene, model, analysis, files, summary. If a run fails before it has
+/// results of its own, the results of an earlier run are marked.
 fn analyse(
     arguments: &RunArguments,
     restart: Option<&RestartArguments>,
@@ -88,13 +88,13 @@ fn analyse(
     if arguments.budget.is_some() && scene.accuracy.is_none() {
         return Err(marked(without_demand()));
     }
-    // A directory that cannot be written is better found before an hour's run than after it.
+    // A directory that cannot be written is better discovered before an hour's run than after it.
     let claim = out.as_deref().map(Claim::new).transpose()?;
     let places = restart.zip(out.as_deref());
     compute(arguments, scene, places, claim, extent, start).map_err(marked)
 }
 
-/// Results in the formats of CalculiX that the command line asks for.
+/// Adds the requests for results in the formats of CalculiX that the command line asks for.
 fn ask_for_results(scene: &mut Scene, arguments: &RunArguments) {
     let requests = &mut scene.requests;
     if arguments.frd.is_some() {
@@ -103,7 +103,7 @@ fn ask_for_results(scene: &mut Scene, arguments: &RunArguments) {
     requests.point_values |= arguments.frd.is_some() || arguments.dat.is_some();
 }
 
-/// Says that what is in the directory is not of this run.
+/// Tells the user that the results in the directory are those of an earlier run.
 fn note_stale(arguments: &RunArguments, out: Option<&Path>, start: Instant) {
     let out = out.unwrap_or(Path::new("")).display();
     let text =
@@ -111,7 +111,7 @@ fn note_stale(arguments: &RunArguments, out: Option<&Path>, start: Instant) {
     Progress::new(arguments.quiet, arguments.progress, start).note(&text);
 }
 
-/// Computes and writes; what is to be printed, and the results.
+/// Computes and writes the results; returns the text to print and the results.
 fn compute(
     arguments: &RunArguments,
     scene: Scene,
@@ -182,13 +182,14 @@ fn compute(
     Ok((text, results))
 }
 
-/// A clock that is read once between two rows of the time table, so that these add up to the whole.
+/// A clock that is read once between two rows of the time table, so that the rows add up to the
+/// whole.
 struct Laps {
     last: Instant,
 }
 
 impl Laps {
-    /// Seconds since it was last read.
+    /// Returns the seconds since the clock was last read.
     fn next(&mut self) -> f64 {
         let now = Instant::now();
         let last = std::mem::replace(&mut self.last, now);
@@ -196,7 +197,7 @@ impl Laps {
     }
 }
 
-/// What is done before a second signal ends the program: the directory in the making goes.
+/// Returns the action before a second signal ends the program: the temporary directory is removed.
 pub(super) fn at_once(claim: Option<&Claim>) -> impl Fn() + Send + Sync + 'static {
     let temporary = claim.and_then(Claim::temporary).map(Path::to_path_buf);
     move || {
@@ -206,7 +207,7 @@ pub(super) fn at_once(claim: Option<&Claim>) -> impl Fn() + Send + Sync + 'stati
     }
 }
 
-/// Runs the scene as it stands, and estimates the errors.
+/// Runs the scene with its own mesh and settings, and estimates the errors.
 fn once(
     scene: &Scene,
     arguments: &RunArguments,
@@ -230,7 +231,7 @@ fn once(
         }
         (Extent::Yield, _) => analysis.yield_load(progress)?,
     };
-    // Those of the run are rows already.
+    // The times of the run itself have their rows already.
     laps.next();
     reference::compare(analysis.model(), &mut results);
     results
@@ -257,7 +258,7 @@ pub(super) fn header(model: &Model, common: &CommonArguments, wall_seconds: f64)
     }
 }
 
-/// What a run would do and cost.
+/// Prints what a run would do and cost.
 fn predict(common: &CommonArguments, all_effects: bool) -> Result<()> {
     if deck::is_deck(&common.scene) && !common.json {
         print(&super::deck::account(&Deck::read(&common.scene)?))?;
@@ -281,7 +282,7 @@ fn predict(common: &CommonArguments, all_effects: bool) -> Result<()> {
     }
 }
 
-/// The scene with all that is put over it, `last` after the rest.
+/// Reads the scene with all overrides applied; `last` is applied after the others.
 pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<Scene> {
     let overrides: Vec<String> = common.overrides.iter().cloned().chain(last).collect();
     let options = Options {
@@ -293,8 +294,9 @@ pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<
     Ok(scene)
 }
 
-/// This thread becomes one of the `threads` (all processors if not said): it works on small pieces
-/// itself where it would otherwise wake another one and wait. Later calls change nothing.
+/// Starts the threads (one per processor if no number is given), of which this thread is one: it
+/// works on small pieces itself instead of waking another thread and waiting for it. Later calls
+/// change nothing.
 pub(super) fn start_threads(threads: Option<usize>) -> Result<()> {
     static STARTED: AtomicBool = AtomicBool::new(false);
     if STARTED.swap(true, Ordering::Relaxed) {
@@ -313,7 +315,7 @@ pub(super) fn start_threads(threads: Option<usize>) -> Result<()> {
             ))
             .because(cause)
         }),
-        // Where the limits of the process allow no more, this thread alone does the work.
+        // If the limits of the process allow no more threads, this thread does all the work.
         None => {
             let _ = start(0).or_else(|_| start(1));
             Ok(())

@@ -1,4 +1,4 @@
-//! `brinell completions` and `brinell man`: from the same definitions as the help.
+//! `brinell completions` and `brinell man`, made from the same definitions as the help.
 
 use super::arguments::Arguments;
 use super::print;
@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
-/// What `brinell completions` takes.
+/// Arguments of `brinell completions`.
 #[derive(Debug, Args)]
 pub(super) struct CompletionsArguments {
     /// The shell

@@ -1,4 +1,4 @@
-//! `brinell convert`: a deck as a scene with its mesh.
+//! `brinell convert`: converts a deck to a scene with its mesh.
 
 use super::{fresh, print};
 use crate::deck::{self, Deck, Options};
@@ -8,7 +8,7 @@ use crate::scene::Field;
 use clap::Args;
 use std::path::{Path, PathBuf};
 
-/// What `brinell convert` takes.
+/// Arguments of `brinell convert`.
 #[derive(Debug, Args)]
 pub(super) struct ConvertArguments {
     /// The deck (.inp)
@@ -21,12 +21,12 @@ pub(super) struct ConvertArguments {
     /// them
     #[arg(long)]
     pub small_strain: bool,
-    /// Put a value over the scene's, as for `run`
+    /// Override a value of the scene, as for `run`
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub overrides: Vec<String>,
 }
 
-/// Writes scene and mesh, and says where.
+/// Writes scene and mesh, and prints their paths.
 pub(super) fn run(arguments: &ConvertArguments) -> Result<()> {
     let path = &arguments.deck;
     if !deck::is_deck(path) {

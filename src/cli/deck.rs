@@ -1,9 +1,10 @@
-//! What became of a deck, in words.
+//! A report of how a deck was converted.
 
 use super::table::{Column, Table, page_width, wrap};
 use crate::deck::{Deck, Note};
 
-/// Keywords that were understood, and what was taken otherwise, ignored and refused.
+/// Lists the keywords that were understood, and those that were taken otherwise, ignored or
+/// refused.
 pub(super) fn account(deck: &Deck) -> String {
     let account = deck.account();
     let mut table = Table::new(&[

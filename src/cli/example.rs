@@ -1,11 +1,11 @@
-//! `brinell example`: the commented scenes of the project, built in.
+//! `brinell example`: the commented scenes of the project, built into the program.
 
 use super::print;
 use super::table::{Column, Table, page_width};
 use crate::error::{Error, Result};
 use clap::Args;
 
-/// What `brinell example` takes.
+/// Arguments of `brinell example`.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: brinell example ball_on_half_space > ball.toml && brinell run ball.toml"
@@ -45,7 +45,7 @@ const EXAMPLES: &[Example] = examples![
     "three_bodies",
 ];
 
-/// Prints an example or the list.
+/// Prints an example or the list of examples.
 pub(super) fn run(arguments: &ExampleArguments) -> Result<()> {
     let Some(name) = &arguments.name else {
         let mut table = Table::new(&[(Column::Text, "example"), (Column::Text, "what")]);
@@ -66,7 +66,7 @@ pub(super) fn run(arguments: &ExampleArguments) -> Result<()> {
     }
 }
 
-/// The scene's title.
+/// Returns the title of a scene.
 fn title(text: &str) -> &str {
     let line = text.lines().find_map(|l| l.strip_prefix("title = \""));
     line.and_then(|rest| rest.strip_suffix('"'))

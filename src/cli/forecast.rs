@@ -1,11 +1,11 @@
-//! How long a phase will take: by the size of the model, the speed of this machine as far as the
-//! run has shown it, and the phases that lie behind.
+//! Predicted durations of phases: from the size of the model, the speed of this machine as far as
+//! the run has shown it, and the phases that are complete.
 
 use crate::scene::Scene;
 use std::time::Instant;
 
-/// Seconds per freedom of making mesh and model, of the assembly, of a yield load, of a state and
-/// of its files, on a processor of 2020.
+/// Seconds per freedom for making mesh and model, the assembly, a yield load, a state, and the
+/// files of a state, on a processor of 2020.
 const MODEL: f64 = 1.0e-6;
 const ASSEMBLY: f64 = 1.3e-6;
 const YIELD_LOAD: f64 = 3e-6;
@@ -15,26 +15,26 @@ const FILES: f64 = 1.5e-6;
 /// (the growth of nested dissection in the plane) and per cube of the pairs (the dense matrix of
 /// the contact).
 const FACTORISATION: [f64; 3] = [2.5e-6, 7.75e-9, 1.2e-10];
-/// Seconds of the increments per square of the pairs: each pair that closes or opens costs solves
-/// with a zone that grows with them.
+/// Seconds of the increments per square of the pairs: each pair that closes or opens costs solves,
+/// and the zone of these solves grows with the number of pairs.
 const INCREMENTS: f64 = 2e-4;
 /// Share of the run's own time that the estimate of its errors takes, in several phases of about
-/// one length.
+/// the same length.
 const ESTIMATE: f64 = 0.4;
-/// The least that is predicted: the grain of what is shown.
+/// The shortest time that is predicted, which is the resolution of the display.
 const LEAST: f64 = 0.01;
-/// Bytes of a mesh file for each freedom.
+/// Number of bytes of a mesh file for each freedom.
 const BYTES: f64 = 40.0;
 
-/// What is known of a run.
+/// The data of a run on which predictions are based.
 pub(super) struct Forecast {
     started: Instant,
     freedoms: f64,
     pairs: f64,
     targets: f64,
-    /// How much slower than expected this machine is.
+    /// Factor by which this machine is slower than expected.
     slower: f64,
-    /// Phases that ended, and when the last of them did.
+    /// Number of phases that have ended, and the time at which the last of them did.
     ended: f64,
     last_end: f64,
 }
@@ -52,14 +52,14 @@ impl Forecast {
         }
     }
 
-    /// A scene, whose mesh is still to be made: its size is guessed.
+    /// Takes a scene whose mesh is still to be made: its size is estimated.
     pub fn scene(&mut self, scene: &Scene) {
         self.targets = scene.program.targets.len().max(1) as f64;
         let mesh = &scene.mesh;
         let square = |n: usize| (n * n) as f64;
         let mut freedoms = 0.0;
-        // Elements that grow with the distance make their number go with the square of the
-        // resolution.
+        // With elements that grow with the distance from the contact their number is proportional
+        // to the square of the resolution.
         if let Some(cylinder) = &mesh.cylinder_on_half_plane {
             freedoms = 60.0 * square(cylinder.resolution);
         } else if let Some(disc) = &mesh.disc_in_plate {
@@ -79,21 +79,21 @@ impl Forecast {
         self.freedoms = freedoms;
     }
 
-    /// A model, whose size is known.
+    /// Takes a model, whose size is known.
     pub fn model(&mut self, freedoms: usize, pairs: usize) {
         (self.freedoms, self.pairs) = (freedoms as f64, pairs as f64);
     }
 
-    /// A phase took `seconds`.
+    /// Takes the time that a phase took.
     pub fn learn(&mut self, phase: &str, seconds: f64) {
         (self.ended, self.last_end) = (self.ended + 1.0, self.started.elapsed().as_secs_f64());
-        // Of a very small model only the clock's grain would be seen.
+        // On a very small model the measured time would only be the resolution of the clock.
         if phase == "assembly" && self.freedoms > 0.0 {
             self.slower = (seconds / (ASSEMBLY * self.freedoms)).clamp(0.3, 10.0);
         }
     }
 
-    /// Seconds that a phase will take.
+    /// Predicts the seconds that a phase will take.
     pub fn seconds(&self, phase: &str) -> f64 {
         let (n, pairs) = (self.freedoms, self.pairs);
         let program = INCREMENTS * pairs * pairs + STATE * self.targets * n;
@@ -117,7 +117,8 @@ impl Forecast {
             None if phase.starts_with("error estimate") => {
                 0.25 * ESTIMATE * self.started.elapsed().as_secs_f64()
             }
-            // As long as the phases so far; the first about a second.
+            // Other phases take as long as the mean of the phases so far; the first takes about a
+            // second.
             None if self.ended > 0.0 => self.last_end / self.ended,
             None => 1.0,
         };
@@ -134,7 +135,7 @@ mod tests {
         let mut forecast = Forecast::new(Instant::now());
         forecast.model(1_000_000, 100);
         let before = forecast.seconds("factorisation");
-        // 2.5 s for what grows with the freedoms, 7.75 s for the fill.
+        // The terms are 2.5 s for the part that grows with the freedoms and 7.75 s for the fill.
         assert!((before - 10.25).abs() < 0.01, "{before}");
         forecast.learn("assembly", 2.0 * ASSEMBLY * 1e6);
         assert!((forecast.seconds("factorisation") / before - 2.0).abs() < 1e-12);

@@ -1,14 +1,15 @@
-//! New files: all of them or none, and none that is there is touched.
+//! New files: all of them are written or none, and no existing file is touched.
 
 use crate::error::{Error, ErrorKind, Result};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::Path;
 
-/// Writes files that must not be there yet.
+/// Writes files that must not exist yet.
 ///
 /// # Errors
-/// `Io` naming the file that is there or cannot be written; then none of them is left behind.
+/// `Io` naming the file that exists already or cannot be written; then none of the files is left
+/// behind.
 pub(super) fn write(files: &[(&Path, &[u8])]) -> Result<()> {
     let mut begun = Vec::new();
     let outcome = files.iter().try_for_each(|(path, content)| {
@@ -18,7 +19,7 @@ pub(super) fn write(files: &[(&Path, &[u8])]) -> Result<()> {
     });
     if outcome.is_err() {
         for path in begun {
-            // What could not be written is what is told.
+            // The error to report is the failed write, not a failed removal.
             let _ = fs::remove_file(path);
         }
     }
@@ -55,7 +56,7 @@ mod tests {
         fs::remove_file(&b).unwrap();
         write(&[(&a, b"1"), (&b, b"2")]).unwrap();
         assert_eq!([fs::read(&a).unwrap(), fs::read(&b).unwrap()], [b"1", b"2"]);
-        // The same file twice.
+        // The same file is given twice.
         fs::remove_file(&a).unwrap();
         assert!(write(&[(&a, b"1"), (&a, b"2")]).is_err());
         assert!(!a.exists());

@@ -1,4 +1,4 @@
-//! `brinell hardness`: what a hardness test is read by, from the results of a ball on a flat.
+//! `brinell hardness`: the figures of a hardness test, from the results of a ball on a flat.
 
 use super::table::{Column, Table, page_width, wrap};
 use super::{commands, print, warn};
@@ -13,21 +13,21 @@ use clap::Args;
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// Contact radius over the ball's up to which strains are small: the representative plastic strain,
-/// 0.2 a/R, is 4 % there.
+/// Contact radius over the ball's radius up to which strains are small: the representative plastic
+/// strain, 0.2 a/R, is 4 % there.
 ///
 /// # Source
 /// D. Tabor, The Hardness of Metals (1951), chapter 5.
 pub(super) const SMALL: f64 = 0.2;
-/// Share of the largest force below which a state is unloaded: round-off.
+/// Share of the largest force below which a state counts as unloaded: round-off.
 const UNLOADED: f64 = 1e-9;
-/// Significant digits: more than a mesh gives.
+/// Number of significant digits printed: more than a mesh gives.
 const DIGITS: usize = 5;
 
-/// What `brinell hardness` takes.
+/// Arguments of `brinell hardness`.
 #[derive(Debug, Args)]
 pub(super) struct HardnessArguments {
-    /// A directory that `brinell run` wrote, of a scene of `brinell new hardness` or of an
+    /// A directory that `brinell run` wrote for a scene of `brinell new hardness` or for an
     /// axisymmetric ball on a flat
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
@@ -36,7 +36,7 @@ pub(super) struct HardnessArguments {
     pub json: bool,
 }
 
-/// The figures, as `--json` prints them; what is not known is `null`.
+/// The figures, as `--json` prints them; an unknown figure is `null`.
 #[derive(Debug, Serialize)]
 struct HardnessSheet {
     /// Version of the program.
@@ -50,7 +50,7 @@ struct HardnessSheet {
     depth: f64,
     contact_radius: f64,
     contact_radius_over_ball_radius: f64,
-    /// Brinell hardness, where the units are known.
+    /// Brinell hardness, if the units are known.
     hbw: Option<f64>,
     mean_pressure: f64,
     /// Initial yield stress of the flat; null if it does not yield.
@@ -61,17 +61,17 @@ struct HardnessSheet {
     /// Depth of the dent after unloading.
     residual_depth: Option<f64>,
     rim_height: Option<f64>,
-    /// Where the history follows the approach.
+    /// Unloading stiffness, if the history follows the approach.
     unloading_stiffness: Option<f64>,
     reduced_modulus: Option<f64>,
     reduced_modulus_by_depth: Option<f64>,
-    /// Contact modulus of the materials, the true one.
+    /// Contact modulus of the materials, the true value.
     contact_modulus: f64,
-    /// Whether the contact is wider than small strains are good for.
+    /// Whether the contact is too wide for the assumption of small strains.
     beyond_small_strains: bool,
 }
 
-/// Prints the figures.
+/// Prints the figures of a result directory.
 pub(super) fn run(arguments: &HardnessArguments) -> Result<()> {
     let dir = &arguments.dir;
     if let Some(why) = output::stale(dir) {
@@ -92,7 +92,7 @@ pub(super) fn run(arguments: &HardnessArguments) -> Result<()> {
     })
 }
 
-/// Radius of the ball, where the scene is one of a ball on a flat.
+/// Returns the radius of the ball, if the scene is one of a ball on a flat.
 fn ball(model: &Model) -> Option<f64> {
     let made = model.scene.mesh.cylinder_on_half_plane.as_ref()?;
     (model.scene.kind.is_axisymmetric() && model.materials.len() == 2).then_some(made.radius)
@@ -271,7 +271,7 @@ impl HardnessSheet {
     }
 }
 
-/// The unit of stress in MPa, where lengths and forces are consistent with it.
+/// Returns the unit of stress in MPa, if it is consistent with the units of length and force.
 fn megapascals(units: Option<&Units>) -> Option<f64> {
     let units = units.filter(|units| units.mismatch().is_none())?;
     Some(units.pascals()? * 1e-6)

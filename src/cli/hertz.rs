@@ -28,7 +28,7 @@ Examples:
   brinell hertz --radius 5,flat --load 2000 --length 10 --youngs-modulus 208000 --yield-stress 2000
   brinell hertz --radius 4,flat --second-radius 6,flat --angle 60 --load 50 --material S355";
 
-/// What `brinell hertz` takes.
+/// Arguments of `brinell hertz`.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct HertzArguments {
@@ -56,13 +56,13 @@ pub(super) struct HertzArguments {
     /// Length of a line contact, over which the load is the total
     #[arg(long, value_name = "L", value_parser = positive, allow_negative_numbers = true)]
     length: Option<f64>,
-    /// Depth in a flat body from which the approach of a line contact is counted; in a cylinder
-    /// that is its axis
+    /// Depth in a flat body from which the approach of a line contact is counted; in a cylinder it
+    /// is counted from the axis
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     depth: Option<f64>,
     #[command(flatten)]
     materials: Materials,
-    /// Units of length, force and stress; materials of the list are turned into them
+    /// Units of length, force and stress; materials of the list are converted to them
     #[arg(
         long,
         value_name = "LENGTH,FORCE,STRESS",
@@ -75,7 +75,7 @@ pub(super) struct HertzArguments {
     json: bool,
 }
 
-/// What the contact is asked for by.
+/// The quantity that determines the contact.
 #[derive(Debug, Args)]
 #[group(multiple = false)]
 struct ContactGiven {
@@ -109,7 +109,7 @@ fn units(text: &str) -> std::result::Result<Units, String> {
     }
 }
 
-/// Prints the sheet of a contact.
+/// Prints the figures of a contact.
 pub(super) fn run(arguments: &HertzArguments) -> Result<()> {
     let sheet = arguments.sheet()?;
     print(&match arguments.json {
@@ -146,7 +146,7 @@ impl HertzArguments {
 }
 
 impl ContactGiven {
-    /// The load, of a line per length, by whatever is given.
+    /// Returns the load (per length in a line contact), from whichever quantity is given.
     fn load(
         &self,
         contact: &HertzContact,

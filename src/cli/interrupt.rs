@@ -9,15 +9,15 @@ use std::sync::atomic::{AtomicI32, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// The signal that was heard first, 0 before that.
+/// The signal that was received first, 0 before that.
 static HEARD: AtomicI32 = AtomicI32::new(0);
-/// A second signal this soon is the same wish: `timeout` and terminals send one to the process and
-/// one to its group.
+/// Time within which a second signal counts as the same request: `timeout` and terminals send one
+/// to the process and one to its group.
 const SAME_WISH: Duration = Duration::from_millis(200);
-/// Ctrl-C, the same number everywhere.
+/// The number of Ctrl-C, the same on all systems.
 const SIGINT: i32 = 2;
 
-/// Has someone asked the run to end?
+/// Whether a signal asked the run to end.
 pub(super) fn requested() -> bool {
     heard().is_some()
 }
@@ -26,13 +26,14 @@ fn heard() -> Option<i32> {
     Some(HEARD.load(Ordering::Relaxed)).filter(|&signal| signal != 0)
 }
 
-/// The exit code of a run that was stopped: 128 and the number of the signal (130 after Ctrl-C).
+/// Returns the exit code of a run that was stopped: 128 plus the number of the signal (130 after
+/// Ctrl-C).
 pub(super) fn exit_code() -> u8 {
     let code = heard().and_then(|signal| u8::try_from(128 + signal).ok());
     code.unwrap_or(ErrorKind::Stopped.exit_code())
 }
 
-/// What stopped the run, in words: `Ctrl-C`, or the name of the signal.
+/// Returns the name of what stopped the run: `Ctrl-C`, or the name of the signal.
 pub(super) fn name() -> Option<&'static str> {
     match heard()? {
         SIGINT => Some("Ctrl-C"),
@@ -43,14 +44,15 @@ pub(super) fn name() -> Option<&'static str> {
     }
 }
 
-/// What is done before a second signal ends the program, and how the first is reported; `None`
-/// before anything listens.
+/// The start time for reports as JSON (`None` for reports as text), and the action before a second
+/// signal ends the program. The static below is `None` before anything listens.
 type Wish = (Option<Instant>, Box<dyn Fn() + Send + Sync>);
 static WISH: Mutex<Option<Wish>> = Mutex::new(None);
 
-/// Starts listening; where something listens already, for that from now on. What is heard is
-/// reported on standard error: as a line for a reader, or where progress goes there as JSON since
-/// `json` as an event of its own. `at_once` is done before a second signal ends the program.
+/// Starts listening; if something listens already, the new arguments replace the old ones. A signal
+/// is reported on standard error: as a line of text, or, if `json` gives the time since which
+/// progress is reported as JSON, as an event. `at_once` is called before a second signal ends the
+/// program.
 ///
 /// # Errors
 /// The system refuses the signal handler.
@@ -104,7 +106,8 @@ fn tell(json: Option<Instant>) {
     }
 }
 
-/// Queues of batch systems warn with SIGUSR1, which `mpirun` hands on to all ranks.
+/// Calls `hear` for signals that end a run. Queues of batch systems warn with SIGUSR1, which
+/// `mpirun` passes on to all ranks.
 #[cfg(unix)]
 fn call_at_signals(hear: impl Fn(i32) + Send + Sync + 'static) -> std::io::Result<()> {
     use signal_hook::consts::{SIGHUP, SIGTERM, SIGUSR1};
@@ -123,19 +126,21 @@ fn call_at_signals(
     ctrlc::set_handler(move || hear(SIGINT))
 }
 
-/// A rank that helps ends with the first one, which may still have to write what it has.
+/// Makes a helping rank ignore signals: it ends with the first rank, which may still have to write
+/// results.
 #[cfg(feature = "mumps")]
 pub(super) fn leave_to_first_rank() {
-    // Without it the first one ends alone.
+    // If this fails, the first rank still ends by itself.
     let _ = call_at_signals(|_| {});
 }
 
-/// A file beyond the limit of its size (`ulimit -f`) is a failed write, not the end of the program.
+/// Ignores SIGXFSZ: a file beyond the size limit (`ulimit -f`) then is a failed write, not the end
+/// of the program.
 pub(super) fn ignore_file_size_signal() {
     #[cfg(unix)]
     {
         let unread = std::sync::Arc::default();
-        // Without it the system's own way remains.
+        // If this fails, the default action of the system remains.
         let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, unread);
     }
 }

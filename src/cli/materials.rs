@@ -1,4 +1,4 @@
-//! `brinell materials`: steels and alloys that a scene takes by name, with their sources.
+//! `brinell materials`: steels and alloys that a scene can refer to by name, with their sources.
 
 use super::print;
 use super::table::{Column, Table, page_width};
@@ -7,14 +7,14 @@ use crate::number::{exact, trimmed};
 use crate::scene::{Listed, Published, closest, materials};
 use clap::Args;
 
-/// What `brinell materials` takes.
+/// Arguments of `brinell materials`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   brinell materials
   brinell materials S355
   brinell new ball-on-flat --material 100Cr6 --second-material S355 --load 100")]
 pub(super) struct MaterialsArguments {
-    /// Name of the material; without it all are listed
+    /// Name of the material; without it all materials are listed
     #[arg(value_name = "NAME")]
     pub name: Option<String>,
 }
@@ -27,10 +27,10 @@ pub(super) fn run(arguments: &MaterialsArguments) -> Result<()> {
     }
 }
 
-/// The material of a name.
+/// Returns the material of a name.
 ///
 /// # Errors
-/// `Input` with what the list has, where that is none.
+/// `Input` with the names of the list, if it has no such material.
 pub(super) fn of_list(name: &str) -> Result<&'static Listed> {
     Listed::of(name).ok_or_else(|| {
         let known: Vec<&str> = materials().iter().map(|(name, _)| name.as_str()).collect();
@@ -73,7 +73,8 @@ fn list() -> String {
     )
 }
 
-/// As a table of a scene in N, mm and MPa would have it but for the density, and the sources.
+/// Returns the material as a table of a scene in N, mm and MPa would have it, except for the
+/// density, and the sources.
 fn details(name: &str, listed: &Listed) -> String {
     let mut text = format!("{name}: {}\n\n", listed.what);
     let mut table = Table::new(&[

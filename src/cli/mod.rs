@@ -1,8 +1,8 @@
-//! The command line: runs and studies, and what helps to write scenes and to look at results.
+//! The command line: runs and studies, and commands that help to write scenes and to look at
+//! results.
 //!
-//! Only this module prints. What was computed goes to standard output, progress and errors to
-//! standard error, and the exit code says what kind of end it was
-//! ([`crate::ErrorKind::exit_code`]).
+//! Only this module prints. Results go to standard output, progress and errors to standard error,
+//! and the exit code says how the program ended ([`crate::ErrorKind::exit_code`]).
 
 #[cfg(all(unix, feature = "cholmod"))]
 mod again;
@@ -46,7 +46,7 @@ use std::process::{Command, ExitCode};
 use std::sync::OnceLock;
 use std::time::Instant;
 
-/// Words of the command that runs this program where it is no file of its own.
+/// Words of the command that runs this program, if it is not an executable file of its own.
 static WITHIN: OnceLock<Vec<OsString>> = OnceLock::new();
 
 /// Runs the program with the arguments of the process and returns its exit code.
@@ -54,14 +54,15 @@ pub fn main() -> ExitCode {
     ExitCode::from(program(std::env::args_os().collect()))
 }
 
-/// Runs the program within another one, as an interpreter, whose command `itself` runs it too.
-/// The arguments begin with its name; returns the exit code.
+/// Runs the program within another one, such as an interpreter, which the command `itself` starts
+/// so that it runs this program. The arguments begin with the name of the program; returns the exit
+/// code.
 pub fn program_within(itself: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     let _ = WITHIN.set(itself);
     program(arguments)
 }
 
-/// A command that runs this program.
+/// Returns a command that runs this program.
 fn itself() -> io::Result<Command> {
     if let Some([program, arguments @ ..]) = WITHIN.get().map(Vec::as_slice) {
         let mut command = Command::new(program);
@@ -72,7 +73,7 @@ fn itself() -> io::Result<Command> {
 }
 
 fn program(mut words: Vec<OsString>) -> u8 {
-    // Under the name of CalculiX' program it does what that does.
+    // Under the name of CalculiX' program this program behaves like it.
     if words.first().is_some_and(|name| ccx::is_its_name(name)) {
         words.insert(1, "ccx".into());
     }
@@ -114,7 +115,7 @@ fn program(mut words: Vec<OsString>) -> u8 {
     }
 }
 
-/// The exit code of an error, and what is said of it.
+/// Returns the exit code of an error, and its message.
 fn ending(error: &Error) -> (u8, String) {
     let exit_code = match error.kind() {
         ErrorKind::Stopped => interrupt::exit_code(),
@@ -123,27 +124,28 @@ fn ending(error: &Error) -> (u8, String) {
     (exit_code, explain(error))
 }
 
-/// What clap has to say: help and version, or a usage error (exit code 2), which repeats what was
-/// typed.
+/// Prints the output of clap: help and version, or a usage error (exit code 2), which repeats the
+/// words that were typed.
 fn usage(problem: &clap::Error, words: &[OsString]) -> u8 {
     let is_plain =
         |word: &OsString| matches!(text::shown(&word.to_string_lossy()), Cow::Borrowed(_));
-    // In the colours of the terminal, unless what was typed brings its own.
+    // The text is printed in the colours of the terminal, unless the typed words contain control
+    // characters.
     let written = if words.iter().all(is_plain) {
         problem.print()
     } else {
         io::stderr().write_all(text::shown(&problem.to_string()).as_bytes())
     };
-    // A reader that has seen enough is no error.
+    // A reader that closes the pipe early is not an error.
     let _ = written;
     u8::try_from(problem.exit_code()).unwrap_or(1)
 }
 
-/// Whether a command line (the program's name first) is understood; the usage error, or what
-/// `--help` and `--version` print, if not. Does nothing else.
+/// Checks whether a command line (the program's name first) is understood. Does nothing else.
 ///
 /// # Errors
-/// The text that the program would end with.
+/// The usage error, or the text that `--help` and `--version` print: the text with which the
+/// program would end.
 pub fn check_command_line(
     arguments: impl IntoIterator<Item = OsString>,
 ) -> std::result::Result<(), String> {
@@ -152,11 +154,12 @@ pub fn check_command_line(
         .map_err(|problem| problem.to_string())
 }
 
-/// The scene that `brinell new` makes of a problem and its flags, as text; written where `--out` is
-/// among them.
+/// Returns the scene that `brinell new` makes from a problem and its flags, as text; the scene is
+/// also written if `--out` is among them.
 ///
 /// # Errors
-/// `Input` if they are not understood, and what they say wrong; `Io` of a file that is there.
+/// `Input` if the flags are not understood or their values are wrong; `Io` if the file exists
+/// already.
 pub fn new_scene(words: impl IntoIterator<Item = OsString>) -> Result<String> {
     #[derive(Parser)]
     #[command(name = "new", no_binary_name = true, disable_help_flag = true)]
@@ -173,7 +176,7 @@ pub fn new_scene(words: impl IntoIterator<Item = OsString>) -> Result<String> {
     new::start(&line.problem, line.out.as_deref()).map(|started| started.text)
 }
 
-/// An error with its causes, as lines for a reader.
+/// Formats an error with its causes, as lines for a reader.
 fn explain(error: &Error) -> String {
     let mut text = format!("error: {}", error.to_string().replace('\n', "\n       "));
     let signal = interrupt::name().filter(|_| error.kind() == ErrorKind::Stopped);
@@ -184,13 +187,13 @@ fn explain(error: &Error) -> String {
     text::shown(&text).into_owned()
 }
 
-/// Writes a warning to standard error; that it cannot be written is no reason to stop.
+/// Writes a warning to standard error; a failure to write it is ignored.
 fn warn(text: &str) {
     let _ = writeln!(io::stderr(), "warning: {}", text::shown(text));
 }
 
-/// Writes text for a reader to standard output, what a terminal would obey written out.
-/// A reader that has seen enough (`| head`) is no error.
+/// Writes text to standard output, with control characters written out. A reader that closes the
+/// pipe early (`| head`) is not an error.
 fn print(text: &str) -> Result<()> {
     let text = text::shown(text);
     let mut stdout = io::stdout().lock();

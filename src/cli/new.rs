@@ -1,5 +1,5 @@
-//! `brinell new`: a commented scene for a common problem from a few numbers. What a scene needs
-//! beyond them (how far the fine mesh reaches, which states to write) is set from the closed forms.
+//! `brinell new`: a commented scene for a common problem from a few numbers. The other values that
+//! a scene needs (the extent of the fine mesh, which states to write) are set from closed forms.
 
 mod asked;
 mod fit;
@@ -24,13 +24,13 @@ use clap::{Args, Subcommand};
 use materials::Made;
 use std::path::{Path, PathBuf};
 
-/// What `brinell new` takes.
+/// Arguments of `brinell new`.
 #[derive(Debug, Args)]
 pub(super) struct NewArguments {
     #[command(subcommand)]
     pub problem: Option<Problem>,
-    /// A deck of Abaqus or CalculiX (.inp) to start from, in place of a problem: scene and mesh as
-    /// of `brinell convert`
+    /// A deck of Abaqus or CalculiX (.inp) to start from, in place of a problem: writes scene and
+    /// mesh like `brinell convert`
     #[arg(long, value_name = "DECK")]
     pub from: Option<PathBuf>,
     /// File for the scene; without it the scene is printed
@@ -41,17 +41,17 @@ pub(super) struct NewArguments {
 /// The problems. Units are N, mm and MPa.
 #[derive(Debug, Subcommand)]
 pub(super) enum Problem {
-    /// A ball is pressed on a flat and let go (axisymmetric)
+    /// A ball is pressed on a flat and unloaded (axisymmetric)
     #[command(
         after_help = "Example: brinell new ball-on-flat --radius 5 --load 20 --out ball.toml && \
                       brinell run ball.toml"
     )]
     BallOnFlat(pressed::Ball),
-    /// A ball is pressed into the groove of a race and let go (three dimensions)
+    /// A ball is pressed into the groove of a race and unloaded (three dimensions)
     BallInGroove(solid::Groove),
-    /// Two cylinders are pressed together at right angles and let go (three dimensions)
+    /// Two cylinders are pressed together at right angles and unloaded (three dimensions)
     CrossedCylinders(solid::Crossed),
-    /// A roller is pressed on a flat and let go (plane strain; the load is per mm of length)
+    /// A roller is pressed on a flat and unloaded (plane strain; the load is per mm of length)
     #[command(
         after_help = "Example: brinell new roller-on-flat --radius 5 --load 400 --out roller.toml \
                       && brinell run roller.toml"
@@ -59,20 +59,20 @@ pub(super) enum Problem {
     RollerOnFlat(pressed::Pressed),
     /// A shaft in a bore: an interference fit, or with clearance and a load (plane stress)
     ShaftInBore(fit::Fit),
-    /// A roller is pressed between the raceways of two rings and let go (plane strain; the load is
-    /// per mm of length)
+    /// A roller is pressed between the raceways of two rings and unloaded (plane strain; the load
+    /// is per mm of length)
     #[command(
         after_help = "Example: brinell new roller-between-raceways --diameter 10 --inner-radius 20 \
                       --out bearing.toml && brinell run bearing.toml"
     )]
     RollerBetweenRaceways(raceways::Bearing),
-    /// A flat rigid punch goes into a block (plane strain)
+    /// A flat rigid punch is pressed into a block (plane strain)
     Punch(punch::Punch),
-    /// Which load leaves a dent of 1e-4 of the rolling element's diameter, as ISO 76 asks: a ball
-    /// on a flat or in a groove, or a roller (its load is per mm of length)
+    /// The load that leaves a dent of 1e-4 of the rolling element's diameter, as ISO 76 asks: a
+    /// ball on a flat or in a groove, or a roller (its load is per mm of length)
     Iso76(iso76::StaticLoad),
-    /// A ball goes into a flat and is let go: a hardness test, by load or by depth (axisymmetric);
-    /// `brinell hardness` reads its results
+    /// A ball is pressed into a flat and unloaded: a hardness test, by load or by depth
+    /// (axisymmetric); `brinell hardness` reads its results
     Hardness(hardness::Hardness),
 }
 
@@ -92,7 +92,7 @@ pub(super) fn poissons_ratio(text: &str) -> std::result::Result<f64, String> {
     within(text, |v| -1.0 < v && v < 0.5, "between -1 and 0.5")
 }
 
-/// A finite number that `holds`.
+/// Reads a finite number for which `holds` is true.
 fn within(
     text: &str,
     holds: impl Fn(f64) -> bool,
@@ -126,11 +126,11 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
     }
 }
 
-/// A new scene, and its mesh where that is no generator's.
+/// A new scene, and its mesh if no generator makes it.
 pub(super) struct Started {
     pub text: String,
     mesh: Option<Mesh>,
-    /// What is told besides where the scene is written.
+    /// Text to print in addition to the path of the scene.
     note: String,
 }
 
@@ -144,10 +144,11 @@ impl From<String> for Started {
     }
 }
 
-/// A problem's scene, written to a file where one is given; a mesh goes beside it.
+/// Makes the scene of a problem, written to the file `out` if there is one; a mesh is written next
+/// to it.
 ///
 /// # Errors
-/// What the numbers say wrong; a file that is there already or cannot be written.
+/// `Input` if the numbers make no scene; `Io` if a file exists already or cannot be written.
 pub(super) fn start(problem: &Problem, out: Option<&Path>) -> Result<Started> {
     let mesh_path = out.map(|out| out.with_extension("msh"));
     let started: Started = match problem {
@@ -183,7 +184,7 @@ pub(super) fn start(problem: &Problem, out: Option<&Path>) -> Result<Started> {
     Ok(started)
 }
 
-/// A deck's scene and mesh, and how to go on.
+/// Writes the scene and mesh of a deck, and prints how to proceed.
 fn from_deck(deck: &Path, out: Option<&PathBuf>) -> Result<()> {
     let out = out.map_or_else(|| deck.with_extension("toml"), PathBuf::clone);
     convert::run(&ConvertArguments {
@@ -195,23 +196,24 @@ fn from_deck(deck: &Path, out: Option<&PathBuf>) -> Result<()> {
     print(&format!("run it with: brinell run {}\n", out.display()))
 }
 
-/// Two digits are enough for a load that nobody gave.
+/// Rounds a load up to two digits, which are enough for a load that nobody gave.
 fn rounded_up(load: f64) -> f64 {
     let digits = 10f64.powf(load.log10().floor() - 1.0);
     (load / digits).ceil() * digits
 }
 
-/// A number as TOML has it: with a point or an exponent.
+/// Formats a number as in TOML: with a point or an exponent.
 fn toml(value: f64) -> String {
     let text = format!("{value:?}");
     match text.parse::<f64>() {
         Ok(_) => text,
-        // Rust's infinities are not TOML's; reading the scene refuses both.
+        // Rust's spelling of infinity is not valid in TOML; reading the scene refuses nan and
+        // infinity alike.
         Err(_) => "nan".to_string(),
     }
 }
 
-/// The least of a figure of the bodies that may yield.
+/// Returns the smallest value of a figure over the bodies that may yield.
 fn weaker(made: &[Made; 2], figure: impl Fn(f64, f64) -> f64) -> Option<f64> {
     let of = |made: &Made| {
         Some(figure(
@@ -222,7 +224,7 @@ fn weaker(made: &[Made; 2], figure: impl Fn(f64, f64) -> f64) -> Option<f64> {
     made.iter().filter_map(of).reduce(f64::min)
 }
 
-/// The largest load: as given, else three times that of first yield.
+/// Returns the largest load: as given, else three times the load at first yield.
 fn largest(load: Option<f64>, yield_load: Option<f64>) -> Result<f64> {
     let by_default = yield_load.map(|load| rounded_up(3.0 * load));
     load.or(by_default).ok_or_else(|| {
@@ -232,8 +234,8 @@ fn largest(load: Option<f64>, yield_load: Option<f64>) -> Result<f64> {
     })
 }
 
-/// What the head of a scene states about its loads, and the target at first yield where it is
-/// reached.
+/// Returns the comment on the loads for the head of a scene, and the target at first yield if yield
+/// is reached.
 fn about_loads(load: f64, yield_load: Option<f64>, unit: &str) -> (String, &'static str) {
     let Some(first) = yield_load else {
         return ("# Nothing can yield.\n".to_string(), "");

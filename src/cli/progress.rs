@@ -1,4 +1,4 @@
-//! Progress on standard error: a bar per phase on a terminal, a line now and then elsewhere, or
+//! Progress on standard error: a bar per phase on a terminal, otherwise a line now and then, or
 //! JSON lines.
 //!
 //! Each JSON line is an object with `event` and `seconds` since the start:
@@ -27,12 +27,12 @@ use std::io::{self, IsTerminal, Write};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
 
-/// Between two lines where there is no terminal.
+/// Time between two lines if there is no terminal.
 const PAUSE: Duration = Duration::from_secs(5);
-/// Resolution of a bar, and its width.
+/// Number of steps of a bar, and its width in characters.
 const PARTS: u64 = 1000;
 const WIDTH: usize = 24;
-/// Shows what an analysis does, and passes on the user's wish to stop it.
+/// Shows the progress of an analysis, and passes on the user's request to stop it.
 pub(super) struct Progress {
     shown: Shown,
     quiet: bool,
@@ -41,13 +41,14 @@ pub(super) struct Progress {
     forecast: Forecast,
 }
 
-/// The phase at hand.
+/// The current phase.
 struct Phase {
     name: String,
     clock: Clock,
 }
 
-/// When a phase started, and what is left of it; a bar draws itself from a thread of its own.
+/// The start of a phase and its remaining time; shared with a bar, which draws itself from its own
+/// thread.
 #[derive(Clone)]
 struct Clock {
     started: Instant,
@@ -88,7 +89,7 @@ enum Shown {
 }
 
 impl Progress {
-    /// Progress of a run that began at `started`.
+    /// Creates the progress display of a run that began at `started`.
     pub fn new(quiet: bool, wish: ProgressKind, started: Instant) -> Self {
         let bars_wanted = match wish {
             ProgressKind::Auto => io::stderr().is_terminal(),
@@ -112,19 +113,19 @@ impl Progress {
         }
     }
 
-    /// A run of this scene comes.
+    /// Announces a run of this scene.
     pub fn scene(&mut self, scene: &Scene) {
         self.forecast.scene(scene);
     }
 
-    /// Shows what is being done now.
+    /// Starts a new phase and shows its name.
     pub fn start(&mut self, phase: &str) {
         self.end_phase();
         let predicted = self.forecast.seconds(phase);
         self.show(phase, predicted);
     }
 
-    /// What the phase at hand took says something of the next.
+    /// Ends the current phase; its duration improves the prediction of the next ones.
     fn end_phase(&mut self) {
         if let Some(last) = self.phase.take() {
             self.forecast.learn(&last.name, last.clock.seconds());
@@ -147,7 +148,7 @@ impl Progress {
                 next.enable_steady_tick(Duration::from_millis(100));
                 *bar = Some(next);
             }
-            // What takes no time worth telling is not foretold.
+            // For a phase that takes too little time no prediction is printed.
             Shown::Lines { .. } if predicted < GRAIN => self.line(phase),
             Shown::Lines { .. } => self.line(&format!("{phase}, about {}", rough(predicted))),
             Shown::Json => self.json(
@@ -157,7 +158,7 @@ impl Progress {
         }
     }
 
-    /// Seconds until the program is done, of which this share lies behind.
+    /// Returns the seconds until the program is complete, of which the share `fraction` is done.
     fn seconds_left(&self, fraction: f64) -> f64 {
         self.phase.as_ref().map_or(0.0, |Phase { clock, .. }| {
             clock.remaining().update(clock.seconds(), fraction);
@@ -165,23 +166,23 @@ impl Progress {
         })
     }
 
-    /// Writes an event as a line of its own.
+    /// Writes an event as a line of JSON.
     fn json(&self, event: &str, content: Value) {
         json_line(self.started, event, content);
     }
 
-    /// Takes the bars away.
+    /// Removes the bars.
     pub fn finish(&mut self) {
         if let Shown::Bars { all, bar } = &mut self.shown {
             if let Some(bar) = bar.take() {
                 bar.finish();
             }
-            // What cannot be cleared stays to be seen.
+            // Bars that cannot be cleared stay visible.
             let _ = all.clear();
         }
     }
 
-    /// Says something that is no phase and no warning.
+    /// Prints a message that is neither a phase nor a warning.
     pub fn note(&self, text: &str) {
         match &self.shown {
             Shown::Nothing => {}
@@ -191,19 +192,20 @@ impl Progress {
         }
     }
 
-    /// A failed write of progress is no reason to stop.
+    /// Writes a line; a failure to write it does not stop the run.
     fn line(&self, text: &str) {
         let seconds = self.started.elapsed().as_secs_f64();
         let _ = writeln!(io::stderr(), "[{seconds:7.1} s] {}", shown(text));
     }
 }
 
-/// Whole per cent that lie behind: 100 of them only when all does.
+/// Formats the completed share in whole per cent, rounded down: 100 only when everything is
+/// complete.
 fn per_cent(fraction: f64) -> String {
     format!("{:3.0}", (100.0 * fraction).floor())
 }
 
-/// Writes an event to standard error as a line of its own.
+/// Writes an event to standard error as a line of JSON.
 pub(super) fn json_line(started: Instant, event: &str, content: Value) {
     let seconds = started.elapsed().as_secs_f64();
     let mut line = json!({ "event": event, "seconds": seconds });
@@ -289,9 +291,9 @@ impl Shown {
     }
 }
 
-/// The bar of a phase: name, what is done, time, time that is left. What is done is the share of
-/// the load program where increments report it, else the share of the predicted time, of which the
-/// last bit is only filled by the end.
+/// Creates the bar of a phase: name, completed share, time, time left. The share is that of the
+/// load program if increments report it, else the share of the predicted time, of which the last
+/// part is only filled at the end.
 fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
     let done = move |state: &ProgressState| match (state.is_finished(), state.pos()) {
         (true, _) => 1.0,
@@ -319,7 +321,7 @@ fn new_bar(phase: &str, predicted: f64, clock: Clock) -> ProgressBar {
 /// Seconds below which a predicted time is not worth stating.
 const GRAIN: f64 = 0.5;
 
-/// A predicted time, as far as it is worth stating.
+/// Formats a predicted time, as far as it is worth stating.
 fn rough(seconds: f64) -> String {
     duration(seconds.max(GRAIN))
 }
@@ -355,7 +357,7 @@ mod tests {
         );
     }
 
-    /// A terminal that keeps what is written to it.
+    /// A terminal that keeps the text written to it.
     #[derive(Debug, Clone, Default)]
     struct Terminal(std::sync::Arc<std::sync::Mutex<String>>);
 
@@ -402,7 +404,7 @@ mod tests {
         std::thread::sleep(Duration::from_millis(30));
         progress.start("factorisation");
         std::thread::sleep(Duration::from_millis(250));
-        // A small one, whose load program is predicted to be over at once.
+        // A small model, whose load program is predicted to end at once.
         progress.model(100, 0);
         progress.start("load program");
         std::thread::sleep(Duration::from_millis(50));
@@ -423,7 +425,7 @@ mod tests {
             assert!(line(phase, "["), "{phase}: {text}");
             assert!(line(phase, "left"), "{phase}: {text}");
         }
-        // Predicted by size, corrected by the assembly: 0.3 of 2060 s.
+        // The prediction follows from the size, corrected by the assembly: 0.3 of 2060 s.
         assert!(line("factorisation", "about 10 min left"), "{text}");
         assert!(line("load program", "============            "), "{text}");
         assert!(line("load program", "about 0.50 s left"), "{text}");

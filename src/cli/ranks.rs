@@ -1,25 +1,26 @@
-//! Programs that `mpirun` starts several times: the first computes, the others help MUMPS.
+//! Programs of which `mpirun` starts several processes: the first computes, the others help MUMPS.
 
 use super::arguments::CommonArguments;
 use crate::error::{Error, Result};
 #[cfg(feature = "mumps")]
 use crate::linalg::Backend;
 
-/// What the launchers of OpenMPI and MPICH say: how many were started, and which one this is.
+/// Environment variables of the launchers of OpenMPI and MPICH: the number of processes, and the
+/// number of this one.
 const LAUNCHERS: [[&str; 2]; 2] = [
     ["OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"],
     ["PMI_SIZE", "PMI_RANK"],
 ];
 
-/// What this process is to do.
+/// The part of this process in a command.
 pub(super) enum Part {
-    /// All of it, alone or with the help of others.
+    /// The process does all the work, alone or with the help of others.
     First(Ranks),
-    /// Nothing any more: it has helped until the end.
+    /// The process has helped until the end and has nothing left to do.
     Helped,
 }
 
-/// The ranks of a run; the others are let go when it is dropped.
+/// The ranks of a run; the other ranks are released when it is dropped.
 pub(super) struct Ranks {
     #[cfg(feature = "mumps")]
     world: Option<crate::linalg::mumps::World>,
@@ -28,8 +29,8 @@ pub(super) struct Ranks {
 /// Takes part in a command that computes, with the solver of its arguments.
 ///
 /// # Errors
-/// Several processes that would each compute everything, and write the same files; ranks of another
-/// version.
+/// `Input` for several processes that would each compute everything and write the same files, and
+/// for ranks of another version.
 #[cfg_attr(not(feature = "mumps"), allow(unused_variables))]
 pub(super) fn join(common: Option<&CommonArguments>) -> Result<Part> {
     #[cfg(feature = "mumps")]

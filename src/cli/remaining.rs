@@ -1,31 +1,31 @@
-//! How much time is left, as it is shown: it never grows while time passes.
+//! The remaining time as it is shown: it never grows while time passes.
 //!
-//! With the share `p` of a load program done in `e` seconds, and `P` seconds predicted for all of
-//! it, the rest takes `rest (w P + e) / (w + p)`: the prediction counts as much as the first `w` of
-//! the program would. Between two such estimates the last one counts down. What is shown is the
-//! least so far: an estimate that rises stops the countdown until the run has caught up with it.
+//! If the share `p` of a load program is done in `e` seconds, and `P` seconds are predicted for all
+//! of it, the rest takes `rest (w P + e) / (w + p)`: the prediction has the weight of the first `w`
+//! of the program. Between two such estimates the last one counts down. The time shown is the
+//! smallest so far: an estimate that rises stops the countdown until the run has caught up with it.
 
-/// Share of a load program that a prediction counts for.
+/// Share of a load program whose weight a prediction has.
 const WEIGHT: f64 = 0.05;
-/// Share of an estimate from which on it no longer counts down a second in a second: nothing is
-/// over before its end.
+/// Share of an estimate below which it counts down more slowly than one second per second: no phase
+/// is shown as complete before its end.
 const LAST: f64 = 0.1;
 
-/// The time that is left of a phase. All times are in seconds since it started.
+/// The remaining time of a phase. All times are in seconds since the start of the phase.
 #[derive(Debug, Clone)]
 pub(super) struct Remaining {
     predicted: f64,
-    /// The least that was shown.
+    /// The smallest value that was shown.
     shown: f64,
-    /// The last estimate, and when it was made.
+    /// The last estimate, and the time at which it was made.
     estimate: f64,
     made: f64,
-    /// When the first increment was accepted and how much of the program then lay behind.
+    /// Time of the first accepted increment, and the share of the program that was done then.
     first: Option<(f64, f64)>,
 }
 
 impl Remaining {
-    /// Time remaining of a phase that is predicted to take this long.
+    /// Creates the remaining time of a phase that is predicted to take this long.
     pub fn new(predicted: f64) -> Self {
         Remaining {
             predicted,
@@ -36,7 +36,7 @@ impl Remaining {
         }
     }
 
-    /// A share of the load program lies behind.
+    /// Takes the share of the load program that is done.
     pub fn update(&mut self, now: f64, fraction: f64) {
         let (start, done) = *self.first.get_or_insert((now, fraction));
         let (elapsed, progress) = (now - start, (fraction - done).max(0.0));
@@ -46,11 +46,12 @@ impl Remaining {
         self.made = now;
     }
 
-    /// Seconds that are left at a time.
+    /// Returns the seconds that are left at a time.
     pub fn at(&self, now: f64) -> f64 {
         let (whole, passed) = (self.estimate, (now - self.made).max(0.0));
         let tail = LAST * whole;
-        // The two meet where a share LAST is left; from there on it falls ever more slowly.
+        // The two curves meet when the share LAST is left; from there on the value falls ever more
+        // slowly.
         let left = match passed + tail > 0.0 {
             true => (whole - passed).max(tail * whole / (passed + tail)),
             false => 0.0,
@@ -63,8 +64,8 @@ impl Remaining {
 mod tests {
     use super::*;
 
-    /// What is shown every tenth of a second of a program whose share at a time is given, with an
-    /// increment every `pause` seconds.
+    /// Returns the times shown every tenth of a second for a program whose share at a time is
+    /// given, with an increment every `pause` seconds.
     fn shown(predicted: f64, takes: f64, pause: f64, share: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
         let mut remaining = Remaining::new(predicted);
         let mut next = pause;
@@ -112,8 +113,9 @@ mod tests {
         }
     }
 
-    /// Predicted half or twice as long: `rest (w P + e)/(w + p)` is off by `w (P/T - 1)/(w + p)`,
-    /// which is 3 % and 6 % at three quarters; an estimate that was too low holds until then.
+    /// The prediction is half or twice the true time: `rest (w P + e)/(w + p)` is off by
+    /// `w (P/T - 1)/(w + p)`, which is 3 % and 6 % at three quarters; an estimate that was too low
+    /// holds until then.
     #[test]
     fn a_wrong_prediction_is_made_up_for() {
         for (predicted, bound) in [(150.0, 0.04), (600.0, 0.07)] {
@@ -128,7 +130,7 @@ mod tests {
         }
     }
 
-    /// A prediction of 5 minutes for what takes a quarter of an hour became 11 minutes.
+    /// A prediction of 5 minutes for a run of a quarter of an hour once became 11 minutes.
     #[test]
     fn five_minutes_do_not_become_eleven() {
         let shown = shown(300.0, 900.0, 45.0, |t| t / 900.0);

@@ -15,7 +15,8 @@ use crate::space::Space;
 use crate::text::shown_in_line;
 use std::path::Path;
 
-/// The summary of a run or of a yield load. `wall_seconds` is the time of the whole command.
+/// Returns the summary of a run or of a yield load. `wall_seconds` is the time of the whole
+/// command.
 pub(super) fn results(
     scene: &Scene,
     header: &RunHeader,
@@ -79,7 +80,8 @@ pub(super) fn results(
     report.text
 }
 
-/// What a run would do and cost; with `all_effects` those that are off have a row each.
+/// Describes what a run would do and cost; with `all_effects` every effect that is off has a row
+/// too.
 pub(super) fn check(scene: &Scene, check: &Check, all_effects: bool) -> String {
     let mut report = Report::new(scene, Labels::default());
     report.sizes(&check.sizes);
@@ -103,7 +105,7 @@ pub(super) fn check(scene: &Scene, check: &Check, all_effects: bool) -> String {
     report.text
 }
 
-/// Whether the run fits into the memory that is there, in one line.
+/// Says in one line whether the run fits into the available memory.
 pub(super) fn fit(check: &Check) -> String {
     let needed = bytes(check.prediction.memory_bytes);
     match (check.available_bytes.map(bytes), check.fits()) {
@@ -117,16 +119,16 @@ pub(super) fn fit(check: &Check) -> String {
     }
 }
 
-/// `3 elements`, `1 element`.
+/// Formats a count with its noun: `3 elements`, `1 element`.
 fn counted(count: usize, what: &str) -> String {
     let plural = if count == 1 { "" } else { "s" };
     format!("{count} {what}{plural}")
 }
 
-/// Width of the labels.
+/// Width of the labels in characters.
 const LABEL: usize = 9;
 
-/// The table of states.
+/// Returns the table of states.
 pub(super) fn states_table(
     states: &[State],
     labels: &Labels,
@@ -147,7 +149,7 @@ pub(super) fn states_table(
     table
 }
 
-/// A heading of lines, the unit the last of them.
+/// Adds the unit to a heading as its last line.
 fn with_unit_below(heading: &str, unit: &str) -> String {
     match unit {
         "" => heading.to_string(),
@@ -193,7 +195,7 @@ impl Report {
         }
     }
 
-    /// A label with its text beside it.
+    /// Adds a label with its text beside it.
     fn labelled(&mut self, label: &str, text: &str) {
         let indent = LABEL + 2;
         for (index, line) in wrap(text, self.width - indent).iter().enumerate() {
@@ -262,7 +264,7 @@ impl Report {
         );
     }
 
-    /// What several ranks need, and what they did.
+    /// Adds the memory that several ranks need, and the memory that they held.
     fn ranks(&mut self, factor: &Prediction, ranks: Option<&Ranks>) {
         if factor.memory_by_rank.len() < 2 {
             return;
@@ -286,8 +288,8 @@ impl Report {
         self.labelled("Ranks", &text);
     }
 
-    /// A row for each effect that is on or asked for, or for `all`; the others are named in one
-    /// line.
+    /// Adds a row for each effect that is on or asked for, or for all effects if `all`; the others
+    /// are named in one line.
     fn effects(&mut self, effects: &[Effect], all: bool) {
         if effects.is_empty() {
             return;
@@ -302,7 +304,7 @@ impl Report {
             (Number, "memory"),
         ]);
         for effect in rows {
-            // An effect that is off, or that costs nothing of its own, has no figures.
+            // An effect that is off, or that costs nothing separately, has no figures.
             let cost = |nonzero: bool, text: String| match nonzero {
                 true => text,
                 false => "-".to_string(),
@@ -333,7 +335,7 @@ impl Report {
         }
     }
 
-    /// Text behind a mark, its further lines as far in.
+    /// Adds text after a mark; its further lines are indented by the width of the mark.
     fn list_item(&mut self, mark: &str, text: &str) {
         let indent = mark.len();
         for (index, line) in wrap(text, self.width - indent).iter().enumerate() {
@@ -375,7 +377,7 @@ impl Report {
         self.section("First yield", &table);
     }
 
-    /// The states, with the columns that carry information in this scene.
+    /// Adds the states, with the columns that carry information in this scene.
     fn states(&mut self, states: &[State], unit: Unit, contact: bool) {
         if states.is_empty() {
             return;
@@ -476,7 +478,7 @@ impl Report {
             return;
         }
         let mut table = Table::new(&[(Text, "phase"), (Number, "time"), (Number, "share")]);
-        // What is less than half of the last digit shown says nothing.
+        // Phases that took less than half of the last digit shown are left out.
         for (phase, time) in results.timings.iter().filter(|(_, time)| *time >= 5e-4) {
             let share = 100.0 * time / wall_seconds.max(*time);
             table.row([phase.clone(), seconds(*time), format!("{share:.0} %")]);

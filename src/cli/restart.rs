@@ -1,4 +1,4 @@
-//! Checkpoints of `brinell run`: where they go, and going on from them.
+//! Checkpoints of `brinell run`: their directory, and continuing from them.
 
 use super::progress::Progress;
 use crate::analysis::Analysis;
@@ -9,14 +9,14 @@ use crate::results::Results;
 use clap::Args;
 use std::path::Path;
 
-/// Whether a run leaves checkpoints, and goes on from one.
+/// Options for writing checkpoints and for continuing from one.
 #[derive(Debug, Args)]
 pub(super) struct RestartArguments {
     /// Write a checkpoint at every N-th accepted increment (default 1), so that a run that is
-    /// killed can go on with --resume
+    /// killed can continue with --resume
     ///
-    /// Goes to the directory of the results with the ending .checkpoint, and is deleted when the
-    /// results are written. Results do not depend on it.
+    /// Written to the directory of the results with the ending .checkpoint, and deleted when the
+    /// results are written. Checkpoints do not change the results.
     #[arg(
         long,
         value_name = "N",
@@ -26,7 +26,7 @@ pub(super) struct RestartArguments {
         value_parser = clap::value_parser!(u32).range(1..)
     )]
     pub checkpoint: Option<u32>,
-    /// Go on from the last checkpoint; begin anew where there is none. Writes checkpoints like
+    /// Continue from the last checkpoint, or start anew if there is none. Writes checkpoints like
     /// --checkpoint
     ///
     /// The results are those of a run that was never stopped. A checkpoint of another scene, mesh,
@@ -36,13 +36,13 @@ pub(super) struct RestartArguments {
 }
 
 impl RestartArguments {
-    /// Where checkpoints go, if the user wants any: beside the results `out`.
+    /// Returns the directory of the checkpoints, next to the results `out`, if the user wants any.
     pub fn checkpoints(&self, out: &Path) -> Option<Checkpoints> {
         let wanted = self.checkpoint.is_some() || self.resume;
         wanted.then(|| beside(out).every(self.checkpoint.unwrap_or(1) as usize))
     }
 
-    /// Runs with checkpoints.
+    /// Runs the analysis with checkpoints.
     ///
     /// # Errors
     /// Errors of [`Analysis::run_with_checkpoints`] and [`Analysis::resume`].
@@ -65,7 +65,7 @@ impl RestartArguments {
     }
 }
 
-/// Why a scene that demands an accuracy leaves no checkpoints.
+/// Returns the error for a scene that demands an accuracy, which leaves no checkpoints.
 pub(super) fn not_with_accuracy() -> Error {
     Error::input(
         "--checkpoint and --resume are of one run on one mesh, but `accuracy` asks for runs on \
@@ -74,17 +74,17 @@ pub(super) fn not_with_accuracy() -> Error {
     )
 }
 
-/// The checkpoints that belong to the results `out`.
+/// Returns the checkpoints that belong to the results `out`.
 fn beside(out: &Path) -> Checkpoints {
-    // Without a slash at its end, after which they would lie within.
+    // The path is taken without a slash at its end, because with one the checkpoints would lie
+    // inside it.
     let mut dir = out.components().as_path().as_os_str().to_os_string();
     dir.push(".checkpoint");
     Checkpoints::new(dir)
 }
 
-/// After the results are written to `out`: a run that came to its end needs its
-/// checkpoints no more, nor those that an earlier run with the same results left when it was
-/// killed.
+/// Removes the checkpoints after the results are written to `out`: a completed run no longer needs
+/// its checkpoints, nor those that an earlier, killed run with the same results directory left.
 pub(super) fn settle(out: &Path, results: &Results) -> Result<()> {
     match results.ending().kind() {
         Some(ErrorKind::Stopped) => Ok(()),

@@ -1,4 +1,4 @@
-//! `brinell schema`.
+//! `brinell schema`: the JSON schemas of scenes and of summaries.
 
 mod page;
 
@@ -13,14 +13,14 @@ of a scene:
   #:schema ./scene.schema.json
 Example: brinell schema > scene.schema.json";
 
-/// What `brinell schema` takes.
+/// Arguments of `brinell schema`.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(super) struct SchemaArguments {
-    /// The schema of summary.json instead
+    /// Print the schema of summary.json instead
     #[arg(long)]
     pub summary: bool,
-    /// As a page for readers instead, as in data/guide/scene.md
+    /// Print a page for readers instead, as in data/guide/scene.md
     #[arg(long)]
     pub markdown: bool,
 }

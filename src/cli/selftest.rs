@@ -1,4 +1,4 @@
-//! `brinell selftest`.
+//! `brinell selftest`: runs hard cases on this machine and build.
 
 use super::arguments::ProgressKind;
 use super::progress::Progress;
@@ -14,12 +14,12 @@ pub(super) struct SelftestArguments {
     /// Print the table as Markdown, as in data/stability.md
     #[arg(long)]
     pub markdown: bool,
-    /// No progress
+    /// Show no progress
     #[arg(long, short)]
     pub quiet: bool,
 }
 
-/// Runs the hard cases and prints what came of each family.
+/// Runs the hard cases and prints the outcome of each family.
 pub(super) fn execute(arguments: &SelftestArguments) -> Result<()> {
     interrupt::listen(None, || {})?;
     let mut progress = Progress::new(

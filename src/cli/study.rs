@@ -1,4 +1,4 @@
-//! `brinell accuracy SCENE`: what the digits cost.
+//! `brinell accuracy SCENE`: the cost of accuracy.
 
 use super::arguments::{CommonArguments, ProgressKind};
 use super::commands::{at_once, header, json, prepare};
@@ -19,16 +19,16 @@ use std::time::Instant;
 pub(super) struct StudyArguments {
     #[command(flatten)]
     pub common: CommonArguments,
-    /// Directory for accuracy.json, accuracy.csv and the plots; SCENE with the ending .accuracy if
-    /// it is not given
+    /// Directory for accuracy.json, accuracy.csv and the plots; if it is not given, SCENE with the
+    /// ending .accuracy
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Time that the study may take, such as 60s or 10min; runs that would not fit are left out,
-    /// but for the cheapest
+    /// except the cheapest
     #[arg(long, value_name = "TIME", value_parser = duration)]
     pub budget: Option<f64>,
-    /// Meshes in a series: the finest has twice as many elements along a line as the scene, the
-    /// next each 1/sqrt(2) of that
+    /// Number of meshes in a series: the finest has twice as many elements along a line as the
+    /// scene, each of the others 1/sqrt(2) times the number of the next finer one
     #[arg(
         long,
         value_name = "N",
@@ -36,8 +36,8 @@ pub(super) struct StudyArguments {
         value_parser = clap::value_parser!(u16).range(2..=12)
     )]
     pub levels: u16,
-    /// What to turn, separated by commas: resolution, element, stepping, tolerance, gamma,
-    /// algorithm, backend; default all
+    /// Settings to vary, separated by commas: resolution, element, stepping, tolerance, gamma,
+    /// algorithm, backend; by default all
     #[arg(long, value_name = "KNOBS", value_delimiter = ',')]
     pub knobs: Vec<String>,
     /// No progress, only results and errors
@@ -45,7 +45,7 @@ pub(super) struct StudyArguments {
     pub quiet: bool,
 }
 
-/// `60`, `60s`, `2min`, `1h` in seconds.
+/// Reads a duration in seconds: `60`, `60s`, `2min` or `1h`.
 pub(super) fn duration(text: &str) -> std::result::Result<f64, String> {
     let wanted = "give a positive time, such as 60s or 10min";
     let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
@@ -62,7 +62,7 @@ pub(super) fn duration(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
-/// Runs the study, writes it and says what it found.
+/// Runs the study, writes it and prints the findings.
 pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
     let common = &arguments.common;
     let scene = prepare(common, None)?;
@@ -109,7 +109,7 @@ pub(super) fn execute(arguments: &StudyArguments) -> Result<()> {
     }
 }
 
-/// Length of the bar of a time, and what ten times as long adds.
+/// Length of the bar of the shortest time, and the length that a factor of ten in time adds.
 const BAR: f64 = 6.0;
 
 fn report(study: &Study, out: &Path) -> String {
@@ -166,7 +166,7 @@ fn report(study: &Study, out: &Path) -> String {
     text
 }
 
-/// The cheapest setting for each error, with its time as a bar.
+/// Returns the table of the cheapest setting for each error, with its time as a bar.
 fn cheapest_settings(study: &Study, all: &QuantityStudy) -> Table {
     let mut table = Table::new(&[
         (Number, "error\n[%]"),

@@ -1,4 +1,4 @@
-//! `brinell sweep`: the same scene with other values of some keys, in processes beside this one.
+//! `brinell sweep`: the same scene with other values of some keys, run in separate processes.
 
 mod cost;
 mod demand;
@@ -33,7 +33,7 @@ KEY is as of --set, values with commas of their own stand in brackets, braces or
   --vary materials.steel.yield_stress=400,500,600
   --vary 'load.0.force=[0.0, -10.0],[0.0, -20.0]'";
 
-/// What `brinell sweep` takes.
+/// Arguments of `brinell sweep`.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example: brinell sweep ball.toml --vary materials.steel.yield_stress=400,500,600 \
@@ -51,22 +51,22 @@ pub(super) struct SweepArguments {
         long_help = VARY_HELP
     )]
     pub vary: Vec<Varied>,
-    /// CSV file whose first line has keys of the scene: each line below it is a point, with all
-    /// that --vary says besides
+    /// CSV file whose first line has keys of the scene: each line below it is a point, combined
+    /// with all that --vary says
     #[arg(long, value_name = "FILE")]
     pub points: Option<PathBuf>,
     /// Take the values of all --vary together, the first with the first, in place of all
     /// combinations
     #[arg(long, requires = "vary")]
     pub zip: bool,
-    /// Run the I-th of N shares of the points only, for job arrays. Each share writes a record of
-    /// its own; the same command without it gathers them all
+    /// Run only the I-th of N shares of the points, for job arrays. Each share writes a record of
+    /// its own; the same command without --shard gathers them all
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
     /// Run nothing: predict the time and the memory of each point and of the whole
     #[arg(long)]
     pub check: bool,
-    /// How many points are run at a time; each takes its share of the threads
+    /// Number of points that run at the same time; each takes its share of the threads
     #[arg(
         long,
         value_name = "N",
@@ -74,15 +74,15 @@ pub(super) struct SweepArguments {
         value_parser = clap::value_parser!(u16).range(1..=256)
     )]
     pub jobs: u16,
-    /// Directory for the points, the table (sweep.csv) and the charts; SCENE with the ending .sweep
-    /// if it is not given. Points that are finished there are not run again
+    /// Directory for the points, the table (sweep.csv) and the charts; if it is not given, SCENE
+    /// with the ending .sweep. Points that are finished in this directory are not run again
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Figures that the table and the charts show, such as yield.load or
-    /// states.pressed.max_pressure; sweep.csv has all
+    /// states.pressed.max_pressure; sweep.csv has all figures
     #[arg(long, value_name = "PATH,...", value_delimiter = ',')]
     pub show: Vec<String>,
-    /// As of `brinell run`
+    /// Accuracy to reach in each point, as for `brinell run`
     #[arg(long, value_name = "DEMAND")]
     pub accuracy: Option<String>,
     #[command(flatten)]
@@ -95,13 +95,13 @@ pub(super) struct SweepArguments {
     pub quiet: bool,
 }
 
-/// Runs what is not finished yet, writes table and charts, and prints the table.
+/// Runs the points that are not finished yet, writes table and charts, and prints the table.
 pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
     let common = &arguments.common;
     let dir = (arguments.out.clone()).unwrap_or_else(|| common.scene.with_extension("sweep"));
     let asked = Points::new(arguments.points.as_deref(), &arguments.vary, arguments.zip)?;
     let keys = asked.keys;
-    // What is wrong with any point is found before the first is run.
+    // An error in any point is found before the first one runs.
     let points = asked.values.into_iter();
     let points: Result<Vec<SweepPoint>> = points.map(|v| point(arguments, &keys, v)).collect();
     let mut points = points?;
@@ -117,7 +117,7 @@ pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
     }
     std::fs::create_dir_all(&dir).map_err(|cause| Error::io("make", &dir, cause))?;
     if shard.is_some() {
-        // Other shares see by it that the directory is a sweep's.
+        // The record tells other shares that the directory belongs to a sweep.
         sweep.record(&dir)?;
     }
     let running: Arc<Mutex<Vec<u32>>> = Arc::default();
@@ -138,7 +138,7 @@ pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
         true => outcome.main_paths(),
         false => arguments.show.clone(),
     };
-    // Table and charts are of all points, which a share does not have.
+    // Table and charts need all points, which a share does not have.
     let written = match arguments.shard {
         None => outcome.write(&dir, &shown)?,
         Some(_) => vec!["a share; the same command without --shard gathers all".to_string()],
@@ -156,7 +156,8 @@ pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
     ending(&sweep)
 }
 
-/// A point that has not been run, with what its results depend on.
+/// Returns a point that has not been run, with the text that represents everything its results
+/// depend on.
 fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Result<SweepPoint> {
     let common = &arguments.common;
     let options = Options {
@@ -195,7 +196,7 @@ fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Re
     })
 }
 
-/// Points whose folders would have the same name get what they stand for at its end.
+/// Appends the identity of a point to its folder if several folders would have the same name.
 fn tell_apart(points: &mut [SweepPoint]) {
     let mut seen = BTreeSet::new();
     let twice: BTreeSet<String> = (points.iter())
@@ -211,7 +212,7 @@ fn tell_apart(points: &mut [SweepPoint]) {
     }
 }
 
-/// The scene's overrides and those of a point after them.
+/// Returns the scene's overrides, followed by those of a point.
 fn overrides(common: &CommonArguments, keys: &[String], values: &[String]) -> Vec<String> {
     let of_point = keys.iter().zip(values);
     let of_point = of_point.map(|(key, value)| format!("{key}={value}"));
@@ -222,15 +223,15 @@ fn overrides(common: &CommonArguments, keys: &[String], values: &[String]) -> Ve
 struct SweepRuns<'w> {
     arguments: &'w SweepArguments,
     dir: &'w Path,
-    /// Numbers of the points as they are run.
+    /// Indices of the points in the order in which they are run.
     order: Vec<usize>,
-    /// Processes that run.
+    /// Numbers of the running processes.
     running: &'w Mutex<Vec<u32>>,
     sweep: Mutex<&'w mut Sweep>,
     next: Mutex<usize>,
 }
 
-/// What a panic elsewhere left is still in order: every change is one assignment.
+/// Locks a mutex. Data are consistent even after a panic elsewhere: every change is one assignment.
 fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -272,7 +273,7 @@ impl SweepRuns<'_> {
         Ok(())
     }
 
-    /// The next point that is not finished.
+    /// Returns the next point that is not finished.
     fn take(&self) -> Option<(usize, SweepPoint)> {
         let sweep = lock(&self.sweep);
         let mut next = lock(&self.next);
@@ -297,7 +298,7 @@ impl SweepRuns<'_> {
         }
     }
 
-    /// Runs a point in a worker, which is started where there is none.
+    /// Runs a point in a worker, which is started if there is none.
     fn run_point(&self, worker: &mut Option<Worker>, point: &SweepPoint) -> Result<Ended> {
         if worker.is_none() {
             let new = Worker::start()?;
@@ -316,7 +317,7 @@ impl SweepRuns<'_> {
         Ok(ended)
     }
 
-    /// The words of the command that runs a point.
+    /// Returns the words of the command that runs a point.
     fn words(&self, point: &SweepPoint) -> Vec<String> {
         let SweepArguments { common, jobs, .. } = self.arguments;
         let processors = std::thread::available_parallelism().map_or(1, usize::from);
@@ -356,10 +357,10 @@ impl SweepRuns<'_> {
     }
 }
 
-/// How often a run is looked after.
+/// Interval at which a run is checked.
 const PATIENCE: Duration = Duration::from_millis(20);
 
-/// A second signal ends the runs at once, too.
+/// Forwards a second signal to the running processes, so that it ends them at once, too.
 fn stop(running: &Mutex<Vec<u32>>) {
     for id in lock(running).iter() {
         ask_to_stop(*id);
@@ -372,12 +373,12 @@ fn ask_to_stop(id: u32) {
         .ok()
         .and_then(rustix::process::Pid::from_raw);
     if let Some(pid) = pid {
-        // It may have ended meanwhile.
+        // The process may have ended meanwhile.
         let _ = rustix::process::kill_process(pid, rustix::process::Signal::INT);
     }
 }
 
-/// Without signals a run cannot be asked to stop: it is let end.
+/// Without signals a run cannot be asked to stop, so it runs to its end.
 #[cfg(not(unix))]
 fn ask_to_stop(_: u32) {}
 
@@ -422,7 +423,7 @@ fn table(sweep: &Sweep, outcome: &Outcome<'_>, shown: &[String]) -> Table {
     table
 }
 
-/// How many factorisations the points took, where several ran.
+/// Describes how many factorisations the points took, if several ran.
 fn shared(sweep: &Sweep, outcome: &Outcome<'_>) -> String {
     let of_points = (0..sweep.points.len()).filter_map(|point| outcome.factorizations(point));
     let of_points: Vec<usize> = of_points.collect();
@@ -435,7 +436,7 @@ fn shared(sweep: &Sweep, outcome: &Outcome<'_>) -> String {
     }
 }
 
-/// How the program ends.
+/// Returns the error with which the program ends, if any.
 fn ending(sweep: &Sweep) -> Result<()> {
     let total = sweep.points.len();
     if interrupt::requested() {

@@ -1,29 +1,29 @@
-//! Tables of text: aligned columns, no wider than a page, long text wrapped, more columns than a
-//! page holds as one table below the other.
+//! Tables of text: aligned columns, no wider than a page, with long text wrapped. If there are more
+//! columns than a page holds, the table is split into blocks, one below the other.
 
 use crate::text::shown_in_line;
 use std::io;
 use terminal_size::{Width, terminal_size_of};
 
-/// Columns of a page where there is no terminal.
+/// Width of a page in columns if there is no terminal.
 const WIDTH: usize = 110;
-/// A page is no narrower, and no wider: longer lines are not easily read.
+/// Smallest and largest width of a page: longer lines are hard to read.
 const WIDTHS: [usize; 2] = [40, 160];
 const INDENT: usize = 2;
 const GAP: usize = 2;
-/// Least width to which a text column is squeezed.
+/// Smallest width to which a text column is squeezed.
 const LEAST: usize = 10;
 
-/// How a column is set.
+/// Alignment of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Column {
-    /// Flush left; wrapped where the page is too narrow.
+    /// Aligned to the left; wrapped if the page is too narrow.
     Text,
-    /// Flush right, for numbers.
+    /// Aligned to the right, for numbers.
     Number,
 }
 
-/// Columns of a page: as many as the terminal has that standard output is.
+/// Returns the width of a page, which is that of the terminal to which standard output goes.
 pub(super) fn page_width() -> usize {
     let columns = terminal_size_of(io::stdout()).map(|(Width(columns), _)| usize::from(columns));
     columns.map_or(WIDTH, |columns| columns.clamp(WIDTHS[0], WIDTHS[1]))
@@ -44,8 +44,8 @@ impl Table {
         }
     }
 
-    /// Adds a row, a line of text to a cell; missing cells are empty, cells beyond the last column
-    /// are dropped.
+    /// Adds a row. A cell is one line of text; missing cells are empty, cells beyond the last
+    /// column are dropped.
     pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         let in_line = |cell: String| shown_in_line(&cell).into_owned();
         let mut cells: Vec<String> = cells.into_iter().map(in_line).collect();
@@ -53,7 +53,8 @@ impl Table {
         self.rows.push(cells);
     }
 
-    /// The lines, each ended by a line break and no longer than a page, unless one column is wider.
+    /// Returns the table as text, each line ended by a line break and no longer than a page, unless
+    /// one column is wider.
     pub fn render(&self, page: usize) -> String {
         let widths = self.widths(page);
         let blocks = blocks(&widths, page);
@@ -61,11 +62,12 @@ impl Table {
         rendered.join("\n")
     }
 
-    /// Some of the columns.
+    /// Returns the text of some of the columns.
     fn block(&self, columns: &[usize], widths: &[usize]) -> String {
         let mut text = String::new();
         let heading: Vec<String> = self.columns.iter().map(|(_, h)| h.to_string()).collect();
-        // Headings of one line stand next to the values, not above the others.
+        // Headings of one line stand directly above the values, level with the last lines of other
+        // headings.
         let lines = |h: &String| h.lines().count().max(1);
         let height = columns.iter().map(|&c| lines(&heading[c])).max();
         let low = |h: &String| "\n".repeat(height.unwrap_or(1).saturating_sub(lines(h))) + h;
@@ -80,7 +82,8 @@ impl Table {
         text
     }
 
-    /// Natural widths; where they exceed the page, the widest text columns give way.
+    /// Returns the widths of the columns: natural widths; if they exceed the page, the widest text
+    /// columns are narrowed.
     fn widths(&self, page: usize) -> Vec<usize> {
         let mut widths: Vec<usize> = (0..self.columns.len())
             .map(|c| {
@@ -129,7 +132,7 @@ impl Table {
     }
 }
 
-/// The columns that fit a page, one block after the other, the first column in each.
+/// Splits the columns into blocks that fit a page, with the first column in each block.
 fn blocks(widths: &[usize], page: usize) -> Vec<Vec<usize>> {
     let Some(first) = widths.first() else {
         return Vec::new();
@@ -152,7 +155,7 @@ fn length(text: &str) -> usize {
     text.chars().count()
 }
 
-/// Lines of at most `width` characters, broken between words; a word longer than that is cut.
+/// Wraps text to lines of at most `width` characters, broken between words; a longer word is cut.
 pub(super) fn wrap(text: &str, width: usize) -> Vec<String> {
     let width = width.max(1);
     let mut lines = Vec::new();

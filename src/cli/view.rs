@@ -1,4 +1,5 @@
-//! `brinell view`: the report of a result directory made anew, or its main figures in the terminal.
+//! `brinell view`: writes the report of a result directory again, or plots its main figures in the
+//! terminal.
 
 use super::report::states_table;
 use super::table::{page_width, wrap};
@@ -12,7 +13,7 @@ use crate::space::Space;
 use clap::Args;
 use std::path::PathBuf;
 
-/// What `brinell view` takes.
+/// Arguments of `brinell view`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   brinell view data/scenes/cylinder_on_half_plane.out
@@ -22,14 +23,14 @@ pub(super) struct ViewArguments {
     /// A directory that `brinell run` wrote
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
-    /// Print the main plots instead; writes nothing
+    /// Print the main plots instead; writes no files
     #[arg(long)]
     pub terminal: bool,
     /// Write the stresses below the middle of the contact to a CSV file instead: a row for each
     /// state with fields and each node on the line x = 0 (in solids x = y = 0)
     #[arg(long, value_name = "FILE", conflicts_with = "terminal")]
     pub below: Option<PathBuf>,
-    /// Columns of tables and plots; by default those of the terminal, 110 at most
+    /// Columns of tables and plots; by default those of the terminal, at most 110
     #[arg(
         long,
         value_name = "N",
@@ -39,7 +40,7 @@ pub(super) struct ViewArguments {
     pub width: Option<u16>,
 }
 
-/// Makes the report anew from what the directory holds, or prints the plots.
+/// Writes the report again from the contents of the directory, or prints the plots.
 pub(super) fn run(arguments: &ViewArguments) -> Result<()> {
     if let Some(why) = output::stale(&arguments.dir) {
         warn(&why);
@@ -54,7 +55,7 @@ pub(super) fn run(arguments: &ViewArguments) -> Result<()> {
     print(&format!("{}\n", page.display()))
 }
 
-/// Prints what a result directory holds, as far as a terminal shows it.
+/// Prints the contents of a result directory, as far as a terminal can show them.
 fn terminal(arguments: &ViewArguments) -> Result<()> {
     let dir = &arguments.dir;
     let summary = rows::summary(&dir.join("summary.json"))?;
@@ -65,7 +66,7 @@ fn terminal(arguments: &ViewArguments) -> Result<()> {
         .map_or_else(|| page_width().min(WIDEST), usize::from);
     let mut text = wrapped(&summary.scene, columns);
     text.push_str(&headlines(&summary.results(&[]), &labels, space, columns));
-    // Where a displacement is prescribed without contact the history has no load.
+    // With a prescribed displacement without contact the history has no load.
     let (against, load): (_, fn(&HistoryRow) -> f64) =
         match history.iter().any(|row| row.load.is_finite()) {
             true => (labelled("load", labels.load()), |row| row.load),
@@ -88,7 +89,7 @@ fn terminal(arguments: &ViewArguments) -> Result<()> {
     print(&text)
 }
 
-/// Lines of at most so many columns.
+/// Wraps a text to lines of at most `columns` characters.
 fn wrapped(text: &str, columns: usize) -> String {
     wrap(text, columns).join("\n") + "\n"
 }
@@ -123,12 +124,12 @@ fn headlines(results: &Results, labels: &Labels, space: Space, columns: usize) -
     text
 }
 
-/// A plot in a wide terminal has no more columns.
+/// Largest width of a plot in a wide terminal.
 const WIDEST: usize = 110;
-/// Lines of a plot without axes.
+/// Number of lines of a plot without axes.
 const LINES: usize = 12;
 
-/// Points joined by lines, with 2 x 4 dots in each character (Unicode braille).
+/// Plots points joined by lines, with 2 x 4 dots in each character (Unicode braille).
 fn plot(points: &[[f64; 2]], columns: usize) -> String {
     let largest = |k: usize| {
         let finite = points.iter().map(|p| p[k]).filter(|v| v.is_finite());
@@ -144,7 +145,7 @@ fn plot(points: &[[f64; 2]], columns: usize) -> String {
         }
         let right = ((x * (2 * width - 1) as f64).round() as usize).min(2 * width - 1);
         let down = ((1.0 - y.min(1.0)) * (4 * LINES - 1) as f64).round() as usize;
-        // Dots 1 2 3 7 of a braille character run down its left, 4 5 6 8 down its right.
+        // In a braille character dots 1 2 3 7 run down the left, dots 4 5 6 8 down the right.
         const BITS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
         cells[down / 4 * width + right / 2] |= BITS[down % 4][right % 2];
     };

@@ -1,4 +1,4 @@
-//! What the bodies of a contact are made of.
+//! Materials of the bodies of a contact.
 
 use crate::analytical::HertzContact;
 use crate::cli::materials::of_list;
@@ -7,10 +7,11 @@ use crate::error::{Error, Result};
 use crate::scene::Units;
 use clap::Args;
 
-/// The materials of both bodies; what is not given of the second is that of the first.
+/// The materials of both bodies; values that are not given for the second body are those of the
+/// first.
 #[derive(Debug, Args)]
 pub(super) struct Materials {
-    /// Material of both bodies, of the list that `brinell materials` prints
+    /// Material of both bodies, from the list that `brinell materials` prints
     #[arg(
         long,
         value_name = "NAME",
@@ -29,10 +30,10 @@ pub(super) struct Materials {
         allow_negative_numbers = true
     )]
     poissons_ratio: f64,
-    /// Yield stress of both bodies; without it, and without one of the list, nothing yields
+    /// Yield stress of both bodies; without it, and without a material of the list, nothing yields
     #[arg(long, value_name = "Y", value_parser = positive, allow_negative_numbers = true)]
     yield_stress: Option<f64>,
-    /// Material of the second body, of the list
+    /// Material of the second body, from the list
     #[arg(
         long,
         value_name = "NAME",
@@ -50,7 +51,7 @@ pub(super) struct Materials {
     second_yield_stress: Option<f64>,
 }
 
-/// Young's modulus, infinite for `rigid`.
+/// Reads Young's modulus, infinite for `rigid`.
 fn modulus(text: &str) -> std::result::Result<f64, String> {
     match text {
         "rigid" => Ok(f64::INFINITY),
@@ -58,18 +59,18 @@ fn modulus(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
-/// A body: its shape at the contact and what it is made of.
+/// A body: its shape at the contact and its material.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Body {
     /// Principal radii.
     pub radii: [f64; 2],
     /// Name in the list of materials.
     pub material: Option<String>,
-    /// Young's modulus; infinite if it is rigid.
+    /// Young's modulus; infinite if the body is rigid.
     pub youngs_modulus: f64,
     /// Poisson's ratio.
     pub poissons_ratio: f64,
-    /// Yield stress, where it can yield.
+    /// Yield stress, if the body can yield.
     pub yield_stress: Option<f64>,
 }
 
@@ -79,12 +80,12 @@ impl Body {
         self.youngs_modulus.is_infinite()
     }
 
-    /// Young's modulus and Poisson's ratio.
+    /// Returns Young's modulus and Poisson's ratio.
     pub fn elastic(&self) -> [f64; 2] {
         [self.youngs_modulus, self.poissons_ratio]
     }
 
-    /// Load at its first yield, where it can.
+    /// Returns the load at the first yield of the body, if it can yield.
     pub fn yield_load(&self, contact: &HertzContact) -> Option<f64> {
         let stress = self.yield_stress.filter(|_| !self.is_rigid())?;
         Some(contact.yield_load(self.poissons_ratio, stress))
@@ -106,7 +107,7 @@ impl Body {
 }
 
 impl Materials {
-    /// Both bodies, with their radii.
+    /// Returns both bodies, with their radii.
     pub fn bodies(&self, units: &Units, radii: [[f64; 2]; 2]) -> Result<[Body; 2]> {
         let mut first = match (&self.material, self.youngs_modulus) {
             (Some(name), _) => Body::of_list(name, units, radii[0], "--material")?,
@@ -134,7 +135,7 @@ impl Materials {
         Ok([first, second])
     }
 
-    /// The first body's material with what is given of the second's elasticity.
+    /// Returns the first body's material with the elastic constants that are given for the second.
     fn changed(&self, first: &Body, radii: [f64; 2]) -> Body {
         let mut second = Body {
             radii,

@@ -24,7 +24,7 @@ impl FromStr for Radii {
     }
 }
 
-/// A radius; flat may be written as 0 too, as in scenes.
+/// Reads a radius; a flat body may also be given as 0, as in scenes.
 fn radius(word: &str) -> Option<f64> {
     match word {
         "flat" => Some(f64::INFINITY),

@@ -1,4 +1,4 @@
-//! The figures of a contact.
+//! The figures of a Hertz contact.
 
 use super::bodies::Body;
 use crate::analytical::{HertzContact, HertzLine, Peak, RelativeRadii};
@@ -6,13 +6,13 @@ use crate::scene::Units;
 use serde::Serialize;
 use std::f64::consts::PI;
 
-/// What the figures are asked for.
+/// A contact whose figures are asked for.
 pub(super) struct AskedContact {
     pub contact: HertzContact,
     pub relative: RelativeRadii,
     /// Contact modulus.
     pub modulus: f64,
-    /// Load, of a line per length.
+    /// Load; per length in a line contact.
     pub load: f64,
     pub length: Option<f64>,
     pub depth: Option<f64>,
@@ -20,8 +20,8 @@ pub(super) struct AskedContact {
     pub units: Units,
 }
 
-/// All figures, as `--json` prints them. What does not exist, as the larger half axis of a line, is
-/// `null`.
+/// All figures, as `--json` prints them. A figure that does not exist, such as the larger half axis
+/// of a line, is `null`.
 #[derive(Debug, Serialize)]
 pub(super) struct Sheet {
     /// Version of the program.
@@ -34,16 +34,16 @@ pub(super) struct Sheet {
     /// Degrees from the first principal plane of the first body to the larger half axis.
     pub direction: f64,
     pub contact_modulus: f64,
-    /// Load; of a line per length.
+    /// Load; per length in a line contact.
     pub load: f64,
-    /// Length of a line, and the load over it.
+    /// Length of a line contact, and the load over that length.
     pub length: Option<f64>,
     pub total_load: Option<f64>,
     pub max_pressure: f64,
     pub mean_pressure: f64,
     /// Larger and smaller half axis.
     pub semi_axes: [Option<f64>; 2],
-    /// Area of the contact; none of a line without length.
+    /// Area of the contact; none for a line without a length.
     pub area: Option<f64>,
     pub approach: Option<f64>,
     /// Slope of the load over the approach.
@@ -66,33 +66,33 @@ pub(super) struct PeakSheet {
     pub depth: f64,
 }
 
-/// A body, and the stresses below the middle of the contact in it.
+/// A body, and the stresses in it below the middle of the contact.
 #[derive(Debug, Serialize)]
 pub(super) struct BodySheet {
     pub name: &'static str,
     /// Principal radii; `null` is flat.
     pub radii: [Option<f64>; 2],
     pub material: Option<String>,
-    /// `null` is rigid.
+    /// Young's modulus; `null` is rigid.
     pub youngs_modulus: Option<f64>,
     pub poissons_ratio: f64,
     pub yield_stress: Option<f64>,
     pub largest_shear: Option<PeakSheet>,
     pub largest_von_mises: Option<PeakSheet>,
-    /// First yield of the body, where it can yield.
+    /// First yield of the body, if it can yield.
     pub first_yield: Option<FirstYield>,
 }
 
-/// The contact at first yield of a body, after von Mises.
+/// The contact at the first yield of a body, by von Mises' criterion.
 #[derive(Debug, Serialize)]
 pub(super) struct FirstYield {
-    /// Load; of a line per length.
+    /// Load; per length in a line contact.
     pub load: f64,
     pub max_pressure: f64,
     pub depth: f64,
 }
 
-/// The number, where it is finite.
+/// Returns the number if it is finite.
 fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
@@ -156,7 +156,7 @@ impl AskedContact {
     fn body(&self, name: &'static str, index: usize) -> BodySheet {
         let (contact, body) = (&self.contact, &self.bodies[index]);
         let poisson = body.poissons_ratio;
-        // Of a rigid body nothing but the pressure is known.
+        // For a rigid body only the pressure is known.
         let inside = |peak: Peak| (!body.is_rigid()).then(|| peak.into());
         BodySheet {
             name,
@@ -175,8 +175,8 @@ impl AskedContact {
         }
     }
 
-    /// Approach of points far from a point contact; of a line what both bodies are compressed by,
-    /// where that is known of both.
+    /// Returns the approach of points far from a point contact; for a line contact the compression
+    /// of both bodies, if it is known for both.
     fn approach(&self) -> Option<f64> {
         match &self.contact {
             HertzContact::Ellipse(ellipse) => Some(ellipse.approach(self.load)),
@@ -187,8 +187,8 @@ impl AskedContact {
         }
     }
 
-    /// From the contact to the axis of a cylinder, or to the reference depth of a flat body; none
-    /// of a hollow one.
+    /// Returns the compression from the contact to the axis of a cylinder, or to the reference
+    /// depth of a flat body; none for a hollow one.
     fn compression(&self, line: &HertzLine, body: &Body) -> Option<f64> {
         let [young, poisson] = body.elastic();
         let curved = body.radii.into_iter().find(|radius| radius.is_finite());

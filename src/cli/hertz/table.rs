@@ -4,10 +4,11 @@ use super::sheet::{BodySheet, PeakSheet, Sheet};
 use crate::cli::table::{Column, Table, page_width, wrap};
 use crate::number::{exact, significant, trimmed};
 
-/// Significant digits: more than any measured modulus has.
+/// Number of significant digits printed: more than any measured modulus has.
 const DIGITS: usize = 6;
 
-/// Both bodies, the contact, the stresses below it, and what they mean.
+/// Returns the tables of both bodies, the contact and the stresses below it, with notes on their
+/// meaning.
 pub(super) fn text(sheet: &Sheet) -> String {
     let page = page_width();
     let title = match sheet.contact {
@@ -67,7 +68,7 @@ impl FigureTable<'_> {
         ]);
     }
 
-    /// A stress, and the depth at which it is.
+    /// Adds a stress and the depth at which it occurs.
     fn peak(&mut self, name: &str, peak: &PeakSheet, source: &str) {
         let units = &self.sheet.units;
         self.add(name, peak.stress, &units.stress, source);
@@ -177,7 +178,7 @@ fn load_unit(sheet: &Sheet) -> String {
     }
 }
 
-/// The bodies with their names; a single entry where the same stresses arise in both.
+/// Returns the bodies with their names; a single entry if the same stresses arise in both.
 fn distinct(sheet: &Sheet) -> Vec<(&'static str, &BodySheet)> {
     let [first, second] = &sheet.bodies;
     let inside = |body: &BodySheet| {
@@ -225,7 +226,7 @@ fn notes(sheet: &Sheet) -> Vec<String> {
     let mut notes = Vec::new();
     for (whose, body) in distinct(sheet) {
         let first = body.first_yield.as_ref();
-        // Beyond the round-off of a load that was found from the yield stress.
+        // The tolerance is the round-off of a load that was found from the yield stress.
         if let Some(first) = first.filter(|first| sheet.load > first.load * (1.0 + 1e-9)) {
             notes.push(format!(
                 "Yield of {whose} from {} {} on: beyond it these figures are of elastic bodies, \

@@ -1,10 +1,10 @@
-//! What a new scene asks of its bodies.
+//! The loads and the program of a new scene.
 
-/// The load, what the head of the scene states about it, and what the program goes through.
+/// The load, the comment on it at the head of the scene, and the load program.
 pub(super) struct Asked {
-    /// Comment lines of the head.
+    /// Comment lines at the head of the scene.
     pub about: String,
-    /// Load whose load factor is 1.
+    /// Load at load factor 1.
     pub load: f64,
     /// The program, with its comments.
     pub program: String,

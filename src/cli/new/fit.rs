@@ -19,10 +19,10 @@ const RADIUS: f64 = 50.0;
 pub(in crate::cli) struct Fit {
     #[command(flatten)]
     pub size: Size,
-    /// Outer radius of the ring [mm]; by default twice the bore's, with clearance ten times
+    /// Outer radius of the ring [mm]; by default twice that of the bore, with clearance ten times
     #[arg(long, value_name = "B", value_parser = positive, allow_negative_numbers = true)]
     pub outer_radius: Option<f64>,
-    /// How much larger the shaft's radius is than the bore's [mm]; by default 0.05
+    /// Excess of the shaft's radius over the bore's [mm]; by default 0.05
     #[arg(
         long,
         value_name = "D",
@@ -30,7 +30,7 @@ pub(in crate::cli) struct Fit {
         allow_negative_numbers = true
     )]
     pub interference: Option<f64>,
-    /// How much smaller the shaft's radius is than the bore's [mm]
+    /// Excess of the bore's radius over the shaft's [mm]
     #[arg(
         long,
         value_name = "C",
@@ -39,8 +39,8 @@ pub(in crate::cli) struct Fit {
         conflicts_with = "interference"
     )]
     pub clearance: Option<f64>,
-    /// With clearance the load on the shaft [N/mm]; by default that of a contact of 30 degrees to
-    /// either side
+    /// Load on the shaft, only with clearance [N/mm]; by default the load of a contact of 30
+    /// degrees to either side
     #[arg(
         long,
         value_name = "P",
@@ -58,7 +58,7 @@ pub(in crate::cli) struct Fit {
     pub second: Second,
 }
 
-/// A positive interference.
+/// Reads a positive interference.
 fn interference(text: &str) -> std::result::Result<f64, String> {
     match text.parse::<f64>() {
         Ok(below) if below < 0.0 => Err(format!(
@@ -69,10 +69,10 @@ fn interference(text: &str) -> std::result::Result<f64, String> {
     }
 }
 
-/// Interference where none is given, on the default radius.
+/// Default interference, on the default radius.
 const INTERFERENCE: f64 = 0.05;
 
-/// Text of the scene.
+/// Returns the text of the scene.
 pub(super) fn scene(fit: &Fit) -> Result<String> {
     let radius = fit.size.radius_or(RADIUS);
     let made = fit.second.both(&fit.first)?;
@@ -147,13 +147,13 @@ targets = [{{ name = \"fitted\", load_factor = 0.0 }}]
     ))
 }
 
-/// Half of the arc on which the default load presses the shaft.
+/// Half of the arc over which the default load presses the shaft.
 const ARC: f64 = 30.0;
 
 fn loose(fit: &Fit, radius: f64, clearance: f64, made: &[Made; 2]) -> Result<String> {
     let outer = fit.outer_radius.unwrap_or(10.0 * radius);
     let shaft = made[0].clone().kept_elastic();
-    // Plane stress: E* with E alone.
+    // In plane stress E* depends on E alone.
     let [[e1, _], [e2, _]] = [made[0].elastic(), made[1].elastic()];
     let pin = PinInHole::new(radius, clearance, contact_modulus(e1, 0.0, e2, 0.0))?;
     let load = match fit.load {
@@ -228,7 +228,7 @@ targets = [
         outer = toml(outer),
         n = 2 * fit.resolution,
         rings = fit.resolution,
-        // Elements that are as thick as they are long, at the bore and at the outer circle.
+        // This bias makes elements as thick as they are long, at the bore and at the outer circle.
         bias = toml(outer / radius),
         clearance = toml(clearance),
         total = toml(-load),

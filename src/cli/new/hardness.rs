@@ -1,4 +1,4 @@
-//! The scene of a hardness test: a ball goes into a flat and is let go.
+//! The scene of a hardness test: a ball is pressed into a flat and unloaded.
 
 use super::materials::{First, Made};
 use super::pressed::{OnFlat, RESOLUTION};
@@ -11,14 +11,14 @@ use clap::Args;
 
 /// Radius of the ball [mm].
 const RADIUS: f64 = 5.0;
-/// Young's modulus of a rigid ball over that of the flat: it yields a thousandth.
+/// Young's modulus of a rigid ball over that of the flat: the ball deforms a thousandth as much.
 const RIGID: f64 = 1e3;
 
 const AFTER_HELP: &str = "\
 Example: brinell new hardness --diameter 10 --load 3000 --yield-stress 500 --out test.toml && \
 brinell run test.toml && brinell hardness test.out";
 
-/// A ball on a flat, by load or by depth.
+/// A ball on a flat, loaded to a load or to a depth.
 #[derive(Debug, Args)]
 #[command(after_help = AFTER_HELP)]
 pub(in crate::cli) struct Hardness {
@@ -26,8 +26,8 @@ pub(in crate::cli) struct Hardness {
     pub size: Size,
     #[command(flatten)]
     pub until: Until,
-    /// Young's modulus of the ball, which does not yield [MPa]; without it the ball is as good as
-    /// rigid: a thousand times the modulus of the flat
+    /// Young's modulus of the ball, which does not yield [MPa]; by default a thousand times the
+    /// modulus of the flat, so that the ball is practically rigid
     #[arg(long, value_name = "E", value_parser = positive, allow_negative_numbers = true)]
     pub ball_modulus: Option<f64>,
     /// Poisson's ratio of the ball
@@ -39,14 +39,14 @@ pub(in crate::cli) struct Hardness {
         allow_negative_numbers = true
     )]
     pub ball_poissons_ratio: f64,
-    /// Elements over the contact radius, at first yield and at any larger contact at least
+    /// Elements over the contact radius, at first yield and at least at any larger contact
     #[arg(long, value_name = "N", default_value_t = RESOLUTION)]
     pub resolution: usize,
     #[command(flatten)]
     pub flat: First,
 }
 
-/// How far the ball goes in.
+/// The end of the indentation: a load or a depth.
 #[derive(Debug, Args)]
 #[group(required = true, multiple = false)]
 pub(in crate::cli) struct Until {
@@ -58,7 +58,7 @@ pub(in crate::cli) struct Until {
     pub depth: Option<f64>,
 }
 
-/// Text of the scene.
+/// Returns the text of the scene.
 pub(super) fn scene(test: &Hardness) -> Result<String> {
     let radius = test.size.radius_or(RADIUS);
     let flat = test.flat.made()?;
@@ -72,7 +72,7 @@ pub(super) fn scene(test: &Hardness) -> Result<String> {
     let hertz = HertzPoint::new(radius, contact)?;
     let first = weaker(&made, |nu, y| hertz.yield_load(nu, y));
     let depth = test.until.depth.map(|depth| depth * radius);
-    // What an elastic flat would bear at a depth is more than any other bears.
+    // At a given depth an elastic flat bears more than any yielding one.
     let load = match (test.until.load, depth) {
         (Some(load), _) => load,
         (None, depth) => hertz.load_for_approach(depth.unwrap_or(radius)),
@@ -89,7 +89,7 @@ pub(super) fn scene(test: &Hardness) -> Result<String> {
         }
         None => "",
     };
-    // An elastic contact is the smallest of all.
+    // An elastic contact is smaller than any elastic-plastic one.
     let far = match hertz.contact_radius(load) > SMALL * radius {
         true => {
             "# Even an elastic contact is wider than 0.2 of the ball's radius here: beyond what \

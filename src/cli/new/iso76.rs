@@ -1,6 +1,7 @@
 //! The scene of ISO 76's question: which load leaves a dent of a ten-thousandth of the rolling
-//! element's diameter? Beside it stand the loads at which elastic bodies reach the contact stresses
-//! that the standard rates by; they are told, and the one of the bearing at hand is load factor 1.
+//! element's diameter? The scene also states the loads at which elastic bodies reach the contact
+//! stresses by which the standard rates bearings; the load for the bearing at hand has load factor
+//! 1.
 
 use super::materials::{First, Made, Second};
 use super::pressed::{self, OnFlat};
@@ -18,7 +19,7 @@ use clap::Args;
 /// # Source
 /// ISO 76:2006, notes on the basic static load ratings in clause 3.
 const DIAMETER_OVER_DENT: f64 = 1e4;
-/// Contact stress in the middle of the most heavily loaded contact [MPa], and of which bearings.
+/// Contact stress in the middle of the most heavily loaded contact [MPa], and the kind of bearing.
 ///
 /// # Source
 /// ISO 76:2006, clause 3: definitions of the basic static radial and axial load rating.
@@ -72,8 +73,8 @@ pub(in crate::cli) struct StaticLoad {
         conflicts_with_all = ["length", "profile", "design_load"]
     )]
     pub crown: Option<f64>,
-    /// Length of a roller [mm], whose ends and profile are in the scene (three dimensions, loads in
-    /// N)
+    /// Length of a roller [mm]; the scene then has its ends and its profile (three dimensions,
+    /// loads in N)
     #[arg(
         long,
         value_name = "L",
@@ -85,7 +86,7 @@ pub(in crate::cli) struct StaticLoad {
     /// Profile of a roller of finite length
     #[arg(long, value_enum, requires = "length", default_value_t)]
     pub profile: Profile,
-    /// Load for which a logarithmic profile is made [N]; by default that of 4000 MPa
+    /// Load for which a logarithmic profile is made [N]; by default the load of 4000 MPa
     #[arg(
         long,
         value_name = "P",
@@ -94,7 +95,7 @@ pub(in crate::cli) struct StaticLoad {
         requires = "length"
     )]
     pub design_load: Option<f64>,
-    /// Of a self-aligning ball bearing, which ISO 76 rates at 4600 MPa
+    /// Rate the bearing as a self-aligning ball bearing, for which ISO 76 has 4600 MPa
     #[arg(long)]
     pub self_aligning: bool,
     /// Elements over the contact half width, in a groove over the smaller half axis, at first
@@ -107,7 +108,7 @@ pub(in crate::cli) struct StaticLoad {
     pub second: Second,
 }
 
-/// The scene, and the loads of the standard's stresses.
+/// Returns the scene, with the loads of the standard's stresses.
 pub(super) fn scene(given: &StaticLoad) -> Result<Started> {
     if !given.first.yields_as_given() {
         return Err(Error::input(
@@ -145,7 +146,7 @@ pub(super) fn scene(given: &StaticLoad) -> Result<Started> {
 }
 
 impl StaticLoad {
-    /// The stress that the standard rates this bearing by.
+    /// Returns the stress by which the standard rates this bearing.
     fn rated(&self) -> Rated {
         match (self.roller, self.self_aligning) {
             (true, _) => ROLLERS,
@@ -154,13 +155,13 @@ impl StaticLoad {
         }
     }
 
-    /// What loads per length of the closed forms are multiplied by: the length of a roller whose
-    /// ends are in the scene.
+    /// Returns the factor for the loads per length of the closed forms: the length of a roller
+    /// whose ends are in the scene, else 1.
     fn length(&self) -> f64 {
         self.length.unwrap_or(1.0)
     }
 
-    /// The race's radii across and along.
+    /// Returns the race's radii across and along.
     fn race(&self) -> [f64; 2] {
         let across = self.groove.map_or(f64::INFINITY, |groove| -groove);
         [across, self.race.unwrap_or(f64::INFINITY)]
@@ -178,7 +179,8 @@ impl StaticLoad {
 
     fn text(&self, radius: f64, made: &[Made; 2], contact: &HertzContact, asked: &Asked) -> String {
         let is_flat = self.groove.is_none() && self.race.is_none();
-        // A roller on a curved race has the gap of one with the relative radius on a flat.
+        // A roller on a curved race has the same gap as a roller with the relative radius on a
+        // flat.
         let relative = self
             .race
             .map_or(radius, |race| 1.0 / (1.0 / radius + 1.0 / race));
@@ -234,18 +236,18 @@ impl StaticLoad {
     }
 }
 
-/// What elastic bodies say of the loads.
+/// The loads of elastic bodies by Hertz.
 struct ElasticLoads<'g> {
     given: &'g StaticLoad,
     contact: HertzContact,
-    /// Load of first yield.
+    /// Load at first yield.
     first: f64,
     /// Poisson's ratio of the rolling element.
     poisson: f64,
 }
 
 impl ElasticLoads<'_> {
-    /// The loads by Hertz, line by line.
+    /// Returns the loads by Hertz as comment lines.
     fn about(&self) -> String {
         let is_plane =
             self.given.roller && self.given.crown.is_none() && self.given.length.is_none();
@@ -282,7 +284,7 @@ impl ElasticLoads<'_> {
 }
 
 impl ElasticLoads<'_> {
-    /// The largest shear stresses below the contact under the load that is load factor 1.
+    /// Describes the largest shear stresses below the contact under the load at load factor 1.
     fn below(&self) -> String {
         let (stress, _) = self.given.rated();
         let load = self.contact.load_for_max_pressure(stress);

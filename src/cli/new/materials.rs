@@ -1,4 +1,4 @@
-//! What the bodies of a new scene are made of.
+//! Materials of the bodies of a new scene.
 
 use super::{not_negative, poissons_ratio, positive, toml};
 use crate::cli::materials::of_list;
@@ -8,18 +8,18 @@ use crate::scene::{Material, Units};
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
-/// Young's modulus where none is given [MPa].
+/// Default Young's modulus [MPa].
 const YOUNGS_MODULUS: f64 = 210_000.0;
 const POISSONS_RATIO: f64 = 0.3;
-/// Yield stress where none is given [MPa].
+/// Default yield stress [MPa].
 const YIELD_STRESS: f64 = 500.0;
-/// Plastic modulus where none is given [MPa].
+/// Default plastic modulus [MPa].
 const PLASTIC_MODULUS: f64 = 2000.0;
 
 /// The material of both bodies, or of the first.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct First {
-    /// A material of the list that `brinell materials` prints
+    /// A material from the list that `brinell materials` prints
     #[arg(
         long,
         value_name = "NAME",
@@ -35,7 +35,7 @@ pub(in crate::cli) struct First {
     /// Poisson's ratio; by default 0.3
     #[arg(long, value_name = "NU", value_parser = poissons_ratio, allow_negative_numbers = true)]
     pub poissons_ratio: Option<f64>,
-    /// Yield stress [MPa]; by default 500 (`iso76` has none: the dent depends on it)
+    /// Yield stress [MPa]; by default 500 (`iso76` has no default, because the dent depends on it)
     #[arg(
         long,
         value_name = "Y",
@@ -60,10 +60,10 @@ pub(in crate::cli) struct First {
     pub tensile_test: Option<PathBuf>,
 }
 
-/// Where the second body is made of something else.
+/// Options for a second body of another material.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Second {
-    /// Material of the second body, of the list that `brinell materials` prints
+    /// Material of the second body, from the list that `brinell materials` prints
     #[arg(
         long,
         value_name = "NAME",
@@ -73,16 +73,16 @@ pub(in crate::cli) struct Second {
         ]
     )]
     pub second_material: Option<String>,
-    /// Young's modulus of the second body [MPa]; by default as the first
+    /// Young's modulus of the second body [MPa]; by default that of the first
     #[arg(long, value_name = "E", value_parser = positive, allow_negative_numbers = true)]
     pub second_youngs_modulus: Option<f64>,
-    /// Poisson's ratio of the second body; by default as the first
+    /// Poisson's ratio of the second body; by default that of the first
     #[arg(long, value_name = "NU", value_parser = poissons_ratio, allow_negative_numbers = true)]
     pub second_poissons_ratio: Option<f64>,
-    /// Yield stress of the second body [MPa]; by default as the first
+    /// Yield stress of the second body [MPa]; by default that of the first
     #[arg(long, value_name = "Y", value_parser = positive, allow_negative_numbers = true)]
     pub second_yield_stress: Option<f64>,
-    /// Plastic modulus of the second body [MPa]; by default as the first
+    /// Plastic modulus of the second body [MPa]; by default that of the first
     #[arg(long, value_name = "H", value_parser = not_negative, allow_negative_numbers = true)]
     pub second_plastic_modulus: Option<f64>,
     /// The body that does not yield, whatever its stress
@@ -93,27 +93,27 @@ pub(in crate::cli) struct Second {
 /// One of the two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Which {
-    /// The upper or inner one
+    /// The upper or inner body
     First,
-    /// The lower or outer one
+    /// The lower or outer body
     Second,
 }
 
-/// A material as a scene has it.
+/// A material in the form of a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Made {
     /// Name of the material in the scene.
     name: String,
-    /// Whether the material is in the list, so that the scene names it only.
+    /// Whether the material is in the list, so that the scene only names it.
     is_listed: bool,
     /// Moduli and yield stress in MPa.
     pub material: Material,
-    /// Whether the body may yield.
+    /// Whether the body is kept elastic.
     is_elastic: bool,
 }
 
 impl Made {
-    /// A body of its own elasticity that does not yield.
+    /// Creates a material with the given elastic constants for a body that does not yield.
     pub fn elastic_body(name: &str, youngs_modulus: f64, poissons_ratio: f64) -> Self {
         Made {
             name: name.to_string(),
@@ -127,14 +127,14 @@ impl Made {
         }
     }
 
-    /// The stress at which it first yields, where it may.
+    /// Returns the stress at which the body first yields, if it may yield.
     pub fn first_yield_stress(&self) -> Option<f64> {
         self.material
             .first_yield_stress()
             .filter(|_| !self.is_elastic)
     }
 
-    /// This material, of a body that does not yield.
+    /// Returns this material for a body that does not yield.
     pub fn kept_elastic(self) -> Self {
         Made {
             is_elastic: true,
@@ -142,7 +142,7 @@ impl Made {
         }
     }
 
-    /// Young's modulus and Poisson's ratio.
+    /// Returns Young's modulus and Poisson's ratio.
     pub fn elastic(&self) -> [f64; 2] {
         [self.material.youngs_modulus, self.material.poissons_ratio]
     }
@@ -155,7 +155,7 @@ impl First {
         curve || self.material.is_some() || self.yield_stress.is_some()
     }
 
-    /// The material of the first body.
+    /// Returns the material of the first body.
     pub(super) fn made(&self) -> Result<Made> {
         if let Some(name) = &self.material {
             return listed(name, "--material");
@@ -194,7 +194,7 @@ impl First {
 }
 
 impl Second {
-    /// The materials of both bodies.
+    /// Returns the materials of both bodies.
     pub(super) fn both(&self, first: &First) -> Result<[Made; 2]> {
         let mut first = first.made()?;
         let mut second = match &self.second_material {
@@ -206,7 +206,7 @@ impl Second {
         Ok([first, second])
     }
 
-    /// The first one's material with what is given of the second.
+    /// Returns the first body's material, changed by the values that are given for the second.
     fn changed(&self, first: &Made) -> Made {
         let mut made = first.clone();
         let material = &mut made.material;
@@ -216,7 +216,7 @@ impl Second {
         if let Some(ratio) = self.second_poissons_ratio {
             material.poissons_ratio = ratio;
         }
-        // A stress or a slope of its own stands for a law of its own.
+        // A yield stress or a slope for the second body replaces the whole hardening law.
         if self.second_yield_stress.is_some() || self.second_plastic_modulus.is_some() {
             let slope = first.material.plastic_modulus_resolved().unwrap_or(0.0);
             material.yield_stress = self.second_yield_stress.or(material.first_yield_stress());
@@ -233,7 +233,7 @@ impl Second {
     }
 }
 
-/// A material of the list, in N, mm and MPa.
+/// Returns a material of the list, in N, mm and MPa.
 fn listed(name: &str, flag: &str) -> Result<Made> {
     let listed = of_list(name).map_err(|error| error.within(flag))?;
     Ok(Made {
@@ -248,7 +248,7 @@ fn listed(name: &str, flag: &str) -> Result<Made> {
     })
 }
 
-/// Two numbers per line of a CSV file, whose first line may be a heading.
+/// Reads two numbers per line of a CSV file, whose first line may be a heading.
 fn table(path: &Path) -> Result<Vec<[f64; 2]>> {
     let text = files::read_text("read the table", path, Some(files::LARGEST_SCENE))?;
     let mut reader = csv::ReaderBuilder::new()
@@ -282,7 +282,7 @@ fn table(path: &Path) -> Result<Vec<[f64; 2]>> {
     }
 }
 
-/// The materials, and the bodies that are made of them.
+/// Returns the tables of the materials, and of the bodies that are made of them.
 pub(super) fn section(made: &[(&str, &Made)]) -> String {
     let mut text = String::new();
     let mut written: Vec<&str> = Vec::new();

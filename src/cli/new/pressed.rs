@@ -7,19 +7,21 @@ use crate::analytical::{HertzLine, HertzPoint, contact_modulus};
 use crate::error::Result;
 use clap::Args;
 
-/// Loads so many times that of first yield may take minutes: more and more of the material yields.
+/// Ratio to the load at first yield beyond which a run may take minutes: more and more of the
+/// material yields.
 const FAR: f64 = 6.0;
 
-/// Radius of a ball or a roller [mm].
+/// Default radius of a ball or a roller [mm].
 pub(super) const RADIUS: f64 = 10.0;
 
-/// Elements over the contact half width at first yield where nothing is said.
+/// Default number of elements over the contact half width at first yield.
 pub(super) const RESOLUTION: usize = 16;
 
 /// A ball on a flat.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Ball {
-    /// In three dimensions: what an axisymmetric model shows too, as a start for what it cannot
+    /// Make the scene in three dimensions: it shows what an axisymmetric model shows too, as a
+    /// start for other loads and shapes
     #[arg(long)]
     pub three_dimensional: bool,
     #[command(flatten)]
@@ -34,8 +36,8 @@ pub(in crate::cli) struct Pressed {
     /// Largest load [N; roller: N/mm]; by default three times the load at first yield
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub load: Option<f64>,
-    /// Elements over the contact half width at first yield, by default 16 (with fewer errors are
-    /// estimated on finer meshes, which costs more); in three dimensions 6
+    /// Elements over the contact half width at first yield, by default 16 (with fewer elements
+    /// errors are estimated on finer meshes, which costs more); in three dimensions 6
     #[arg(long, value_name = "N")]
     pub resolution: Option<usize>,
     #[command(flatten)]
@@ -44,7 +46,7 @@ pub(in crate::cli) struct Pressed {
     pub second: Second,
 }
 
-/// The scene of a ball or a roller on a flat.
+/// Returns the scene of a ball or a roller on a flat.
 pub(super) fn scene(pressed: &Pressed, ball: bool) -> Result<String> {
     let radius = pressed.size.radius_or(RADIUS);
     let made = pressed.second.both(&pressed.first)?;
@@ -96,7 +98,7 @@ targets = [
     }))
 }
 
-/// What the load of a round body on a flat is.
+/// Returns the unit of the load of a round body on a flat.
 pub(super) fn per(ball: bool) -> &'static str {
     match ball {
         true => "N over the full circle",
@@ -104,7 +106,7 @@ pub(super) fn per(ball: bool) -> &'static str {
     }
 }
 
-/// A ball or a roller on a flat, as a scene has it.
+/// A ball or a roller on a flat, as the scene describes it.
 pub(super) struct OnFlat<'m> {
     pub title: &'m str,
     /// Name of the round body.
@@ -114,13 +116,13 @@ pub(super) struct OnFlat<'m> {
     pub ball: bool,
     pub radius: f64,
     pub resolution: usize,
-    /// Half width that the mesh is made for, where nothing yields.
+    /// Half width that the mesh is made for, if nothing yields.
     pub half_width: Option<f64>,
     pub made: &'m [Made; 2],
 }
 
 impl OnFlat<'_> {
-    /// Text of the scene.
+    /// Returns the text of the scene.
     pub fn text(&self, asked: &Asked) -> String {
         let name = self.name;
         let kind = match self.ball {

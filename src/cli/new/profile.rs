@@ -6,18 +6,19 @@ use super::{Asked, HEAD, UNITS, toml};
 use clap::ValueEnum;
 use std::f64::consts::PI;
 
-/// Elements over the half width where nothing is said.
+/// Default number of elements over the half width.
 pub(super) const RESOLUTION: usize = 4;
-/// Size of the bodies across and in depth, and how far the race goes on beyond the roller, in half
-/// widths under the load that the mesh is made for.
+/// Size of the bodies across and in depth, and length of the race beyond the end of the roller, in
+/// half widths under the load that the mesh is made for.
 const SIZE: f64 = 30.0;
 const BEYOND: f64 = 15.0;
-/// Ratio of neighbouring elements, across and in depth.
+/// Ratio of the sizes of neighbouring elements, across and in depth.
 const GROWTH: f64 = 1.15;
-/// Elements along half of the roller, and the size of the first over that of the last, at its end.
+/// Number of elements along half of the roller, and the size of the first over that of the last,
+/// which is at the end.
 const ALONG: usize = 16;
 const FIRST_OVER_LAST: f64 = 8.0;
-/// Share of half width over half length that the drop at the end is taken off by.
+/// Factor of half width over half length by which the drop at the end is reduced.
 ///
 /// # Source
 /// P. M. Johns and R. Gohar, *Roller bearings under radial and eccentric loads*, Tribology
@@ -28,7 +29,7 @@ const AT_THE_END: f64 = 0.3033;
 /// The shape of a roller along its axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(in crate::cli) enum Profile {
-    /// That under which the pressure is even along the axis at the design load
+    /// The profile under which the pressure is even along the axis at the design load
     #[default]
     Logarithmic,
     /// A cylinder, with the peaks of pressure at its ends
@@ -37,11 +38,11 @@ pub(in crate::cli) enum Profile {
 
 /// A roller of finite length on a race.
 pub(super) struct Roller<'m> {
-    /// Radius whose curvature is the sum of roller's and race's.
+    /// Radius whose curvature is the sum of the curvatures of roller and race.
     pub radius: f64,
     pub length: f64,
     pub profile: Profile,
-    /// Load of the profile, all of the roller.
+    /// Load for which the profile is made, for the whole roller.
     pub design_load: f64,
     pub contact_modulus: f64,
     /// Half width under the load that the mesh is made for.
@@ -51,10 +52,10 @@ pub(super) struct Roller<'m> {
 }
 
 impl Roller<'_> {
-    /// Drop of the profile over the logarithm: a load `q` per length on a narrow strip of length
-    /// `l` presses a half space down by `q/(pi E*) ln(l^2/4 - x^2)` and a constant, and a roller
-    /// that lacks as much towards its ends presses evenly: `q/(pi E*) ln(1/(1 - (2 x/l)^2))`, both
-    /// bodies together.
+    /// Returns the factor of the logarithm in the drop of the profile. A load `q` per length on a
+    /// narrow strip of length `l` presses a half space down by `q/(pi E*) ln(l^2/4 - x^2)` and a
+    /// constant, and a roller that lacks as much towards its ends presses evenly:
+    /// `q/(pi E*) ln(1/(1 - (2 x/l)^2))`, for both bodies together.
     ///
     /// # Source
     /// G. Lundberg, *Elastische Beruehrung zweier Halbraeume*, Forschung auf dem Gebiete des
@@ -63,12 +64,12 @@ impl Roller<'_> {
         self.design_load / (PI * self.length * self.contact_modulus)
     }
 
-    /// Half width of a line contact under the design load: `b^2 = 4 q R/(pi E*)`.
+    /// Returns the half width of a line contact under the design load: `b^2 = 4 q R/(pi E*)`.
     fn design_half_width(&self) -> f64 {
         (4.0 * self.drop() * self.radius).sqrt()
     }
 
-    /// The gap of the unloaded bodies.
+    /// Returns the gap of the unloaded bodies as a formula.
     fn gap(&self) -> String {
         let round = format!("y^2/{}", toml(2.0 * self.radius));
         match self.profile {
@@ -85,11 +86,12 @@ impl Roller<'_> {
         }
     }
 
-    /// The two blocks.
+    /// Returns the mesh of the two blocks.
     fn mesh(&self) -> String {
         let b = self.half_width;
         let (size, half) = (SIZE * b, 0.5 * self.length);
-        // First element b/resolution, each next one larger, up to the size.
+        // The first element is b/resolution wide, each next one is larger, up to the size of the
+        // body.
         let sum = 1.0 + SIZE * self.resolution as f64 * (GROWTH - 1.0);
         let across = ((sum.ln() / GROWTH.ln()).round() as usize).max(4);
         let bias = GROWTH.powi(across as i32 - 1);
@@ -132,7 +134,7 @@ bias = [1.0, {bias}, {against}]
         )
     }
 
-    /// Text of the scene.
+    /// Returns the text of the scene.
     pub fn text(&self, asked: &Asked) -> String {
         format!(
             "{HEAD}#

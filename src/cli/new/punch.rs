@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::number::significant;
 use clap::Args;
 
-/// A punch.
+/// A flat punch on a block.
 #[derive(Debug, Args)]
 #[command(after_help = "Example: brinell new punch --half-width 2 --depth 0.05")]
 pub(in crate::cli) struct Punch {
@@ -19,7 +19,7 @@ pub(in crate::cli) struct Punch {
         allow_negative_numbers = true
     )]
     pub half_width: f64,
-    /// How deep it is pressed [mm]; by default a fiftieth of its half width
+    /// Depth to which the punch is pressed [mm]; by default a fiftieth of its half width
     #[arg(long, value_name = "D", value_parser = positive, allow_negative_numbers = true)]
     pub depth: Option<f64>,
     /// Elements over the half width
@@ -29,7 +29,7 @@ pub(in crate::cli) struct Punch {
     pub first: First,
 }
 
-/// Text of the scene.
+/// Returns the text of the scene.
 pub(super) fn scene(punch: &Punch) -> Result<String> {
     let a = punch.half_width;
     let depth = punch.depth.unwrap_or(0.02 * a);

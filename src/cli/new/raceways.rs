@@ -10,9 +10,10 @@ use crate::mesh::generate::raceways::Raceways;
 use crate::number::significant;
 use clap::Args;
 
-/// Radius of a roller [mm].
+/// Default radius of a roller [mm].
 const RADIUS: f64 = 5.0;
-/// Elements are even over so many half widths of the wider contact under the largest load.
+/// Range over which elements have equal size, in half widths of the wider contact under the largest
+/// load.
 const REACH: f64 = 1.3;
 
 /// A roller between the raceways of two rings.
@@ -23,7 +24,8 @@ pub(in crate::cli) struct Bearing {
     /// Radius of the inner raceway [mm]; by default four times the roller's
     #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     pub inner_radius: Option<f64>,
-    /// Radius of the outer raceway [mm]; by default the inner one's and the roller's diameter
+    /// Radius of the outer raceway [mm]; by default that of the inner one plus the roller's
+    /// diameter
     #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     pub outer_radius: Option<f64>,
     /// Thickness of the rings [mm]; by default the roller's radius
@@ -41,7 +43,7 @@ pub(in crate::cli) struct Bearing {
     pub second: Second,
 }
 
-/// The scene, whose mesh is the file `mesh`.
+/// Returns the scene, which reads its mesh from the file `mesh`.
 pub(super) fn scene(bearing: &Bearing, mesh: &str) -> Result<Started> {
     let roller = bearing.size.radius_or(RADIUS);
     let inner = bearing.inner_radius.unwrap_or(4.0 * roller);
@@ -49,8 +51,8 @@ pub(super) fn scene(bearing: &Bearing, mesh: &str) -> Result<Started> {
     let made = bearing.second.both(&bearing.first)?;
     let [[e1, nu1], [e2, nu2]] = [made[0].elastic(), made[1].elastic()];
     let modulus = contact_modulus(e1, nu1, e2, nu2);
-    // Curvatures of roller and raceway add up at the inner raceway; at the outer one the raceway's
-    // is subtracted.
+    // The curvatures of roller and raceway add up at the inner raceway; at the outer one the
+    // curvature of the raceway is subtracted.
     let at_inner = HertzLine::new(1.0 / (1.0 / roller + 1.0 / inner), modulus)?;
     let at_outer = HertzLine::new(1.0 / (1.0 / roller - 1.0 / outer), modulus)?;
     let yield_load = weaker(&made, |nu, y| at_inner.yield_load(nu, y));

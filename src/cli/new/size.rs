@@ -3,11 +3,11 @@
 use super::positive;
 use clap::Args;
 
-/// A radius, or none.
+/// A radius, if one is given.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Size {
-    /// Radius of the ball, the roller or the bore [mm]; by default 10 on a flat, 5 in a groove, of
-    /// `iso76` and of `hardness`, 50 of a bore
+    /// Radius of the ball, the roller or the bore [mm]; by default 10 on a flat, 5 in a groove and
+    /// for `iso76` and `hardness`, 50 for a bore
     #[arg(
         long,
         value_name = "R",
@@ -27,7 +27,7 @@ pub(in crate::cli) struct Size {
 }
 
 impl Size {
-    /// The radius, however it is given; the one `by_default` where none is.
+    /// Returns the radius, given as radius or diameter; `by_default` if neither is given.
     pub fn radius_or(&self, by_default: f64) -> f64 {
         let by_diameter = self.diameter.map(|diameter| 0.5 * diameter);
         self.radius.or(by_diameter).unwrap_or(by_default)

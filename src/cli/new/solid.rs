@@ -8,12 +8,12 @@ use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::Result;
 use clap::Args;
 
-/// Radius of a ball in a groove [mm].
+/// Default radius of a ball in a groove [mm].
 const BALL: f64 = 5.0;
-/// Elements over the smaller half axis where nothing is said: a run takes seconds.
+/// Default number of elements over the smaller half axis, with which a run takes seconds.
 pub(super) const RESOLUTION: usize = 6;
 
-/// Options that all solids have.
+/// Options that all solid scenes have.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Common {
     /// Largest load [N]; by default three times the load at first yield
@@ -89,7 +89,7 @@ pub(in crate::cli) struct Crossed {
     pub common: Common,
 }
 
-/// The two bodies: principal radii along x and y, and what the scene states about them.
+/// The two bodies: principal radii along x and y, and the comments of the scene on them.
 pub(super) struct Bodies {
     pub title: &'static str,
     pub names: [&'static str; 2],
@@ -177,7 +177,7 @@ targets = [
 }
 
 impl Bodies {
-    /// The scene; with the half axes that its mesh is made for where nothing yields.
+    /// Returns the scene; if nothing yields, with the half axes that its mesh is made for.
     pub fn text(
         &self,
         made: &[Made; 2],

@@ -7,8 +7,8 @@ use crate::output::stated_errors::StatedErrors;
 use crate::results::Accuracy;
 
 impl Report {
-    /// Stated errors relative to the largest size of each quantity, and the largest of each kind of
-    /// error below them.
+    /// Adds the stated errors relative to the largest size of each quantity, and below them the
+    /// largest of each kind of error.
     pub(super) fn accuracy(&mut self, accuracy: &Accuracy) {
         if let Some(stated) = StatedErrors::of(accuracy, &self.labels) {
             self.stated_errors(&stated);

@@ -1,10 +1,11 @@
-//! Where the bodies of a generated contact end: closed forms are of bodies without end.
+//! The size of the bodies of a generated contact, which closed forms assume to be infinite.
 
 use crate::mesh::generate::contact_size;
 use crate::number::significant;
 use crate::scene::Scene;
 
-/// A line on the size of the bodies, in units of the contact; `None` if no generator made them.
+/// Returns a line on the size of the bodies, in units of the contact; `None` if no generator made
+/// them.
 pub(super) fn in_words(scene: &Scene) -> Option<String> {
     let mesh = &scene.mesh;
     let solid = (mesh.curved_bodies.as_ref()).map(|p| (p.far_size, "half axes"));

@@ -1,4 +1,4 @@
-//! The printed summaries: what must be in them, and that they fit the page.
+//! The printed summaries: required content, and width of the page.
 
 use super::*;
 use crate::linalg::Backend;
@@ -163,7 +163,7 @@ fn an_effect_that_is_off_has_no_cost() {
     let cells: Vec<&str> = line.split_whitespace().collect();
     assert_eq!(cells[1], "off");
     assert_eq!(cells[cells.len() - 2..], ["-", "-"]);
-    // What nobody asks for takes no line of its own.
+    // An effect that nobody asked for gets no line of its own.
     assert!(text.contains("\n  off: interference (why"), "{text}");
     assert!(!text.contains("Results in"));
 }

@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 
 type Object = Map<String, Value>;
 
-/// The page of a schema: its keys, then those of every definition in the order in which they are
-/// first named. Names of definitions become headings.
+/// Returns the page of a schema: its keys, then the keys of every definition in the order in which
+/// the definitions are first named. Names of definitions become headings.
 pub(super) fn page(schema: &Value, heading: &str, introduction: &str) -> String {
     let nothing = Object::new();
     let definitions = schema["$defs"].as_object().unwrap_or(&nothing);
@@ -25,13 +25,13 @@ pub(super) fn page(schema: &Value, heading: &str, introduction: &str) -> String 
 
 struct Page<'s> {
     definitions: &'s Object,
-    /// Definitions that have been named and not been written yet.
+    /// Definitions that have been named but not yet written.
     waiting: VecDeque<String>,
     seen: Vec<String>,
 }
 
 impl Page<'_> {
-    /// A definition: what it is, its keys or its values.
+    /// Describes a definition: its meaning, and its keys or values.
     fn definition(&mut self, schema: &Value) -> String {
         let about = schema["description"].as_str().unwrap_or_default();
         let mut text = match about {
@@ -53,7 +53,7 @@ impl Page<'_> {
         text
     }
 
-    /// The keys of an object.
+    /// Returns the table of the keys of an object.
     fn keys(&mut self, schema: &Value) -> String {
         let nothing = Object::new();
         let keys = schema["properties"].as_object().unwrap_or(&nothing);
@@ -75,7 +75,7 @@ impl Page<'_> {
         text
     }
 
-    /// A type in words.
+    /// Describes a type in words.
     fn kind(&mut self, schema: &Value) -> String {
         if let Some(name) = schema["$ref"]
             .as_str()
@@ -118,7 +118,7 @@ impl Page<'_> {
         }
     }
 
-    /// A type of JSON in words.
+    /// Describes a type of JSON in words.
     fn named(&mut self, name: &str, schema: &Value) -> String {
         match name {
             "string" => "text".to_string(),
@@ -150,7 +150,7 @@ impl Page<'_> {
         }
     }
 
-    /// A link to a definition, which comes later if it is not there yet.
+    /// Returns a link to a definition, which is queued for writing if it is not on the page yet.
     fn link(&mut self, name: &str) -> String {
         if !self.seen.iter().any(|seen| seen == name) && self.definitions.contains_key(name) {
             self.seen.push(name.to_string());
@@ -160,7 +160,7 @@ impl Page<'_> {
     }
 }
 
-/// A text as it stands in a cell of a table.
+/// Formats a text for a cell of a table.
 fn in_line(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     words.join(" ").replace('|', "\\|")

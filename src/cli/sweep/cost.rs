@@ -1,4 +1,4 @@
-//! What a sweep will cost, without running it.
+//! The predicted cost of a sweep, without running it.
 
 use super::{SweepArguments, overrides};
 use crate::analysis;
@@ -12,7 +12,7 @@ use crate::number::{bytes, seconds};
 use crate::output::sweep::{Sweep, SweepPoint};
 use serde_json::json;
 
-/// The prediction of a point.
+/// The predicted cost of a point.
 struct PointCost {
     freedoms: usize,
     seconds: f64,
@@ -20,11 +20,10 @@ struct PointCost {
     available: Option<f64>,
 }
 
-/// Prints what each point and the whole will take; points that are finished take nothing.
+/// Prints the cost of each point and of the whole; finished points cost nothing.
 ///
 /// # Errors
-/// What is wrong with the model of a point; `Input` if the points that run at a time do not fit
-/// into memory.
+/// Errors of the model of a point; `Input` if the points that run at a time do not fit into memory.
 pub(super) fn predict(arguments: &SweepArguments, sweep: &Sweep) -> Result<()> {
     let costs = sweep.points.iter().map(|point| match point.is_finished() {
         true => Ok(None),

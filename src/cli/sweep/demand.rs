@@ -1,11 +1,11 @@
-//! In which order points are run: those that yield furthest first.
+//! The order in which points are run: the points that yield furthest first.
 
 use crate::output::sweep::SweepPoint;
 use crate::scene::{Load, Scene};
 use crate::space::length;
 
-/// The largest number of a load over the least yield stress; 0 if either is not known. Only the
-/// order of the runs depends on it.
+/// Returns the largest number of a load over the least yield stress; 0 if either is not known. Only
+/// the order of the runs depends on this value.
 pub(super) fn of(scene: &Scene) -> f64 {
     let bodies = scene.bodies.values();
     let yields = bodies.filter_map(|body| {
@@ -30,7 +30,8 @@ fn size(load: &Load) -> f64 {
     sizes.into_iter().flatten().fold(0.0, f64::max)
 }
 
-/// Numbers of the points, the largest demand first, else as they come.
+/// Returns the indices of the points, the largest demand first; points of equal demand keep their
+/// order.
 pub(super) fn order(points: &[SweepPoint]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..points.len()).collect();
     order.sort_by(|&a, &b| points[b].demand.total_cmp(&points[a].demand));

@@ -12,7 +12,7 @@ pub(in crate::cli) struct Varied {
     pub(super) values: Vec<String>,
 }
 
-/// `KEY=A,B,...`; commas within brackets, braces and quotes separate nothing.
+/// Reads `KEY=A,B,...`; commas within brackets, braces and quotes do not separate values.
 pub(super) fn varied(text: &str) -> std::result::Result<Varied, String> {
     let wanted = "give KEY=A,B,... such as materials.steel.yield_stress=400,500";
     let (key, list) = text.split_once('=').ok_or(wanted)?;
@@ -46,7 +46,7 @@ pub(super) fn varied(text: &str) -> std::result::Result<Varied, String> {
     }
 }
 
-/// All combinations of the values, the last key's varying fastest.
+/// Returns all combinations of the values, with the last key varying fastest.
 fn combinations(vary: &[Varied]) -> Vec<Vec<String>> {
     vary.iter().fold(vec![Vec::new()], |points, varied| {
         let with = |point: &Vec<String>, value: &String| {
@@ -65,7 +65,7 @@ fn combinations(vary: &[Varied]) -> Vec<Vec<String>> {
     })
 }
 
-/// The values of all keys taken together: the first of each, the second of each, and so on.
+/// Takes the values of all keys together: the first of each, the second of each, and so on.
 ///
 /// # Errors
 /// `Input` if one key has more values than another.
@@ -83,7 +83,7 @@ fn together(vary: &[Varied]) -> Result<Vec<Vec<String>>> {
     Ok((0..n).map(point).collect())
 }
 
-/// Keys, and for each point a value of each.
+/// Keys, and for each point one value per key.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Points {
     pub keys: Vec<String>,
@@ -91,10 +91,11 @@ pub(super) struct Points {
 }
 
 impl Points {
-    /// Rows of a table, each with all that varies besides; without a table what varies alone.
+    /// Combines each row of a table with all values that vary; without a table returns only the
+    /// values that vary.
     ///
     /// # Errors
-    /// `Input` of the table, of values that cannot be taken together, and of a key that is given
+    /// `Input` for the table, for values that cannot be taken together, and for a key that is given
     /// twice; `Io` if the table cannot be read.
     pub fn new(table: Option<&Path>, vary: &[Varied], zip: bool) -> Result<Self> {
         let varied = match zip {
@@ -124,13 +125,14 @@ impl Points {
     }
 }
 
-/// The rows of a CSV file whose first line has the keys.
+/// Reads the rows of a CSV file whose first line has the keys.
 fn rows(path: &Path) -> Result<Points> {
     let text = files::read_text("read the points", path, Some(files::LARGEST_SCENE))?;
     read_rows(&text).map_err(|error| error.within(path.display()))
 }
 
-/// The line of a record, whose position may be that of empty lines and comments before it.
+/// Returns the line of a record; the reported position may be that of empty lines and comments
+/// before it.
 fn line_of(text: &str, position: &csv::Position) -> u64 {
     let from = usize::try_from(position.byte()).unwrap_or(usize::MAX);
     let rest = text.get(from..).unwrap_or_default().lines();
@@ -188,7 +190,7 @@ fn read_rows(text: &str) -> Result<Points> {
     })
 }
 
-/// A share of the points: every N-th, from the I-th on.
+/// A share of the points: every N-th point, from the I-th on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in crate::cli) struct Shard {
     index: usize,
@@ -213,12 +215,12 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// Whether a point is of this share.
+    /// Whether a point belongs to this share.
     pub fn has(self, point: usize) -> bool {
         point % self.of == self.index - 1
     }
 
-    /// Which of how many.
+    /// Returns the index of the share and the number of shares.
     pub fn numbers(self) -> [usize; 2] {
         [self.index, self.of]
     }

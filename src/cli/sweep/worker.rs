@@ -1,9 +1,9 @@
 //! Processes that run the points of a sweep one after the other, so that points of one elastic
 //! structure share its factor ([`crate::substructure::sharing_factors`]).
 //!
-//! A worker is asked on its standard input, a line of JSON for each run: the words of its command.
-//! It answers on its standard output, a line of JSON for each: exit code and message. Where one
-//! ends amid a run, the point has failed, and the next gets another worker.
+//! A worker receives a line of JSON on its standard input for each run: the words of its command.
+//! It answers each with a line of JSON on its standard output: exit code and message. If a worker
+//! ends in the middle of a run, the point has failed, and the next point gets another worker.
 
 use super::{PATIENCE, ask_to_stop, lock};
 use crate::cli::arguments::{Arguments, Command};
@@ -19,18 +19,18 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::sync::{Arc, Mutex};
 use std::time::Instant;
 
-/// How a run ended.
+/// The ending of a run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Ended {
-    /// `None` if a signal ended the process.
+    /// Exit code; `None` if a signal ended the process.
     pub exit_code: Option<i32>,
     pub message: String,
 }
 
-/// Does the runs that are asked for, until there is no more to ask.
+/// Carries out the requested runs until the input ends.
 ///
 /// # Errors
-/// Errors of the answers' way out.
+/// `Analysis` if an answer cannot be written.
 pub(in crate::cli) fn serve() -> Result<()> {
     let failed = |cause| Error::analysis("cannot answer the sweep").because(cause);
     sharing_factors(|| {
@@ -90,10 +90,10 @@ pub(super) struct Worker {
 }
 
 impl Worker {
-    /// Starts one.
+    /// Starts a worker.
     ///
     /// # Errors
-    /// The system cannot.
+    /// `Analysis` if the system cannot start a process.
     pub fn start() -> Result<Self> {
         let failed = || Error::analysis("cannot start a process for the runs of points");
         let mut command =
@@ -103,7 +103,8 @@ impl Worker {
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
-        // Ctrl-C in a terminal goes to the group: the runs hear of it from here, once.
+        // Ctrl-C in a terminal goes to the process group: with a group of their own the runs
+        // receive it only from here, once.
         #[cfg(unix)]
         std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let mut child = command.spawn().map_err(|cause| failed().because(cause))?;
@@ -138,20 +139,20 @@ impl Worker {
         })
     }
 
-    /// Number of the process.
+    /// Returns the number of the process.
     pub fn id(&self) -> u32 {
         self.child.id()
     }
 
-    /// Does a run: how it ended, and whether the worker is there for another.
+    /// Carries out a run; returns how it ended, and whether the worker can take another.
     ///
     /// # Errors
-    /// The system does not say how the process ended.
+    /// `Analysis` if the system does not report how the process ended.
     pub fn run(&mut self, words: &[String]) -> Result<(Ended, bool)> {
         lock(&self.said).clear();
         let line = serde_json::to_string(words)
             .map_err(|cause| Error::internal("words are not plain data").because(cause))?;
-        // One that has ended says so by its answers.
+        // A failed write means that the worker has ended, which its answers show.
         if let Some(asked) = &mut self.asked {
             let _ = writeln!(asked, "{line}").and_then(|()| asked.flush());
         }
@@ -175,7 +176,7 @@ impl Worker {
         }
     }
 
-    /// How a worker ended that did not answer.
+    /// Returns how a worker ended that did not answer.
     fn gone(&mut self) -> Result<Ended> {
         let failed = |cause| Error::analysis("cannot tell how a run ended").because(cause);
         let status = self.child.wait().map_err(failed)?;
@@ -190,7 +191,7 @@ impl Worker {
 }
 
 impl Drop for Worker {
-    /// Ends the worker: there is nothing more to ask.
+    /// Ends the worker by closing its input.
     fn drop(&mut self) {
         drop(self.asked.take());
         let _ = self.child.wait();
