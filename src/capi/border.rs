@@ -1,4 +1,5 @@
-//! What holds at the border: statuses, messages, pointers, structures that know their size.
+//! Helpers for the border between Rust and C: statuses, messages, pointers, structures that contain
+//! their size.
 
 use crate::error::{Error, Result};
 use crate::panics::contained;
@@ -55,7 +56,7 @@ pub extern "C" fn brinell_abi_version() -> u32 {
     2
 }
 
-/// Runs `act`; its failure, or its panic, becomes a status with a message.
+/// Runs `act` and turns a failure or a panic into a status with a message.
 pub(super) fn guarded(act: impl FnOnce() -> Result<()>) -> i32 {
     match contained(act) {
         Ok(()) => BRINELL_OK,
@@ -63,7 +64,7 @@ pub(super) fn guarded(act: impl FnOnce() -> Result<()>) -> i32 {
     }
 }
 
-/// Keeps an error for [`brinell_last_error`] and returns its status.
+/// Stores an error for [`brinell_last_error`] and returns its status.
 pub(super) fn note(error: &Error) -> i32 {
     let mut text = error.to_string();
     for cause in error.causes() {
@@ -74,7 +75,7 @@ pub(super) fn note(error: &Error) -> i32 {
     i32::from(error.kind().exit_code())
 }
 
-/// Refuses NULL and lengths that no memory holds.
+/// Refuses NULL and lengths for which no memory could exist.
 fn check<T>(is_null: bool, n: usize, what: &str) -> Result<()> {
     if is_null {
         return Err(Error::input(format!(
@@ -89,7 +90,7 @@ fn check<T>(is_null: bool, n: usize, what: &str) -> Result<()> {
     Ok(())
 }
 
-/// `n` values from a pointer; NULL is right where there are none.
+/// Returns `n` values behind a pointer; NULL is allowed if `n` is 0.
 ///
 /// # Safety
 /// `data` is NULL or points to `n` values that live and do not change as long as the slice.
@@ -102,7 +103,7 @@ pub(super) unsafe fn slice<'a, T>(data: *const T, n: usize, what: &str) -> Resul
     Ok(unsafe { std::slice::from_raw_parts(data, n) })
 }
 
-/// `n` values to write to.
+/// Returns `n` values to write to.
 ///
 /// # Safety
 /// `data` is NULL or points to `n` values that nobody else uses as long as the slice lives.
@@ -115,7 +116,7 @@ pub(super) unsafe fn slice_mut<'a, T>(data: *mut T, n: usize, what: &str) -> Res
     Ok(unsafe { std::slice::from_raw_parts_mut(data, n) })
 }
 
-/// A text.
+/// Returns a text as `str`.
 ///
 /// # Safety
 /// `text` is NULL or points to a text that ends with a zero byte and lives as long as the result.
@@ -129,7 +130,7 @@ pub(super) unsafe fn text<'a>(text: *const c_char, what: &str) -> Result<&'a str
         .map_err(|cause| Error::input(format!("{what} is not UTF-8")).because(cause))
 }
 
-/// What a pointer points to.
+/// Returns a reference to the value behind a pointer.
 ///
 /// # Safety
 /// `handle` is NULL or points to a living value that nobody changes as long as the reference lives.
@@ -138,7 +139,7 @@ pub(super) unsafe fn shared<'a, T>(handle: *const T, what: &str) -> Result<&'a T
     unsafe { handle.as_ref() }.ok_or_else(|| Error::input(format!("{what} is NULL")))
 }
 
-/// What a pointer points to, to be changed.
+/// Returns a mutable reference to the value behind a pointer.
 ///
 /// # Safety
 /// `handle` is NULL or points to a living value that nobody else uses as long as the reference
@@ -148,7 +149,7 @@ pub(super) unsafe fn exclusive<'a, T>(handle: *mut T, what: &str) -> Result<&'a 
     unsafe { handle.as_mut() }.ok_or_else(|| Error::input(format!("{what} is NULL")))
 }
 
-/// Puts a new handle where the caller wants it.
+/// Creates a handle and stores it at the place that the caller gives.
 ///
 /// # Safety
 /// `out` is NULL or may be written to.
@@ -158,7 +159,7 @@ pub(super) unsafe fn hand_out<T>(out: *mut *mut T, value: T) -> Result<()> {
     Ok(())
 }
 
-/// Drops a handle; NULL is nothing to drop.
+/// Drops a handle; NULL is ignored.
 ///
 /// # Safety
 /// `handle` is NULL or came from [`hand_out`] and was not freed before.
@@ -182,7 +183,7 @@ pub(super) unsafe trait SizePrefixed: Copy {
     const NAME: &'static str;
 }
 
-/// Most bytes a later version of a structure may have.
+/// Largest number of bytes that a later version of a structure may have.
 const MOST_BYTES: usize = 1 << 12;
 
 fn known_bytes<T: SizePrefixed>(size: usize) -> Result<usize> {
@@ -195,8 +196,9 @@ fn known_bytes<T: SizePrefixed>(size: usize) -> Result<usize> {
     Ok(size.min(size_of::<T>()))
 }
 
-/// Takes a structure that may be older (shorter: the rest is as in `default`) or newer (longer: the
-/// rest is left) than this library; `default` for NULL.
+/// Copies a structure of the caller, which may be older than this library (shorter: the missing
+/// part is taken from `default`) or newer (longer: the additional part is ignored). Returns
+/// `default` for NULL.
 ///
 /// # Safety
 /// `from` is NULL or points to a structure as long as its first field says.
@@ -213,7 +215,8 @@ pub(super) unsafe fn take<T: SizePrefixed>(from: *const T, default: T) -> Result
     Ok(value)
 }
 
-/// Fills a structure of the caller as far as he knows it; its size stays as he set it.
+/// Fills a structure of the caller up to the size that the caller set; the size itself is not
+/// changed.
 ///
 /// # Safety
 /// `to` is NULL or points to a structure as long as its first field says.

@@ -1,5 +1,5 @@
-//! Models from arrays: what a model has besides its mesh, as scene text, and what comes in arrays
-//! itself: given pairs of nodes and forces on nodes.
+//! Models from arrays: the parts of a model other than its mesh, as scene text; and two parts that
+//! are given as arrays: pairs of nodes and forces on nodes.
 
 use super::border::{slice, text};
 use super::model::{brinell_model, change};
@@ -79,7 +79,7 @@ pub unsafe extern "C" fn brinell_model_contact_pairs(
     }
 }
 
-/// A load of nodal forces, as text.
+/// The keys of a load of nodal forces.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct NodalLoad {
@@ -115,16 +115,17 @@ pub unsafe extern "C" fn brinell_model_nodal_load(
     }
 }
 
-/// One table of a scene.
+/// Parses one table of a scene.
 fn keys<T: DeserializeOwned>(text: &str, what: &str) -> Result<T> {
     toml::from_str(text).map_err(|e| Error::input(format!("{what}: {e}")))
 }
 
 impl brinell_model {
-    /// `n` vectors, one after the other, of as many components as the model has coordinates.
+    /// Returns `n` vectors, stored one after the other, of as many components as the model has
+    /// coordinates.
     ///
     /// # Safety
-    /// `values` is NULL or has so many values.
+    /// `values` is NULL or has `n` vectors.
     unsafe fn vectors(&self, values: *const f64, n: usize, what: &str) -> Result<Vec<Vector>> {
         let each = self.builder.dimension();
         // SAFETY: as vouched for by the caller.

@@ -45,7 +45,7 @@ pub const BRINELL_SHAPE_PRISM6: i32 = 8;
 /// Quadratic prism of fifteen nodes.
 pub const BRINELL_SHAPE_PRISM15: i32 = 9;
 
-/// One of several values by its number.
+/// Returns one of several values by its number.
 pub(super) fn one_of<T: Copy>(values: &[T], which: i32, what: &str) -> Result<T> {
     usize::try_from(which)
         .ok()
@@ -54,7 +54,7 @@ pub(super) fn one_of<T: Copy>(values: &[T], which: i32, what: &str) -> Result<T>
         .ok_or_else(|| Error::input(format!("there is no {what} {which}")))
 }
 
-/// Changes a model under construction. A refused call leaves it as it was.
+/// Changes a model under construction. A refused call leaves the model unchanged.
 ///
 /// # Safety
 /// `model` is NULL or a living handle.

@@ -1,4 +1,4 @@
-//! How to compute.
+//! Options for the computation.
 
 use super::border::{SizePrefixed, take};
 use crate::error::{Error, Result};
@@ -28,10 +28,10 @@ unsafe impl SizePrefixed for brinell_options {
     const NAME: &'static str = "brinell_options";
 }
 
-/// The backend that options ask for.
+/// Returns the backend that options ask for.
 ///
 /// # Safety
-/// As [`take`].
+/// The conditions of [`take`].
 pub(super) unsafe fn backend(options: *const brinell_options) -> Result<Backend> {
     let default = brinell_options {
         size: size_of::<brinell_options>(),

@@ -1,4 +1,4 @@
-//! Patches of contact of a solid.
+//! Patches of contact of a solid model.
 
 use super::border::{SizePrefixed, give, guarded, shared};
 use super::results::brinell_results;

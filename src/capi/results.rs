@@ -15,9 +15,9 @@ pub struct brinell_results {
     header: RunHeader,
     /// Name of each state.
     names: Vec<CString>,
-    /// For each state the pairs' values, one array for each of BRINELL_PAIR_...
+    /// For each state the values of the pairs, one array for each of BRINELL_PAIR_...
     pairs: Vec<[Vec<f64>; 8]>,
-    /// One array for each of BRINELL_HISTORY_...
+    /// Columns of the history, one array for each of BRINELL_HISTORY_...
     history: [Vec<f64>; 7],
 }
 
@@ -203,7 +203,7 @@ impl brinell_results {
     }
 }
 
-/// One of several arrays by its number.
+/// Returns one of several arrays by its number.
 fn chosen<'a>(arrays: &'a [Vec<f64>], which: i32, what: &str) -> Result<&'a [f64]> {
     usize::try_from(which)
         .ok()
@@ -212,7 +212,7 @@ fn chosen<'a>(arrays: &'a [Vec<f64>], which: i32, what: &str) -> Result<&'a [f64
         .ok_or_else(|| Error::input(format!("there is no {what} {which}")))
 }
 
-/// Tells the caller where an array lies.
+/// Gives the caller the address and length of an array.
 ///
 /// # Safety
 /// `data` and `n` may be written to.

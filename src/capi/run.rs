@@ -136,18 +136,18 @@ pub unsafe extern "C" fn brinell_run(
     }
 }
 
-/// What is run: a scene or a model.
+/// A scene or a model that is to be run.
 pub(super) enum RunTask {
-    /// A scene, to the accuracy it demands if it does.
+    /// A scene, which is run to the accuracy that it demands, if any.
     Scene(Box<Scene>),
-    /// A model on the mesh that it has.
+    /// A model, which is run on its mesh.
     Model(Box<Model>),
 }
 
 /// Runs a load program.
 ///
 /// # Safety
-/// As [`brinell_run`].
+/// The conditions of [`brinell_run`].
 pub(super) unsafe fn execute(
     task: impl FnOnce() -> Result<RunTask>,
     options: *const brinell_options,

@@ -1,4 +1,4 @@
-//! Scenes.
+//! Loading and parsing of scenes.
 
 use super::border::{free, guarded, hand_out, slice, text};
 use crate::deck::{self, Options};

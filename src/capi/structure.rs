@@ -1,4 +1,4 @@
-//! The lower level: a stiffness and contact rows of the caller.
+//! The lower level of the interface: a stiffness and contact rows that the caller gives.
 
 use super::border::{
     SizePrefixed, exclusive, free, guarded, hand_out, shared, slice, slice_mut, take,
@@ -70,7 +70,8 @@ unsafe impl SizePrefixed for brinell_rows {
     const NAME: &'static str = "brinell_rows";
 }
 
-/// Number of entries that an array of starts asks for; what else is wrong with it is found later.
+/// Returns the number of entries that an array of starts asks for; other errors in the array are
+/// found later.
 fn entries(starts: &[i64], what: &str) -> Result<usize> {
     let end = starts.last().and_then(|n| usize::try_from(*n).ok());
     end.ok_or_else(|| Error::input(format!("{what} must end with the number of entries")))
@@ -227,7 +228,7 @@ pub unsafe extern "C" fn brinell_structure_condensed(
     })
 }
 
-/// Hands `n` values to a structure; the changes of the last step are over.
+/// Calls `act` with `n` values; the changes of the last step are cleared.
 ///
 /// # Safety
 /// `structure` is a living handle, `values` has `n` values.

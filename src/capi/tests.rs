@@ -1,5 +1,5 @@
-//! Misuse from the other side: a status and a message, never worse. What works is shown by the
-//! programs in `ffi/examples`.
+//! Misuse of the C interface: the result is a status and a message, never anything worse. Correct
+//! use is shown by the programs in `ffi/examples`.
 
 mod arrival;
 mod quantities;
@@ -58,7 +58,7 @@ fn null_and_nonsense_are_refused_with_a_message() {
     }
 }
 
-/// As the program's exit code 7: results there are, and they say that they are not to be trusted.
+/// Like exit code 7 of the program: results exist, and they say that they are not to be trusted.
 #[test]
 fn lost_accuracy_has_a_status() {
     let path = concat!(
@@ -66,7 +66,7 @@ fn lost_accuracy_has_a_status() {
         "/data/scenes/hard/unload_reload.toml"
     );
     let path = CString::new(path).unwrap();
-    // Iterated to forces that are a hundredth out of balance.
+    // The run is iterated to forces that are a hundredth out of balance.
     for (tolerance, expected) in [("1e-9", BRINELL_OK), ("0.0099", BRINELL_INACCURATE)] {
         let tolerance = CString::new(format!("analysis.tolerance={tolerance}")).unwrap();
         let sets = [
@@ -96,7 +96,7 @@ fn a_structure_of_another_size_is_older_newer_or_refused() {
     };
     // SAFETY: as long as it says.
     unsafe {
-        // An older caller does not know `backend`: it is not read.
+        // An older caller does not know `backend`: this field is not read.
         assert!(super::options::backend(&raw const options).is_ok());
         options.size = size_of::<brinell_options>();
         assert!(super::options::backend(&raw const options).is_err());
@@ -105,7 +105,7 @@ fn a_structure_of_another_size_is_older_newer_or_refused() {
             let error = super::options::backend(&raw const options).unwrap_err();
             assert!(error.message().contains("sizeof"), "{error}");
         }
-        // A newer caller has more.
+        // A newer caller has a longer structure.
         #[repr(C)]
         struct Newer {
             options: brinell_options,
@@ -186,7 +186,7 @@ fn a_damaged_matrix_is_refused() {
     }
 }
 
-/// Two blocks from a scene, and the mesh of its results handed back as arrays: the same bits.
+/// Two blocks from a scene, and the mesh of its results handed back as arrays, give the same bits.
 #[test]
 fn a_model_from_arrays_gives_the_bits_of_the_scene() {
     let path = concat!(
@@ -197,7 +197,8 @@ fn a_model_from_arrays_gives_the_bits_of_the_scene() {
     let sets = [
         c"materials.steel.yield_stress=8",
         c"materials.steel.plastic_modulus=1000",
-        // No square elements: all points of the uniform stress field are places of first yield.
+        // The elements are not square: in square ones every point of the uniform stress field would
+        // be a place of first yield.
         c"mesh.parts.0.block.elements=[8, 5]",
     ];
     let sets = sets.map(|s| s.as_ptr());
@@ -215,7 +216,7 @@ fn a_model_from_arrays_gives_the_bits_of_the_scene() {
         let mut found = null_mut();
         let status = brinell_model_run(model, null(), None, null_mut(), &mut found);
         assert_eq!(status, BRINELL_OK, "{}", message());
-        // First yield as the library has it, field by field.
+        // The fields of first yield are those of the library.
         let mut point: brinell_yield = std::mem::zeroed();
         point.size = size_of::<brinell_yield>();
         assert_eq!(brinell_results_yield(expected, &mut point), BRINELL_OK);
@@ -242,10 +243,10 @@ fn a_model_from_arrays_gives_the_bits_of_the_scene() {
     }
 }
 
-/// What the scene `floating_body` says, by calls.
+/// Builds the model of the scene `floating_body` by calls.
 ///
 /// # Safety
-/// As [`blocks_without_contact`].
+/// The conditions of [`blocks_without_contact`].
 unsafe fn two_blocks(mesh: &brinell_mesh) -> *mut brinell_model {
     let contact = c"contact = [{ first = 'opposite', second = 'face' }]";
     // SAFETY: as vouched for by the caller; the text lives through the call.
@@ -257,7 +258,7 @@ unsafe fn two_blocks(mesh: &brinell_mesh) -> *mut brinell_model {
     }
 }
 
-/// All of it but the contact.
+/// Builds the model of the scene `floating_body` without its contact.
 ///
 /// # Safety
 /// The mesh is as the results handed it out.
@@ -313,7 +314,7 @@ unsafe fn blocks_without_contact(mesh: &brinell_mesh) -> *mut brinell_model {
     model
 }
 
-/// What the two blocks are besides their mesh and contact.
+/// The parts of the two blocks other than their mesh and contact.
 const TABLES: &CStr = c"
     bodies = { lower = { material = 'steel' }, upper = { material = 'steel' } }
     support = [{ on = 'floor', fix = ['y'] }, { on = 'left', fix = ['x'] }]
@@ -326,7 +327,7 @@ const TABLES: &CStr = c"
     plastic_modulus = 1000.0
 ";
 
-/// All arrays of results, bit by bit.
+/// Returns all arrays of results, bit by bit.
 ///
 /// # Safety
 /// A living handle.

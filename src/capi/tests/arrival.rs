@@ -1,9 +1,9 @@
-//! Arrays that stand beside scene text arrive in their places.
+//! Arrays that are given in addition to scene text arrive at their places in the model.
 
 use super::*;
 use crate::scene::History;
 
-/// Given pairs with their contact, and forces on nodes with their history.
+/// Given pairs arrive with their contact, and forces on nodes with their history.
 #[test]
 fn pairs_and_nodal_forces_arrive() {
     let path = concat!(

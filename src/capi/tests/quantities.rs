@@ -1,8 +1,8 @@
-//! Numbers by their paths.
+//! Access to numbers by their paths.
 
 use super::*;
 
-/// Every quantity of the table, at its path, and nothing else.
+/// Every quantity of the table is found at its path, and nothing else.
 #[test]
 fn numbers_are_found_by_their_paths() {
     let path = concat!(

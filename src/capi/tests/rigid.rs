@@ -1,4 +1,4 @@
-//! A rigid surface without a mesh, through the interface.
+//! A rigid surface without a mesh, through the C interface.
 
 use super::*;
 use crate::linalg::Backend;

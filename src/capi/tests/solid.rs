@@ -1,9 +1,10 @@
-//! Three dimensions through the interface.
+//! Three dimensions through the C interface.
 
 use super::*;
 
-/// The mesh of a scene handed over as arrays, with all that the scene says: a plastic history of a
-/// solid to the last bit, its patches, and supports in any direction.
+/// The mesh of a scene is handed over as arrays, with everything else that the scene says: a
+/// plastic history of a solid agrees to the last bit, with its patches, and with supports in any
+/// direction.
 #[test]
 fn a_plastic_history_of_a_solid_from_arrays_is_the_scene_s() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/data/scenes/square_punch.toml");
@@ -79,7 +80,7 @@ fn a_plastic_history_of_a_solid_from_arrays_is_the_scene_s() {
     }
 }
 
-/// The punch on its block from the arrays of the scene's mesh, with the rest as text.
+/// Builds the punch on its block from the arrays of the scene's mesh, with the rest as text.
 ///
 /// # Safety
 /// The arrays of the mesh live.
@@ -108,7 +109,7 @@ unsafe fn punch(mesh: &brinell_mesh) -> *mut brinell_model {
             ));
         }
         let x = std::slice::from_raw_parts(mesh.coordinates, 3 * mesh.n_nodes);
-        // The punch's nodes come first.
+        // The nodes of the punch come first.
         let n_punch = nodes
             .chunks(8)
             .zip(of_element)
