@@ -1,5 +1,5 @@
-//! Published and exact values compared with the computed ones: what a scene's `[[reference]]` asks
-//! for. Nothing that computes, estimates or chooses knows of them.
+//! Published and exact values compared with the computed ones, as a scene's `[[reference]]` entries
+//! ask for. No code that computes, estimates or chooses uses these values.
 
 mod place;
 mod pressure;
@@ -11,8 +11,7 @@ use crate::model::Model;
 use crate::results::{ReferenceRow, Results, YieldPoint, value};
 use crate::scene::{Kind, TwoBodies};
 
-/// Puts the rows of all reference entries of the scene into its results
-/// ([`Results::reference`]).
+/// Stores the rows of all reference entries of the scene in its results ([`Results::reference`]).
 pub fn compare(model: &Model, results: &mut Results) {
     results.reference = rows(model, results);
 }
@@ -63,8 +62,8 @@ fn row(
     }
 }
 
-/// Rows at first yield: load, largest pressure, half width and depth below the surface, with the
-/// published ratios of computed values to them.
+/// Returns the rows at first yield: load, largest pressure, half width and depth below the surface,
+/// with the published ratios of computed to exact values.
 fn at_yield(
     model: &Model,
     first: &YieldPoint,
@@ -75,8 +74,8 @@ fn at_yield(
     let down = model.mesh.dimension - 1;
     let depth = ["yield.location.y", "yield.location.z"][down - 1];
     let [load, pressure, half_width, below] = exact;
-    // Bodies of one material yield alike on either side of the surface, which is at 0: the point is
-    // that of the body that was named.
+    // Bodies of the same material yield alike on either side of the surface, which is at 0: the
+    // sign of the depth is that of the body in which yield was found.
     let below = below.copysign(first.location[down]);
     let [a, b, c, d] = published;
     vec![
@@ -93,8 +92,8 @@ fn at_yield(
     ]
 }
 
-/// Contact modulus of the first two bodies, and nu and yield stress of the one that yields first;
-/// none if a yield stress depends on depth.
+/// Returns the contact modulus of the first two bodies, and nu and yield stress of the body that
+/// yields first; none if a yield stress depends on depth.
 fn moduli(model: &Model) -> Option<(f64, f64, f64)> {
     if model.yield_by_depth.iter().any(Option::is_some) {
         return None;

@@ -1,5 +1,5 @@
-//! The file that holds what a run left in the material, for another run on the same mesh to start
-//! from.
+//! The file that holds the state of the material at the end of a run, from which another run on the
+//! same mesh may start.
 
 use super::{file, identity};
 use crate::error::{Error, Result};
@@ -9,13 +9,13 @@ use std::path::Path;
 
 /// Name of the end state's file in a result directory.
 pub(crate) const END_STATE_FILE: &str = "end_state.bin";
-/// What the file calls itself.
+/// Name of the kind of file in its first line.
 const WHAT: &str = "end state";
 
-/// The content of the file.
+/// Returns the content of the file.
 ///
 /// # Errors
-/// Internal, if it cannot be encoded.
+/// `Internal` if the state cannot be encoded.
 pub(crate) fn encode(mesh: &Mesh, state: &EndState) -> Result<Vec<u8>> {
     let (bytes, ..) = file::encode(WHAT, &(identity::hash(mesh), state))?;
     Ok(bytes)
@@ -24,7 +24,8 @@ pub(crate) fn encode(mesh: &Mesh, state: &EndState) -> Result<Vec<u8>> {
 /// Reads the end state in the result directory `dir` of a run on the given mesh.
 ///
 /// # Errors
-/// `Input` if there is none, or it is damaged, of another version or another mesh; `Io`.
+/// `Input` if there is none, or if it is damaged, of another version or of another mesh; `Io` if it
+/// cannot be read.
 pub(crate) fn read(dir: &Path, mesh: &Mesh) -> Result<EndState> {
     let refused = |why: &str| Error::input(format!("{}: {why}", dir.display()));
     if !dir.is_dir() {

@@ -1,5 +1,5 @@
-//! A file that knows whether it is whole: a line that says what it is, the length and the hash of
-//! what follows.
+//! A file that can tell whether it is complete: a line that names its kind, then the length and the
+//! hash of its content, then the content.
 
 use crate::error::{Error, Result};
 use crate::files;
@@ -9,15 +9,15 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 use xxhash_rust::xxh3::xxh3_128;
 
-/// Number of the layout: another one is refused.
+/// Number of the layout: a file with another number is refused.
 const FORMAT: u32 = 9;
-/// Length and hash.
+/// Number of bytes of length and hash.
 const GUARD: usize = 8 + 16;
 
-/// What the files of a run that may go on call themselves.
+/// Name in the first line of the files from which a run may continue.
 const CHECKPOINT: &str = "checkpoint";
 
-/// What a file of this build begins with.
+/// Returns the first line of a file of this build.
 fn first_line(what: &str) -> String {
     format!(
         "brinell {what}, format {FORMAT}, version {}\n",
@@ -25,7 +25,8 @@ fn first_line(what: &str) -> String {
     )
 }
 
-/// A whole file with `value` as its content, and length and hash of that. `what` names it.
+/// Returns a whole file with `value` as its content, and the length and hash of the content. `what`
+/// names the kind of file.
 pub(super) fn encode(what: &str, value: &impl Serialize) -> Result<(Vec<u8>, u64, u128)> {
     let content = postcard::to_stdvec(value)
         .map_err(|cause| Error::internal(format!("a {what} cannot be encoded")).because(cause))?;
@@ -37,8 +38,8 @@ pub(super) fn encode(what: &str, value: &impl Serialize) -> Result<(Vec<u8>, u64
     Ok((bytes, length, hash))
 }
 
-/// Writes `value` to `path` by way of `path` with the ending `.partial`, on disk before it gets its
-/// name. Returns length and hash of its content.
+/// Writes `value` to `path`, first to a file with the ending `.partial`, which is on disk before it
+/// is renamed. Returns length and hash of the content.
 pub(super) fn write(path: &Path, value: &impl Serialize) -> Result<(u64, u128)> {
     let (bytes, length, hash) = encode(CHECKPOINT, value)?;
     let partial = path.with_extension("partial");
@@ -49,25 +50,26 @@ pub(super) fn write(path: &Path, value: &impl Serialize) -> Result<(u64, u128)> 
         std::fs::rename(&partial, path)
     };
     store().map_err(|cause| {
-        // What is there of it is of no use; that it stays is no second error.
+        // The incomplete file is useless; a failure to remove it is not reported.
         let _ = std::fs::remove_file(&partial);
         Error::io("write", path, cause)
     })?;
     Ok((length, hash))
 }
 
-/// Reads what [`write`] wrote; with it length and hash.
+/// Reads a file that [`write`] wrote; also returns length and hash of the content.
 ///
 /// # Errors
-/// `Input` if the file is none of brinell's, of another version, cut short or damaged; `Io`.
+/// `Input` if the file is not one of brinell, or is of another version, cut short or damaged; `Io`
+/// if it cannot be read.
 pub(super) fn read<T: DeserializeOwned>(path: &Path) -> Result<(T, u64, u128)> {
     read_as(CHECKPOINT, path)
 }
 
-/// As [`read`], of a file that calls itself so.
+/// Reads a file like [`read`], with `what` as the name of its kind.
 ///
 /// # Errors
-/// As [`read`].
+/// The errors of [`read`].
 pub(super) fn read_as<T: DeserializeOwned>(what: &str, path: &Path) -> Result<(T, u64, u128)> {
     let bytes = files::read("read", path, None)?;
     let refused = |why: String| Error::input(format!("{}: {why}", path.display()));

@@ -1,4 +1,4 @@
-//! What a checkpoint belongs to: nothing that the results depend on may have changed.
+//! The identity of a checkpoint: nothing that the results depend on may have changed.
 
 use crate::error::{Error, Result};
 use crate::files;
@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use xxhash_rust::xxh3::{Xxh3, xxh3_128};
 
-/// Scene, mesh and backend of a run. The version of brinell stands in front of each file.
+/// Scene, mesh and backend of a run. The version of brinell is in the first line of each file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Identity {
     /// The scene with its overrides, as JSON.
@@ -20,15 +20,15 @@ pub struct Identity {
     /// Hash of the files with values at nodes that the scene names.
     values: u128,
     backend: String,
-    /// Hash of the state that it starts from, 0 if that is a virgin one.
+    /// Hash of the state from which the run starts, 0 if the material is virgin.
     start: u128,
 }
 
 impl Identity {
-    /// Identity of a run.
+    /// Creates the identity of a run.
     ///
     /// # Errors
-    /// Internal, if the scene is not plain data.
+    /// `Internal` if the scene is not plain data.
     pub fn new(
         (scene, start): (&Scene, Option<&EndState>),
         mesh: &Mesh,
@@ -48,7 +48,8 @@ impl Identity {
         })
     }
 
-    /// Nothing where a checkpoint of `self` may go on as `now`; else what differs.
+    /// Returns `None` if a run with the identity `now` may continue from a checkpoint of `self`,
+    /// else the difference.
     pub(super) fn difference(&self, now: &Identity) -> Option<String> {
         if self.scene != now.scene {
             let parse = |text: &str| serde_json::from_str::<Value>(text).unwrap_or_default();
@@ -79,7 +80,7 @@ impl Identity {
     }
 }
 
-/// Key path and both values of the first leaf that differs.
+/// Returns key path and both values of the first leaf that differs.
 fn first_difference(path: &str, then: &Value, now: &Value) -> Option<(String, String, String)> {
     let below = |key: &str| match path {
         "" => key.to_string(),
@@ -117,7 +118,7 @@ fn hash_of_start(state: &EndState) -> Result<u128> {
     Ok(xxh3_128(&bytes))
 }
 
-/// The files with values at nodes, one after the other; 0 of none.
+/// Returns the hash of the files with values at nodes, one after the other; 0 if there are none.
 fn hash_of_values(scene: &Scene) -> Result<u128> {
     let mut hash = Xxh3::new();
     let mut has_some = false;
@@ -134,7 +135,7 @@ fn hash_of_values(scene: &Scene) -> Result<u128> {
     Ok(if has_some { hash.digest128() } else { 0 })
 }
 
-/// Everything of the mesh that a result may depend on.
+/// Returns the hash of everything in the mesh that a result may depend on.
 pub(super) fn hash(mesh: &Mesh) -> u128 {
     let mut hash = Xxh3::new();
     let mut number = |n: u64| hash.update(&n.to_le_bytes());
@@ -182,7 +183,7 @@ mod tests {
     use serde_json::json;
     use std::collections::BTreeSet;
 
-    /// One thing changed at a time: no two of these meshes are the same.
+    /// One property is changed at a time: no two of these meshes have the same hash.
     #[test]
     fn everything_of_a_mesh_counts() {
         let circle = |center: [f64; 2], radius: f64, outward: bool| {

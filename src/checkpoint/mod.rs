@@ -1,4 +1,4 @@
-//! Checkpoints: what a run leaves on disk so that it can go on after it was killed.
+//! Checkpoints: files from which a run can continue after it was killed.
 //!
 //! ```text
 //! DIR/checkpoint      the last accepted increment, and which parts belong to it
@@ -7,15 +7,15 @@
 //!     lock            held by the run that writes here
 //! ```
 //!
-//! `checkpoint` is written beside its place, synchronised and renamed over its predecessor: at
-//! every moment there is a whole one. Parts are written before the first checkpoint that names them
-//! and deleted after the first that does not.
+//! `checkpoint` is written beside its final path, synchronised and renamed over its predecessor, so
+//! that a complete one exists at every moment. Parts are written before the first checkpoint that
+//! names them and deleted after the first that does not.
 //!
-//! A run that goes on does what it would have done, bit for bit, in the same build on the same
-//! machine: with CHOLMOD that needs the same BLAS with the same number of its threads (the run says
-//! so where the factor differs). Each file carries a hash of its content; the checkpoint carries
-//! what it belongs to ([`Identity`]), and is refused with the first difference by name where that
-//! is not what is to be run.
+//! A resumed run does what it would have done, bit for bit, in the same build on the same machine.
+//! With CHOLMOD this needs the same BLAS with the same number of threads (the run says so if the
+//! factor differs). Each file carries a hash of its content. The checkpoint also carries the
+//! [`Identity`] of its run; it is refused, with the name of the first difference, if the run to be
+//! resumed has another identity.
 
 mod end_state;
 mod file;
@@ -29,7 +29,7 @@ pub(crate) use store::{PartId, Store};
 use crate::error::{Error, Result};
 use std::path::{Path, PathBuf};
 
-/// Where a run leaves checkpoints, and how often.
+/// The directory in which a run leaves checkpoints, and their interval.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Checkpoints {
     dir: PathBuf,
@@ -37,7 +37,7 @@ pub struct Checkpoints {
 }
 
 impl Checkpoints {
-    /// Checkpoints in the directory `dir`, one at each accepted increment.
+    /// Creates checkpoints in the directory `dir`, one at each accepted increment.
     pub fn new(dir: impl Into<PathBuf>) -> Self {
         Checkpoints {
             dir: dir.into(),
@@ -45,8 +45,8 @@ impl Checkpoints {
         }
     }
 
-    /// One at every `increments`-th accepted increment (0 counts as 1). The results do not depend
-    /// on it.
+    /// Sets the interval: one checkpoint at every `increments`-th accepted increment (0 counts as
+    /// 1). The results do not depend on it.
     pub fn every(self, increments: usize) -> Self {
         Checkpoints {
             every: increments.max(1),
@@ -54,17 +54,17 @@ impl Checkpoints {
         }
     }
 
-    /// Directory of the checkpoints.
+    /// Returns the directory of the checkpoints.
     pub fn dir(&self) -> &Path {
         &self.dir
     }
 
-    /// Accepted increments from one checkpoint to the next.
+    /// Returns the number of accepted increments from one checkpoint to the next.
     pub(crate) fn interval(&self) -> usize {
         self.every
     }
 
-    /// Whether there is one to go on from.
+    /// Whether there is a checkpoint from which a run can continue.
     pub fn exist(&self) -> bool {
         self.dir.join(store::CHECKPOINT).is_file()
     }
@@ -75,8 +75,8 @@ impl Checkpoints {
     /// [`crate::ErrorKind::Io`] naming the file that could not be deleted.
     pub fn remove(&self) -> Result<()> {
         let failed = |path: &Path, cause| Error::io("delete", path, cause);
-        // First what the rest hangs on: killed in between, there is no checkpoint rather than one
-        // without its parts.
+        // The checkpoint is deleted first, because the parts depend on it: a run that is killed in
+        // between leaves no checkpoint rather than one without its parts.
         let first = self.dir.join(store::CHECKPOINT);
         match std::fs::remove_file(&first) {
             Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
@@ -95,7 +95,7 @@ impl Checkpoints {
                 std::fs::remove_file(entry.path()).map_err(|cause| failed(&entry.path(), cause))?;
             }
         }
-        // Fails if the user has put something there: then it stays.
+        // Fails if the user has put something there: then the directory stays.
         let _ = std::fs::remove_dir(&self.dir);
         Ok(())
     }

@@ -8,12 +8,12 @@ use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
-/// The file that the rest hangs on.
+/// The file on which the parts depend.
 pub(super) const CHECKPOINT: &str = "checkpoint";
 const LOCK: &str = "lock";
 const PART: &str = "part-";
 
-/// A part by its number, with what guards its content.
+/// The number of a part, with length and hash of its content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct PartId {
     number: u32,
@@ -21,24 +21,24 @@ pub(crate) struct PartId {
     hash: u128,
 }
 
-/// The checkpoints of the run at hand. No other run can open them meanwhile.
+/// The checkpoints of the current run. No other run can open them meanwhile.
 #[derive(Debug)]
 pub(crate) struct Store {
     dir: PathBuf,
     identity: Identity,
-    /// Parts in the directory.
+    /// Numbers of the parts in the directory.
     parts: BTreeSet<u32>,
     next: u32,
-    /// Given back by the system when the run ends, however it ends.
+    /// Lock that the system releases when the run ends, however it ends.
     _lock: File,
 }
 
 impl Store {
-    /// Opens the directory, which is made where it is absent. What is in it stays until the first
+    /// Opens the directory, which is created if it is absent. Its contents stay until the first
     /// [`Store::write`].
     ///
     /// # Errors
-    /// `Input` if another run is writing there, `Io`.
+    /// `Input` if another run is writing to the directory, `Io` if it cannot be written.
     pub(crate) fn open(checkpoints: &Checkpoints, identity: Identity) -> Result<Self> {
         let dir = checkpoints.dir.clone();
         let failed = |path: &Path, cause| Error::io("write", path, cause);
@@ -70,13 +70,14 @@ impl Store {
         })
     }
 
-    /// The checkpoint.
+    /// Reads the checkpoint.
     ///
     /// # Errors
-    /// `Input` if it is damaged or of another run, with the difference; `Io`.
+    /// `Input` if the checkpoint is damaged or of another run, with the difference; `Io` if it
+    /// cannot be read.
     pub(crate) fn read<T: DeserializeOwned>(&self) -> Result<T> {
         let path = self.dir.join(CHECKPOINT);
-        // The identity first: what follows it is read once it is known to be meant.
+        // The identity is read first: the content is decoded only if the identity matches.
         let ((identity, content), ..): ((Identity, Vec<u8>), u64, u128) = file::read(&path)?;
         if let Some(difference) = identity.difference(&self.identity) {
             return Err(Error::input(format!(
@@ -91,7 +92,7 @@ impl Store {
     /// Writes a part.
     ///
     /// # Errors
-    /// `Io`.
+    /// `Io` if it cannot be written.
     pub(crate) fn add<T: Serialize>(&mut self, value: &T) -> Result<PartId> {
         let number = self.next;
         let (length, hash) = file::write(&self.part(number), value)?;
@@ -104,10 +105,10 @@ impl Store {
         })
     }
 
-    /// A part that the checkpoint names.
+    /// Reads a part that the checkpoint names.
     ///
     /// # Errors
-    /// `Input` if it is damaged or not the one that is meant, `Io`.
+    /// `Input` if the part is damaged or not the one that is named, `Io` if it cannot be read.
     pub(crate) fn part_of<T: DeserializeOwned>(&self, id: PartId) -> Result<T> {
         let path = self.part(id.number);
         let (value, length, hash) = file::read(&path)?;
@@ -121,10 +122,10 @@ impl Store {
         Ok(value)
     }
 
-    /// Writes the checkpoint and deletes parts that are not `in_use` by it.
+    /// Writes the checkpoint and deletes parts that it does not use (`in_use`).
     ///
     /// # Errors
-    /// `Io`; the previous one then still stands.
+    /// `Io` if it cannot be written; the previous checkpoint then remains.
     pub(crate) fn write<T: Serialize>(&mut self, value: &T, in_use: &[PartId]) -> Result<()> {
         let path = self.dir.join(CHECKPOINT);
         let content = postcard::to_stdvec(value)
@@ -145,7 +146,7 @@ impl Store {
     }
 }
 
-/// Bytes that are written as one piece, not number by number.
+/// Bytes that are written as one block, not number by number.
 struct Bytes<'b>(&'b [u8]);
 
 impl Serialize for Bytes<'_> {
@@ -172,7 +173,7 @@ fn number_of(name: &OsStr) -> Option<u32> {
     name.to_str()?.strip_prefix(PART)?.parse().ok()
 }
 
-/// Whether a file of this name was written here.
+/// Whether a file of this name was written by this module.
 pub(super) fn is_ours(name: &OsStr) -> bool {
     let partial = |name: &str| name.ends_with(".partial");
     let text = name.to_str().unwrap_or_default();
@@ -186,7 +187,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    /// Parts of equal length are told apart by what is in them.
+    /// Parts of equal length are distinguished by their content.
     #[test]
     fn a_part_that_is_not_the_one_meant_is_refused() {
         let dir = tempfile::tempdir().unwrap();

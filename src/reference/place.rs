@@ -5,8 +5,8 @@ use crate::results::{Results, State};
 use crate::scene::{PlaceQuantity, Reference};
 use crate::space::{Vector, difference, length};
 
-/// The value of a quantity of a place in the state that it names. `None` if the run has no such
-/// state, or no fields there.
+/// Returns the value of a quantity at a place, in the state that the entry names. `None` if the run
+/// has no such state, or the state has no fields there.
 pub(super) fn value(model: &Model, results: &Results, entry: &Reference) -> Option<f64> {
     let (state, what) = PlaceQuantity::of(entry.quantity.as_deref()?, model.kind)?;
     let state = results.states.iter().find(|s| s.name == state)?;

@@ -1,11 +1,12 @@
-//! Hertz' pressure over a contact, where the scene names it as its reference.
+//! Hertz' pressure over a contact, if the scene names it as a reference.
 
 use super::moduli;
 use crate::analytical::{HertzLine, HertzPoint};
 use crate::model::Model;
 
-/// Pressure over the distance from the middle of an elastic contact under a load, from there to its
-/// edge in so many equal parts. `None` if the scene names neither a line nor a point of Hertz.
+/// Returns the pressure of an elastic contact under a load, over the distance from its middle, at
+/// the ends of `parts` equal parts from the middle to the edge. `None` if the scene names neither a
+/// line nor a point contact of Hertz.
 pub fn hertz_pressure(model: &Model, load: f64, parts: usize) -> Option<Vec<[f64; 2]>> {
     let references = &model.scene.reference;
     let line = references.iter().find_map(|r| r.hertz_line);

@@ -1,31 +1,32 @@
-//! How wrong the figures of a run may be, and what became of a demanded accuracy.
+//! Estimated errors of the figures of a run, and the outcome of a demanded accuracy.
 
 use super::number;
 use serde::{Deserialize, Serialize};
 
-/// How wrong the figures of a run may be.
+/// Estimated errors of the figures of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Accuracy {
     /// How the discretisation error was estimated.
     pub method: EstimateMethod,
-    /// The other meshes that were run for it, finest first.
+    /// The other meshes that were run for the estimate, finest first.
     pub companions: Vec<Companion>,
     /// A row per reported quantity.
     pub quantities: Vec<QuantityError>,
-    /// What was demanded, chosen and reached, where the scene demands an accuracy.
+    /// The demanded accuracy with the choices made and the accuracy reached, if the scene demands
+    /// one.
     pub demand: Option<Demand>,
     /// Seconds that the estimate took.
     #[serde(deserialize_with = "number")]
     pub seconds: f64,
     /// Floating point operations of the factorisations and solves of the runs that were made for
-    /// it.
+    /// the estimate.
     #[serde(default, deserialize_with = "number")]
     pub work: f64,
-    /// What the estimate could not do, and why.
+    /// Limits of the estimate: what it could not do, and why.
     pub notes: Vec<String>,
 }
 
-/// A demanded accuracy and what became of it.
+/// A demanded accuracy and its outcome.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Demand {
     /// The smallest relative error that was demanded.
@@ -34,35 +35,35 @@ pub struct Demand {
     /// The demand as it was written: one accuracy, or one for each quantity that is named.
     #[serde(default)]
     pub demanded: String,
-    /// Whether every stated error that is asked for is within it.
+    /// Whether every stated error that is asked for is within the demand.
     pub reached: bool,
-    /// Why it was not reached.
+    /// The reason why the demand was not reached.
     #[serde(default)]
     pub reason: Option<String>,
-    /// Quantities that are asked for and whose error was never estimated: nothing can be said of
-    /// them, so that the demand is not reached.
+    /// Quantities that are asked for and whose error was never estimated: nothing is known about
+    /// them, so the demand is not reached.
     #[serde(default)]
     pub unknown: Vec<String>,
     /// The stated relative error of the quantity that is farthest beyond its demand, or nearest to
     /// it.
     #[serde(deserialize_with = "number")]
     pub stated: f64,
-    /// Name of that quantity.
+    /// Name of the quantity of [`Demand::stated`].
     #[serde(default)]
     pub worst: Option<String>,
-    /// What was chosen, and why.
+    /// The choices made, with reasons.
     pub choices: Vec<String>,
-    /// Floating point operations of the factorisations and solves of all trials, their estimates
-    /// included.
+    /// Floating point operations of the factorisations and solves of all trials, including their
+    /// estimates.
     #[serde(default, deserialize_with = "number")]
     pub work: f64,
 }
 
-/// How a discretisation error was estimated.
+/// The method by which a discretisation error was estimated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EstimateMethod {
-    /// Runs of the scene on other meshes of the same family, coarser ones where the run is fine
+    /// Runs of the scene on other meshes of the same family, on coarser ones if the run is fine
     /// enough: the error follows from how the values change (L. Eca, M. Hoekstra 2014,
     /// doi:10.1016/j.jcp.2014.01.006).
     CoarserMeshes,
@@ -81,36 +82,38 @@ pub struct Companion {
     pub ratio: f64,
     /// Number of freedoms on this mesh.
     pub freedoms: usize,
-    /// Seconds that its run took.
+    /// Seconds that the run on this mesh took.
     #[serde(deserialize_with = "number")]
     pub seconds: f64,
 }
 
-/// A reported quantity with its estimated errors, all absolute, in its own unit, and not negative.
+/// A reported quantity with its estimated errors, all absolute, not negative and in the unit of the
+/// quantity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct QuantityError {
-    /// Path of the quantity in `summary.json`; states by name: `states.NAME.KEY`.
+    /// Path of the quantity in `summary.json`; states are given by name: `states.NAME.KEY`.
     pub quantity: String,
     /// The reported value.
     #[serde(deserialize_with = "number")]
     pub value: f64,
-    /// The stated error: those of discretisation, path and algebra together.
+    /// The stated error: the sum of the errors of discretisation, path and algebra.
     pub error: Option<f64>,
     /// The stated error over the largest size that the quantity has in the run.
     pub relative_error: Option<f64>,
-    /// Estimated discretisation error, factor of safety included; of half widths with that of
-    /// reading them off the pressures.
+    /// Estimated discretisation error, factor of safety included; for half widths with the error of
+    /// reading them from the pressures.
     pub discretisation: Option<f64>,
     /// Estimated error of the path: increments, plastic iteration and event tolerance.
     pub path: Option<f64>,
     /// Estimated error of the algebra: backward error, equilibrium, complementarity, and at first
-    /// yield what `gamma` leaves of the largest stress.
+    /// yield the part of the largest stress that `gamma` leaves undetermined.
     #[serde(deserialize_with = "number")]
     pub algebraic: f64,
-    /// Order of convergence in the element size that three meshes or more show, believed or not.
+    /// Order of convergence in the element size that three or more meshes show, whether or not it
+    /// is trusted.
     pub order: Option<f64>,
-    /// The value that the meshes extrapolate to, where they show an order of convergence that is
-    /// believed.
+    /// The value to which the meshes extrapolate, if they show an order of convergence that is
+    /// trusted.
     #[serde(default)]
     pub extrapolated: Option<f64>,
 }

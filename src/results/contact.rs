@@ -1,11 +1,11 @@
-//! What carries a contact: pairs, and in a solid model patches.
+//! States of a contact: pairs, and in a solid model patches.
 
 use super::number;
 use crate::space::Vector;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// A patch of contact of a solid model: pairs that touch, joined by faces of the second surface. It
-/// is that of the whole where it reaches planes of symmetry.
+/// A patch of contact of a solid model: pairs that touch, joined by faces of the second surface. If
+/// it reaches planes of symmetry it is the patch of the whole contact.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactPatch {
     /// Contact (scene entry) index, from 0; `summary.json` counts from 1.
@@ -14,8 +14,8 @@ pub struct ContactPatch {
     /// Force that the patch carries.
     #[serde(deserialize_with = "number")]
     pub force: f64,
-    /// Area, on the plane across the mean normal; of a patch that closes round a body that of its
-    /// surface.
+    /// Area, on the plane across the mean normal; for a patch that closes round a body the area of
+    /// its surface.
     #[serde(deserialize_with = "number")]
     pub area: f64,
     /// Largest pressure of a pair.
@@ -24,9 +24,9 @@ pub struct ContactPatch {
     /// Force over area.
     #[serde(deserialize_with = "number")]
     pub mean_pressure: f64,
-    /// Half axes, the larger first, of the ellipse with the patch's area moments of second order:
-    /// those of the patch itself where it is an ellipse. Of a patch between two parallel planes of
-    /// symmetry, a strip without end, infinite and half its width.
+    /// Half axes, the larger first, of the ellipse with the patch's second moments of area; if the
+    /// patch is an ellipse, they are its own half axes. For a patch between two parallel planes of
+    /// symmetry, a strip without end: infinity and half its width.
     #[serde(deserialize_with = "numbers")]
     pub semi_axes: [f64; 2],
     /// Centroid of the area.
@@ -43,7 +43,7 @@ fn numbers<'de, D: Deserializer<'de>>(from: D) -> Result<[f64; 2], D::Error> {
     Ok(<[Number; 2]>::deserialize(from)?.map(|n| n.0))
 }
 
-/// An index from 0 that is written as a number from 1.
+/// Writes an index from 0 as a number from 1.
 mod from_one {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -56,7 +56,7 @@ mod from_one {
     }
 }
 
-/// A vector that is written as components by name.
+/// Writes a vector as components by name.
 mod by_axis {
     use super::{Vector, number};
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -91,8 +91,8 @@ pub struct PairState {
     pub contact: usize,
     /// Position (on the second surface, undeformed).
     pub position: Vector,
-    /// Gap, >= 0; negative where the surfaces overlap: in soft contact, and on the axis of
-    /// revolution, where quadratic elements have no pair.
+    /// Gap, >= 0; negative if the surfaces overlap, which happens in soft contact, and on the axis
+    /// of revolution, where quadratic elements have no pair.
     pub gap: f64,
     /// Force, compressive positive.
     pub force: f64,

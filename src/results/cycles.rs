@@ -1,29 +1,29 @@
-//! What a program of cycles came to.
+//! The outcome of a program of cycles.
 
 use super::number;
 #[cfg(feature = "report")]
 use crate::number::number as short;
 use serde::{Deserialize, Serialize};
 
-/// How a structure answers cycles of its loads.
+/// The response of a structure to cycles of its loads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CycleOutcome {
     /// Nothing yields.
     Elastic,
-    /// The material yields at first, and not any more.
+    /// The material yields at first, but not any more.
     ElasticShakedown,
     /// Plastic strains go to and fro, and come back in each cycle.
     PlasticShakedown,
-    /// Plastic strains grow by the same in each cycle.
+    /// Plastic strains grow by the same amount in each cycle.
     Ratchetting,
-    /// The last cycle was not yet like the next.
+    /// The response had not settled: the last cycle was not yet like the next.
     #[default]
     NotSteady,
 }
 
 impl CycleOutcome {
-    /// The outcome in words.
+    /// Returns the outcome in words.
     pub fn words(self) -> &'static str {
         match self {
             CycleOutcome::Elastic => "elastic",
@@ -35,16 +35,17 @@ impl CycleOutcome {
     }
 }
 
-/// A cycle of the load and what it changed.
+/// A cycle of the load and the changes in it.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CycleRow {
     /// Number of the cycle, from 1.
     pub cycle: usize,
-    /// The largest equivalent plastic strain that a point gained in it.
+    /// The largest equivalent plastic strain that a point gained in the cycle.
     #[serde(deserialize_with = "number")]
     pub flow: f64,
-    /// The largest change of a point's plastic strain from its start to its end, `sqrt(2/3 e:e)`.
+    /// The largest change of a point's plastic strain from start to end of the cycle,
+    /// `sqrt(2/3 e:e)`.
     #[serde(deserialize_with = "number")]
     pub growth: f64,
 }
@@ -55,14 +56,14 @@ pub struct CycleRow {
 pub struct Cycles {
     /// Outcome of the cycles.
     pub outcome: CycleOutcome,
-    /// The body whose plastic strain grew most in the last.
+    /// The body whose plastic strain grew most in the last cycle.
     pub body: Option<String>,
     /// A row for each cycle.
     pub rows: Vec<CycleRow>,
 }
 
 impl Cycles {
-    /// Outcome of the cycles, in a sentence.
+    /// Returns the outcome of the cycles in a sentence.
     #[cfg(feature = "report")]
     pub fn told(&self) -> String {
         let last = self.last();
@@ -94,7 +95,7 @@ impl Cycles {
         format!("{}; {what}", self.outcome.words())
     }
 
-    /// The last of them.
+    /// Returns the last of the cycles.
     pub fn last(&self) -> CycleRow {
         self.rows.last().copied().unwrap_or_default()
     }

@@ -1,30 +1,31 @@
-//! How a run ended.
+//! The ending of a run.
 
 use super::{Demand, Results};
 use crate::error::{Error, ErrorKind};
 
-/// Why a run ended before its program did.
+/// The reason why a run ended before its program did.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Incomplete {
-    /// What decides the exit code: stopped, collapse, analysis, ...
+    /// The kind that decides the exit code: stopped, collapse, analysis, ...
     pub kind: ErrorKind,
     /// The reason in words.
     pub why: String,
 }
 
 impl Incomplete {
-    /// This ending as an error.
+    /// Returns this ending as an error.
     pub fn to_error(&self) -> Error {
         Error::new(self.kind, self.why.as_str())
     }
 }
 
-/// How a run ended, with what it did not keep of what was asked of it.
+/// The ending of a run, with the requirements that it did not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ending<'r> {
-    /// The program is done, every state within its tolerances, the demanded accuracy reached.
+    /// The program is complete, every state is within its tolerances, and the demanded accuracy is
+    /// reached.
     Complete,
-    /// The program is done, but a state misses its tolerances or the demanded accuracy is not
+    /// The program is complete, but a state misses its tolerances or the demanded accuracy is not
     /// reached.
     Inaccurate {
         /// States whose quality misses its tolerance, with the figure.
@@ -37,7 +38,7 @@ pub enum Ending<'r> {
 }
 
 impl Results {
-    /// How the run ended.
+    /// Returns how the run ended.
     pub fn ending(&self) -> Ending<'_> {
         if let Some(incomplete) = &self.incomplete {
             return Ending::Incomplete(incomplete);
@@ -56,7 +57,7 @@ impl Results {
 }
 
 impl Ending<'_> {
-    /// The kind that decides the exit code; `None` if all was kept.
+    /// Returns the kind that decides the exit code; `None` if all requirements are met.
     pub fn kind(&self) -> Option<ErrorKind> {
         match self {
             Ending::Complete => None,

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 /// A row of `history.csv`: one accepted increment.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct HistoryRow {
-    /// Number, from 1.
+    /// Number of the increment, from 1.
     pub increment: usize,
-    /// Load factor at its end, in the program's unit.
+    /// Load factor at the end of the increment, in the program's unit.
     #[serde(deserialize_with = "number")]
     pub alpha: f64,
     /// Total load at the end of the increment.
@@ -25,32 +25,32 @@ pub struct HistoryRow {
     pub contact_force: f64,
     /// Number of closed pairs.
     pub closed_pairs: usize,
-    /// Gauss points with plastic strain.
+    /// Number of Gauss points with plastic strain.
     pub plastic_points: usize,
     /// Largest equivalent plastic strain.
     #[serde(deserialize_with = "number")]
     pub max_equivalent_plastic_strain: f64,
-    /// Plastic iterations of this increment.
+    /// Number of plastic iterations in this increment.
     pub iterations: usize,
-    /// Trailing solves of this increment.
+    /// Number of trailing solves in this increment.
     pub trailing_solves: usize,
-    /// Relative out-of-balance force at its end.
+    /// Relative out-of-balance force at the end of the increment.
     #[serde(deserialize_with = "number")]
     pub residual: f64,
     /// Event that ended the increment: `closes: pair 12`, `opens: pair 3`, `target: NAME`, `step`,
     /// `yield`.
     pub event: String,
-    /// What the scene asks for besides ([`crate::scene::Program::history`]), in the order of
-    /// [`super::Results::history_columns`].
+    /// Values of the additional columns that the scene asks for
+    /// ([`crate::scene::Program::history`]), in the order of [`super::Results::history_columns`].
     #[serde(default)]
     pub measured: Vec<f64>,
 }
 
 /// A row of `path.csv`: a point of the path between two rows of the history. Contact forces are
-/// taken to change evenly from the one to the other, which they do where nothing flows.
+/// interpolated linearly between the rows, which is exact if nothing flows.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct PathPoint {
-    /// Number of the increment that it is on the way of.
+    /// Number of the increment to which the point belongs.
     pub increment: usize,
     /// Load factor, in the program's unit.
     #[serde(deserialize_with = "number")]
@@ -67,10 +67,10 @@ pub struct PathPoint {
 }
 
 impl Results {
-    /// Stiffness with which unloading begins: slope of the load over the approach in the first
-    /// increment after the largest load, up to whose end contact is as it was. `None` if the
+    /// Returns the initial unloading stiffness: the slope of the load over the approach in the
+    /// first increment after the largest load, during which contact does not change. `None` if the
     /// history does not follow the approach ([`crate::scene::Program::history`]) or the load does
-    /// not come down.
+    /// not decrease.
     pub fn unloading_stiffness(&self) -> Option<f64> {
         let mut columns = self.history_columns.iter();
         let approach = columns.position(|column| column == "approach")?;
@@ -82,7 +82,7 @@ impl Results {
     }
 }
 
-/// Slope with which a curve of force over depth comes down from its largest force.
+/// Returns the slope of a curve of force over depth just after its largest force.
 fn stiffness(points: &[[f64; 2]]) -> Option<f64> {
     let top = (0..points.len()).max_by(|&a, &b| points[a][1].total_cmp(&points[b][1]))?;
     let [from, to] = [points[top], *points.get(top + 1)?];

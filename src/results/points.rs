@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// components as [`super::Fields::stress`].
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PointValues {
-    /// Where the points of each element begin, and where those of the last one end.
+    /// Index of the first point of each element, and at the end the number of all points.
     pub offsets: Vec<usize>,
     /// `n_points x n_components` stresses.
     pub stress: Vec<f64>,
@@ -18,7 +18,7 @@ pub struct PointValues {
 }
 
 impl PointValues {
-    /// Zeros at so many points of each element.
+    /// Creates zeros at the given number of points of each element.
     pub fn zeros(n_points: impl Iterator<Item = usize>, n_components: usize) -> Self {
         let mut offsets = vec![0];
         let mut n = 0;
@@ -34,20 +34,20 @@ impl PointValues {
         }
     }
 
-    /// The points of an element.
+    /// Returns the range of the points of an element.
     pub fn of(&self, element: usize) -> std::ops::Range<usize> {
         self.offsets[element]..self.offsets[element + 1]
     }
 
-    /// Components of stress and strain.
+    /// Returns the number of components of stress and strain.
     pub fn n_components(&self) -> usize {
         (self.stress.len())
             .checked_div(self.plastic_strain.len())
             .unwrap_or(0)
     }
 
-    /// Puts the values of some elements of the mesh in their places: the i-th of `values` is the
-    /// element `elements[i]`.
+    /// Copies the values of some elements into their places: the i-th element of `values` is the
+    /// element `elements[i]` of the mesh.
     pub(crate) fn put(&mut self, elements: &[usize], values: &PointValues) {
         let c = self.n_components();
         for (i, &element) in elements.iter().enumerate() {

@@ -1,27 +1,28 @@
-//! How good the solution of the equations is.
+//! The quality of a solution of the equations.
 
 use super::number;
 use serde::{Deserialize, Serialize};
 
-/// How good a state is: all figures are relative and dimensionless. Loads and displacements are
-/// measured against the largest of the run so far. Gaps are those of the displacements, contact
-/// forces those that the stresses leave over: both independent of the contact solve, neither
-/// clipped.
+/// The quality of a state: all figures are relative and dimensionless. Loads and displacements are
+/// measured against the largest of the run so far. Gaps follow from the displacements, contact
+/// forces are the residual forces of the stresses: both are independent of the contact solve, and
+/// neither is clipped.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Quality {
     /// Normwise backward error of the full solve: `|f - K u| / (|K| |u| + |f|)`, infinity norms.
     #[serde(deserialize_with = "number")]
     pub backward_error: f64,
-    /// Componentwise backward error, the largest of a row's `|f - K u|` over its `|K| |u| + |f|`;
-    /// none in results of versions that did not have it. It has no tolerance of its own: where it
-    /// is large and the normwise backward error is not, next to nothing acts on some freedoms.
+    /// Componentwise backward error, the largest ratio of a row's `|f - K u|` to its
+    /// `|K| |u| + |f|`; none in results of versions that did not have it. It has no tolerance of
+    /// its own: if it is large and the normwise backward error is not, the forces on some freedoms
+    /// are close to zero.
     pub componentwise_error: Option<f64>,
-    /// What round-off alone may leave out of balance, over the largest applied or contact force:
-    /// `2 eps |K| |u|`, the largest of a row, with `u` free of rigid motions: storing `u` and
-    /// summing up the forces of its elements costs as much, whatever solved for it. Forces that are
-    /// out of balance by no more are as good as the mesh allows. Where plastic strains stay, `u`
-    /// counts as the largest of the run. None in results of versions that did not have it.
+    /// Out-of-balance force that round-off alone may cause, over the largest applied or contact
+    /// force: `2 eps |K| |u|`, the largest of a row, with `u` free of rigid motions. Storing `u`
+    /// and summing up the forces of its elements costs as much, whatever solver found `u`. Forces
+    /// whose balance is no worse are as good as the mesh allows. If plastic strains remain, the
+    /// largest `u` of the run counts. None in results of versions that did not have it.
     pub round_off: Option<f64>,
     /// Out-of-balance force of the stresses over the largest applied or contact force.
     #[serde(deserialize_with = "number")]
@@ -37,7 +38,7 @@ pub struct Quality {
     pub adhesion: f64,
 }
 
-/// What a state's quality may be before its result counts as inaccurate.
+/// Tolerances of a state's quality, beyond which its result counts as inaccurate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
     /// Tolerance of [`Quality::backward_error`].
@@ -47,12 +48,12 @@ pub struct Tolerances {
     /// Tolerance of [`Quality::complementarity`], [`Quality::penetration`] and
     /// [`Quality::adhesion`].
     pub contact: f64,
-    /// What [`Quality::round_off`] may widen those of forces to, and no further.
+    /// Largest value to which [`Quality::round_off`] may raise the tolerances of forces.
     pub loosest: f64,
 }
 
 impl Quality {
-    /// Figure by figure the worse of two; what is not a number is the worst.
+    /// Returns the worse value of two for each figure; a value that is not a number is the worst.
     pub(crate) fn merge_worst(&self, other: &Quality) -> Quality {
         let worse = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
         let either = |a: Option<f64>, b: Option<f64>| a.into_iter().chain(b).reduce(worse);
@@ -67,8 +68,8 @@ impl Quality {
         }
     }
 
-    /// The largest figure of forces that is beyond its tolerance and passes because round-off alone
-    /// may leave as much.
+    /// Returns the largest figure of forces that is beyond its tolerance but accepted, because
+    /// round-off alone may leave as much.
     pub(crate) fn excused(&self, tolerances: &Tolerances) -> Option<f64> {
         let round_off = self.round_off.unwrap_or(0.0).min(tolerances.loosest);
         [
@@ -82,8 +83,8 @@ impl Quality {
         .reduce(f64::max)
     }
 
-    /// The figures that miss their tolerance (or are not numbers), each with its name, value and
-    /// tolerance. Those of forces may be as large as the round-off of the mesh.
+    /// Returns the figures that miss their tolerance (or are not numbers), each with its name,
+    /// value and tolerance. The figures of forces may be as large as the round-off of the mesh.
     pub fn misses(&self, tolerances: &Tolerances) -> Vec<(&'static str, f64, f64)> {
         let round_off = self.round_off.unwrap_or(0.0).min(tolerances.loosest);
         let forces = tolerances.contact.max(round_off);

@@ -1,30 +1,31 @@
-//! The quantities that a run reports: one table, from which `summary.json`, the tables of terminal
-//! and report, C, Python, the error estimates and the demands on accuracy take theirs. Whoever adds
-//! one adds its field to [`State`] with its computation, an entry here, and what it means to the
-//! schema, which a test holds to this table.
+//! The quantities that a run reports. From this one table `summary.json`, the tables of terminal
+//! and report, C, Python, the error estimates and the demands on accuracy take their quantities. To
+//! add a quantity, add its field to [`State`] with its computation, an entry here, and its meaning
+//! to the schema, which a test compares with this table.
 
 use super::{HistoryRow, PathPoint, Results, State, YieldPoint};
 
-/// What a quantity is measured in.
+/// The unit in which a quantity is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// Nothing: a factor, a count, a strain, a relative error.
+    /// Dimensionless: a factor, a count, a strain, a relative error.
     One,
     /// A length, in units of the mesh.
     Length,
     /// A stress, in units of the moduli.
     Stress,
-    /// What loads: a force, in the plane per length; where a stress loads, that.
+    /// The unit of the load: a force, in the plane a force per length; a stress if a stress is the
+    /// load.
     Load,
-    /// A length in the plane, else an area.
+    /// A length in the plane, otherwise an area.
     Area,
-    /// An area in the plane, else a volume.
+    /// An area in the plane, otherwise a volume.
     Size,
-    /// An energy, in the plane per length.
+    /// An energy, in the plane an energy per length.
     Work,
 }
 
-/// In which runs a quantity says something.
+/// The runs in which a quantity carries information.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
     /// Runs of every kind.
@@ -46,7 +47,8 @@ impl Scope {
         Scope::YieldingContact,
     ];
 
-    /// Whether a run with contact, in which material yields, is in it.
+    /// Whether the scope contains a run, given whether it has contact and whether material yields
+    /// in it.
     pub fn holds(self, contact: bool, yielding: bool) -> bool {
         match self {
             Scope::Always => true,
@@ -57,12 +59,12 @@ impl Scope {
     }
 }
 
-/// Where a record keeps a quantity. Counts are numbers too; one that is not known is not a number.
+/// Access to a quantity in a record. Counts are numbers too; an unknown quantity is not a number.
 #[derive(Debug)]
 pub struct Field<Record> {
     /// Reads the quantity.
     pub get: fn(&Record) -> f64,
-    /// Writes the quantity, as a summary is read back.
+    /// Writes the quantity when a summary is read back.
     pub(crate) set: fn(&mut Record, f64),
 }
 
@@ -74,18 +76,18 @@ impl<Record> Clone for Field<Record> {
 
 impl<Record> Copy for Field<Record> {}
 
-/// How the error of a quantity is estimated.
+/// The estimate of the error of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Estimated {
-    /// A short name, for demands on it.
+    /// Short name of the quantity for demands on it.
     pub short: &'static str,
-    /// Whether the quantity is one of single Gauss points, which a mesh reaches with first order.
+    /// Whether the quantity is one of single Gauss points, which converges with first order.
     pub is_of_points: bool,
-    /// Whether a demand on all quantities is one on it.
+    /// Whether a demand on all quantities includes this one.
     pub in_all: bool,
 }
 
-/// A quantity that runs report: key, unit, places.
+/// A quantity that runs report: key, unit, and the records that have it.
 #[derive(Debug)]
 pub struct Quantity {
     /// Key of the quantity in `summary.json`, name of its column in the tables and in Python.
@@ -94,11 +96,12 @@ pub struct Quantity {
     pub unit: Unit,
     /// Whether the quantity is a count.
     pub is_count: bool,
-    /// Runs in which the quantity is meant.
+    /// Runs in which the quantity carries information.
     pub scope: Scope,
-    /// Heading of its column in the tables for readers, in lines; empty: it is in none.
+    /// Heading of the quantity's column in the tables for readers, in lines; empty if no table has
+    /// it.
     pub heading: &'static str,
-    /// Whether narrow tables leave it out.
+    /// Whether narrow tables leave out the quantity.
     pub is_detail: bool,
     /// Key of the quantity that makes this column redundant if both are equal.
     pub twin: Option<&'static str>,
@@ -115,12 +118,12 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// The quantity of a key.
+    /// Returns the quantity of a key.
     pub fn of(key: &str) -> Option<&'static Quantity> {
         QUANTITIES.iter().find(|quantity| quantity.key == key)
     }
 
-    /// Value of the quantity at a state or at first yield of a run.
+    /// Returns the value of the quantity at a state or at first yield of a run.
     fn at(&self, place: &QuantityPlace) -> Option<f64> {
         match place {
             QuantityPlace::Yield(point) => Some((self.at_yield?.get)(point)),
@@ -129,7 +132,7 @@ impl Quantity {
     }
 }
 
-/// The field of a name.
+/// Creates the access to the field of a name.
 macro_rules! field {
     ($name:ident) => {
         Field {
@@ -139,7 +142,7 @@ macro_rules! field {
     };
 }
 
-/// A quantity that the entry says nothing more of: of states alone, in no table for readers.
+/// Returns a quantity with default settings: it exists in states only, and in no table for readers.
 const fn plain(key: &'static str, unit: Unit, scope: Scope, in_state: Field<State>) -> Quantity {
     Quantity {
         key,
@@ -157,8 +160,8 @@ const fn plain(key: &'static str, unit: Unit, scope: Scope, in_state: Field<Stat
     }
 }
 
-/// An entry: a field of states with its unit and scope, where else there is a field of that name,
-/// and what else is to be said.
+/// Creates an entry: a field of states with its unit and scope, the other records that have a field
+/// of the same name, and further settings.
 macro_rules! entry {
     ($name:ident, $unit:ident, $scope:ident, [$($place:ident)*] $(, $more:ident: $value:expr)*) => {
         entry!(field!($name), $name, $unit, $scope, [$($place)*] $(, $more: $value)*)
@@ -175,7 +178,7 @@ macro_rules! entry {
     };
 }
 
-/// The entry of a quantity whose error is estimated.
+/// Returns the entry of a quantity whose error is estimated.
 const fn error(short: &'static str, is_of_points: bool, in_all: bool) -> Option<Estimated> {
     Some(Estimated {
         short,
@@ -218,20 +221,20 @@ pub static QUANTITIES: [Quantity; 17] = [
     entry!(ENERGY_ERROR, energy_error, One, Always, []),
 ];
 
-/// Known where fields are.
+/// Access to the energy error, which is known if the state has fields.
 const ENERGY_ERROR: Field<State> = Field {
     get: |state| state.energy_error.unwrap_or(f64::NAN),
     set: |state, value| state.energy_error = (!value.is_nan()).then_some(value),
 };
 
-/// A state, or first yield.
+/// A place that has quantities: a state, or first yield.
 enum QuantityPlace<'r> {
     Yield(&'r YieldPoint),
     State(&'r State),
 }
 
-/// The number at a path of `summary.json`: `yield.KEY` or `states.NAME.KEY`, where the number of
-/// the state, from 0, may stand for its name. `None` if the run has none such.
+/// Returns the number at a path of `summary.json`: `yield.KEY` or `states.NAME.KEY`, where the
+/// number of the state, from 0, may stand for its name. `None` if the run has no such number.
 pub fn value(results: &Results, path: &str) -> Option<f64> {
     let (head, rest) = path.split_once('.')?;
     if head == "yield" {

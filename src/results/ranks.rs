@@ -1,4 +1,4 @@
-//! What several ranks did together.
+//! The cooperation of several ranks in a run.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,12 +8,11 @@ use serde::{Deserialize, Serialize};
 pub struct Ranks {
     /// Number of ranks.
     pub count: usize,
-    /// Times that the first one asked something of the others: to assemble, to factor, to solve for
-    /// each load and each state and to evaluate its stresses, nothing in between.
+    /// Number of requests of the first rank to the others: to assemble, to factor, to solve for
+    /// each load and each state and to evaluate its stresses. There are none in between.
     pub requests: u64,
-    /// Bytes that it sent and received for that, without those of MUMPS.
+    /// Bytes that the first rank sent and received for these requests, without those of MUMPS.
     pub bytes: u64,
-    /// The most memory that each of them has held, in bytes; null if the system does not report
-    /// it.
+    /// The largest memory that each rank has held, in bytes; null if the system does not report it.
     pub peak_memory_bytes: Vec<Option<u64>>,
 }

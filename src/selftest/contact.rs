@@ -13,8 +13,8 @@ use crate::scene::{Plastic, Target, Unit};
 use nalgebra::{DMatrix, DVector};
 
 /// Bound of the error for conforming surfaces: `2 n^2 eps` with the `n` = 25 pairs of the disc. The
-/// condensed stiffness of a surface is an operator
-/// of first order: its condition is about the number of elements along it.
+/// condensed stiffness of a surface is an operator of first order: its condition is about the
+/// number of elements along it.
 const CONFORMING: f64 = 2.0 * 25.0 * 25.0 * f64::EPSILON;
 
 pub(super) const FAMILIES: &[Family] = &[
@@ -146,8 +146,8 @@ fn ties(cases: &mut Cases) -> Result<()> {
     Ok(())
 }
 
-/// Small integers by a linear congruential generator: ties and singular matrices are exact, and the
-/// same everywhere.
+/// Small integers from a linear congruential generator: ties and singular matrices are exact, and
+/// the same on all machines.
 struct Integers(u64);
 
 impl Integers {
@@ -187,8 +187,8 @@ fn complementarity(cases: &mut Cases) -> Result<()> {
     Ok(())
 }
 
-/// The elastic line contact at multiples of the load of first yield, on candidates that follow from
-/// the load.
+/// Runs the elastic line contact at multiples of the load at first yield, with contact candidates
+/// that follow from the load.
 fn spreading(cases: &mut Cases) -> Result<()> {
     const CYLINDER: &str = include_str!("../../data/scenes/cylinder_on_half_plane.toml");
     let (modulus, y) = (contact_modulus(210e3, 0.3, 210e3, 0.3), 500.0);
@@ -224,8 +224,8 @@ fn spreading(cases: &mut Cases) -> Result<()> {
     Ok(())
 }
 
-/// Each body's share in a dent against the displacements of the whole mesh after unloading: its
-/// pole and its far surface.
+/// Compares each body's share in a dent with the displacements of the whole mesh after unloading,
+/// at its pole and its far surface.
 fn dents(cases: &mut Cases) -> Result<()> {
     const SCENES: [&str; 2] = [
         include_str!("../../data/scenes/cylinder_on_half_plane.toml"),

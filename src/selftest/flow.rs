@@ -128,9 +128,9 @@ fn cycles(cases: &mut Cases) -> Result<()> {
     Ok(())
 }
 
-/// A constant tension s along y, the strain along x cycled by +-e: at yield the stress along x is
-/// `s/2 +- q`, `q^2 = Y^2 - 3/4 s^2`, and the flow rule gives an equivalent plastic strain of
-/// `Y/q (2 e - 2 q/E)` in each half cycle. With hardening Y grows until `q = E e`.
+/// A constant tension s acts along y, and the strain along x is cycled by +-e. At yield the stress
+/// along x is `s/2 +- q`, `q^2 = Y^2 - 3/4 s^2`, and the flow rule gives an equivalent plastic
+/// strain of `Y/q (2 e - 2 q/E)` in each half cycle. With hardening Y grows until `q = E e`.
 fn ratchet(cases: &mut Cases) -> Result<()> {
     let (modulus, yield_stress, tension, amplitude) = (2e5f64, 200.0f64, 100.0f64, 0.003);
     let mut sheet = scene(include_str!("../../data/scenes/hard/ratchet.toml"))?;
@@ -166,7 +166,8 @@ fn axis(cases: &mut Cases) -> Result<()> {
     let run = results(&scene(include_str!(
         "../../data/scenes/hard/axis_of_quadratic_elements.toml"
     ))?)?;
-    // Elastic first, then all of the lower block flows: a run without flow shows nothing here.
+    // The first state is elastic, in the second the whole lower block flows: a run without flow
+    // would test nothing here.
     let plastic: Vec<bool> = run.states.iter().map(|s| s.plastic_points > 0).collect();
     if plastic != [false, true] {
         cases.add(f64::NAN);

@@ -1,5 +1,5 @@
-//! Models as they come: bodies one element thick, punches that end where they like, stacks, unlike
-//! and coarse meshes, heat under what lies loose.
+//! Models as users write them: bodies one element thick, punches with arbitrary ends, stacks,
+//! unlike and coarse meshes, heat under a loose body.
 
 use super::{Cases, Family, results, scene};
 use crate::analysis::Analysis;
@@ -86,7 +86,8 @@ fn few_elements(cases: &mut Cases) -> Result<()> {
             let clamped = "{ on = \"b.left\", fix = [\"x\", \"y\"] }";
             let bent = "{ on = \"b.right\", traction = [0.0, 30.0] }";
             all.push(block("plane_stress", &part, clamped, bent));
-            // Held on two sides along themselves, too: no planes of symmetry.
+            // Two sides are held in both directions, also along themselves, so they are not planes
+            // of symmetry.
             let sheared = "{ on = \"b.top\", displacement = { x = 0.01 } }";
             let between = "{ on = \"b.bottom\", fix = [\"x\", \"y\"] }, \
                            { on = \"b.top\", fix = [\"y\"] }";
@@ -193,7 +194,8 @@ fn stacks(cases: &mut Cases) -> Result<()> {
     Ok(())
 }
 
-/// A block that lies on another one, with what that one has and what acts.
+/// Returns a scene of a block under pressure that lies on another block; `of_low` adds keys to the
+/// lower body, `rest` adds loads.
 fn on_block(kind: &str, of_low: &str, rest: &str, [low, up]: [&str; 2]) -> String {
     format!(
         "kind = \"{kind}\"\n\
@@ -270,7 +272,7 @@ fn unlike(cases: &mut Cases) -> Result<()> {
                 };
                 let [low, up] = [part(4.0, [0.0, 2.0], cells), part(2.0, [2.0, 3.0], other)];
                 let text = on_block(kind, "", "", [&low, &up]);
-                // Twice the pressure at which a bar yields.
+                // The pressure is twice that at which a bar yields.
                 let text = text.replace("pressure = 100.0", "pressure = 400.0");
                 let found = results(&scene(&text)?)?;
                 match found.ending().kind() {

@@ -1,5 +1,5 @@
 //! The fast part of the stability suite, on the user's own machine and build: hard cases by family,
-//! the worst figure measured, its bound and where that comes from.
+//! with the worst figure measured, its bound and the source of the bound.
 //!
 //! | file | what |
 //! |---|---|
@@ -27,12 +27,12 @@ use crate::progress::{Observer, Silent};
 use crate::results::{Results, State};
 use crate::scene::Scene;
 
-/// What a family of hard cases came to.
+/// The outcome of a family of hard cases.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Name of the family.
     pub family: &'static str,
-    /// What was measured.
+    /// Description of the figure that was measured.
     pub figure: &'static str,
     /// Number of cases.
     pub cases: usize,
@@ -40,20 +40,20 @@ pub struct Row {
     pub worst: f64,
     /// Largest figure that is allowed.
     pub bound: f64,
-    /// Where the bound comes from.
+    /// Derivation of the bound.
     pub source: &'static str,
-    /// The case that did not run, and why.
+    /// The case that did not run, and the reason.
     pub failure: Option<String>,
 }
 
 impl Row {
-    /// Whether the worst figure keeps the bound.
+    /// Whether the worst figure is within the bound.
     pub fn passed(&self) -> bool {
         self.failure.is_none() && self.worst <= self.bound
     }
 }
 
-/// A family: figure by figure, one for each case.
+/// A family of cases, each of which gives a figure.
 struct Family {
     name: &'static str,
     figure: &'static str,
@@ -62,7 +62,7 @@ struct Family {
     cases: fn(&mut Cases) -> Result<()>,
 }
 
-/// Collects the figures of a family.
+/// The collected figures of a family.
 #[derive(Default)]
 struct Cases {
     count: usize,
@@ -70,7 +70,7 @@ struct Cases {
 }
 
 impl Cases {
-    /// A case came to `figure` (an error, zero at best).
+    /// Adds a case with its figure (an error, zero at best).
     fn add(&mut self, figure: f64) {
         self.count += 1;
         if figure.is_nan() || figure.abs() > self.worst {
@@ -83,7 +83,7 @@ impl Cases {
     }
 }
 
-/// Runs all families; `observer` gets each one's name as a phase, and may stop.
+/// Runs all families; `observer` receives the name of each as a phase, and may stop the run.
 pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
     let families = contact::FAMILIES
         .iter()
@@ -118,7 +118,7 @@ pub fn run(observer: &mut dyn Observer) -> Vec<Row> {
     rows
 }
 
-/// The rows as a page in Markdown, with the build that they were measured with.
+/// Returns the rows as a page in Markdown, with the build with which they were measured.
 pub fn page(rows: &[Row]) -> String {
     let mut text = format!(
         "# Hard cases, measured\n\nWritten by `brinell selftest --markdown`: brinell {}, BLAS: {}. \
@@ -147,22 +147,22 @@ pub fn page(rows: &[Row]) -> String {
     text + &beside_others()
 }
 
-/// What another program made of the cases of `data/peers`: the part of that page which stands under
-/// its heading, as it was measured.
+/// Returns the results of another program for the cases of `data/peers`: the part of that page
+/// under the heading, as it was measured.
 fn beside_others() -> String {
     const PAGE: &str = include_str!("../../data/peers/README.md");
     const HEADING: &str = "## Where contact codes fail silently";
     let part = PAGE.find(HEADING).map_or("", |at| &PAGE[at..]);
-    // The links there are relative to that page's folder.
+    // The links of that page are relative to its folder.
     format!("\n{}", part.replace("](", "](peers/"))
 }
 
-/// A scene of the suite.
+/// Parses a scene of the suite.
 fn scene(text: &str) -> Result<Scene> {
     Scene::parse(text, "selftest")
 }
 
-/// Runs a scene without fields; a limit load or another early end is left in the results.
+/// Runs a scene without fields; a limit load or another early end is recorded in the results.
 fn results(scene: &Scene) -> Result<Results> {
     results_by(scene, Backend::default())
 }
@@ -183,7 +183,8 @@ fn state<'r>(results: &'r Results, name: &str) -> Result<&'r State> {
     })
 }
 
-/// Largest difference of a figure of the pairs of two states, over the largest value of the first.
+/// Returns the largest difference of a figure between the pairs of two states, over the largest
+/// value of the first state.
 fn difference(a: &State, b: &State, figure: fn(&crate::results::PairState) -> f64) -> f64 {
     if a.pairs.len() != b.pairs.len() {
         return f64::INFINITY;
@@ -193,7 +194,7 @@ fn difference(a: &State, b: &State, figure: fn(&crate::results::PairState) -> f6
     pairs.fold(0.0f64, |m, (p, q)| m.max((figure(p) - figure(q)).abs())) / scale
 }
 
-/// The worst algebraic figure of all states.
+/// Returns the worst algebraic figure of all states.
 fn worst_quality(results: &Results) -> f64 {
     let q = &results.quality;
     [

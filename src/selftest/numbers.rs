@@ -1,4 +1,4 @@
-//! Numbers far apart: stiffness ratios, slivers, units; two backends.
+//! Numbers of very different size: stiffness ratios, slivers, units; and two backends.
 
 use super::{Cases, Family, difference, results, results_by, scene, state, worst_quality};
 use crate::analysis::Analysis;
@@ -117,7 +117,8 @@ fn sizes(cases: &mut Cases) -> Result<()> {
                 material.youngs_modulus = modulus;
             }
         }
-        // The plate's rim is as far as makes no difference; the pin's bore is half its radius.
+        // The plate's rim is so far away that it makes no difference; the radius of the pin's bore
+        // is half that of the pin.
         let exact = 1e-3 / ((5.0 / 3.0 - 0.3) / pin + 1.3 / plate);
         let run = results(&fit)?;
         for pair in run.states.iter().flat_map(|s| &s.pairs) {
@@ -136,7 +137,7 @@ fn slivers(cases: &mut Cases) -> Result<()> {
     Ok(())
 }
 
-/// The scene with forces, lengths and stresses in other units.
+/// Returns the scene with forces, lengths and stresses in other units.
 fn scaled(scene: &Scene, stress: f64, length: f64) -> Scene {
     let mut out = scene.clone();
     for material in out.materials.values_mut() {
@@ -155,7 +156,7 @@ fn scaled(scene: &Scene, stress: f64, length: f64) -> Scene {
     if let Some(mesh) = &mut out.mesh.cylinder_on_half_plane {
         mesh.radius *= length;
     }
-    // Plane strain: forces are per unit of thickness.
+    // In plane strain forces are per unit of thickness.
     for load in &mut out.load {
         if let Some(force) = &mut load.plane_force {
             force.total *= stress * length;

@@ -1,4 +1,4 @@
-//! Cases on which contact codes were seen to fail without a word (`data/peers`).
+//! Cases on which contact codes were seen to fail silently (`data/peers`).
 
 use super::{Cases, Family, difference, results, scene};
 use crate::analytical::{DiscInPlate, HertzLine, HertzPoint, contact_modulus};
@@ -15,7 +15,7 @@ pub(super) const FAMILIES: &[Family] = &[Family {
     cases: beside_peers,
 }];
 
-/// The scene with its states' closed form for the pole pressure.
+/// Compares the pole pressure of a scene's states with its closed form.
 fn against(cases: &mut Cases, text: &str, exact: impl Fn(&State) -> Result<f64>) -> Result<()> {
     let run = results(&scene(text)?)?;
     for s in run
@@ -24,7 +24,8 @@ fn against(cases: &mut Cases, text: &str, exact: impl Fn(&State) -> Result<f64>)
         .filter(|s| s.contact_force > 0.0 && s.plastic_points == 0)
     {
         cases.add(s.pole_pressure / exact(s)? - 1.0);
-        // A neighbour that carries the pole's load shows as a pressure beyond it.
+        // If a neighbouring pair carries the load of the pole, the largest pressure exceeds the
+        // pole pressure.
         cases.add(s.max_pressure / exact(s)? - 1.0);
     }
     Ok(())

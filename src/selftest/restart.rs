@@ -1,4 +1,4 @@
-//! Going on from checkpoints.
+//! Continuing from checkpoints.
 
 use super::{Cases, Family, scene};
 use crate::analysis::Analysis;
@@ -18,7 +18,7 @@ pub(super) const FAMILIES: &[Family] = &[Family {
     cases: stopped_and_resumed,
 }];
 
-/// Stops a run after an increment.
+/// Stops a run after the given increment.
 struct StopAfter(usize);
 
 impl Observer for StopAfter {
@@ -55,7 +55,7 @@ fn resumed_after(scene: &Scene, increment: usize) -> Result<Results> {
     if checkpoints.exist() {
         analysis(scene)?.resume(&checkpoints, &mut Silent)
     } else {
-        // Stopped before anything was worth keeping.
+        // The run was stopped before the first checkpoint was written.
         analysis(scene)?.run(&mut Silent)
     }
 }
@@ -64,7 +64,7 @@ fn analysis(scene: &Scene) -> Result<Analysis> {
     Analysis::new(Model::new(scene)?, Backend::default())
 }
 
-/// Every number as the shortest text that only the same number reads as.
+/// Formats every number as the shortest text that is read back as the same number.
 fn text_of(results: &Results) -> String {
     format!(
         "{:?} {:?} {:?}",

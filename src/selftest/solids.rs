@@ -1,4 +1,4 @@
-//! Three dimensions.
+//! Cases in three dimensions.
 
 use super::{Cases, Family, results, scene, worst_quality};
 use crate::analytical::{HertzEllipse, contact_modulus};
@@ -65,10 +65,10 @@ fn hertz(cases: &mut Cases) -> Result<()> {
     Ok(())
 }
 
-/// A figure of a state.
+/// A function that returns a figure of a state.
 type StateFigure = fn(&State) -> f64;
 
-/// A plane scene drawn out over a depth between planes of symmetry.
+/// Returns a plane scene extruded over a depth between planes of symmetry.
 fn solid_of(plane: &Scene, depth: f64) -> Scene {
     let mut solid = plane.clone();
     solid.kind = Space::Solid;
@@ -117,7 +117,8 @@ fn drawn_out(cases: &mut Cases) -> Result<()> {
     let approach = largest(&one, |s| s.approach);
     for (a, b) in one.states.iter().zip(&other.states) {
         for (k, (of, unit)) in figures.into_iter().enumerate() {
-            // A dent is a difference of displacements.
+            // The error of a dent is relative to the approach, because a dent is a difference of
+            // displacements.
             let scale = if k == 3 { approach } else { largest(&one, of) };
             cases.add((of(b) / unit - of(a)) / scale);
         }
@@ -125,7 +126,7 @@ fn drawn_out(cases: &mut Cases) -> Result<()> {
     Ok(())
 }
 
-/// Two bricks on one another, a quarter of each.
+/// Returns a scene of two bricks on one another, of which a quarter is modelled.
 fn bricks(element: &str, elements: [usize; 3], nu: f64, ratio: f64) -> Result<Scene> {
     let held: String = ["lower.left", "upper.left"]
         .map(|on| format!("{{ on = \"{on}\", fix = [\"x\"] }},"))
