@@ -16,56 +16,68 @@ use std::time::Instant;
 const HEAD: &str = "\
 # Held against published figures
 
-Computed by `cargo run --release --example paper_figures -- validation`, which writes this file; \
-`brinell run SCENE` shows the same.
-*Stated* is the error that brinell states of its own figure, *ratio* is computed over published, \
-seconds are those of the run
-without that estimate. Formulas fitted to finite elements are held to be good to some 5 % in the \
-load and 3 % in the radius.
+This file is written by `cargo run --release --example paper_figures -- validation`; `brinell \
+run SCENE`
+shows the same figures. *Stated* is the error that brinell states for its own figure, *ratio* \
+is computed over
+published, and the seconds are those of the run without that estimate. Formulas fitted to \
+finite elements are
+considered good to some 5 % in the load and 3 % in the radius.
 ";
 
 const TAIL: &str = "\
-\n## Shakedown in rolling\n
-A row of five line contacts, 0.87 a apart and pressed one after the other, as rolling does it step \
-by step. Published (Johnson,
-*Contact Mechanics*, section 9.2): elastic up to p_0 = 3.1 k, shakedown up to 4 k, k the yield \
-stress in shear. Computed with a/4:
-elastic at 3.0, elastic shakedown at 3.2 and at 3.9, lasting flow at 4.1; with a/8 at 3.05, 3.15, \
-3.95 and 4.05. A test asserts it
-(`tests/verification/shakedown.rs`; the finer mesh with `BRINELL_THOROUGH=1`).
-\n## Differences beyond both errors\n
-- The approach of MOOSE's spheres: Hertz' is that of half spaces, here half a sphere is held at \
-its middle, 0.3 % more.
-- The radius by Jackson and Green at 10 and 20 times the interference at first yield, 3.3 and \
-3.2 % smaller than computed (Kogut and
-  Etsion's: 1.8 %): not explained.
-- SSNA102: its codes follow large displacements on coarse meshes; a sphere gives way here by 19 % \
-of the distance of its nodes,
-  where small strains end. Within the bounds of the source all the same.
-- CB2: 0.8 and 2.5 % more displacement and 4 and 7 % less stress than code_aster's models, which \
-differ by 1.7 and 3.3 % from each other.
-  With elements half as large (`mesh.subdivisions = 1`) the displacement here is 0.05 % more, the \
-stress 0.01 % less; its meshes
-  are coarse at the rounded edge: likely, not shown.
+\n## Shakedown in rolling
+
+A row of five line contacts, 0.87 a apart and pressed one after the other, represents rolling \
+step by step.
+Published (Johnson, *Contact Mechanics*, section 9.2): elastic up to p_0 = 3.1 k, shakedown up \
+to 4 k, where k is
+the yield stress in shear. Computed with elements of size a/4: elastic at 3.0, elastic \
+shakedown at 3.2 and at 3.9,
+lasting flow at 4.1. With a/8 the same changes lie between 3.05 and 3.15 and between 3.95 and \
+4.05. A test asserts
+these outcomes (`tests/verification/shakedown.rs`; the finer mesh with `BRINELL_THOROUGH=1`).
+
+## Differences beyond both errors
+
+- The approach of MOOSE's spheres is 0.3 % more than Hertz': Hertz' approach is that of half \
+spaces, while here
+  half a sphere is held at its middle.
+- The radius by Jackson and Green at 10 and 20 times the interference at first yield is 3.3 and \
+3.2 % smaller than
+  computed (Kogut and Etsion's: 1.8 %). This is not explained.
+- SSNA102: the published codes compute large displacements on coarse meshes. A sphere gives way \
+here by 19 % of the
+  distance of its nodes, where small strains end. The figures are within the bounds of the \
+source nevertheless.
+- CB2: the displacement is 0.8 and 2.5 % larger and the stress 4 and 7 % smaller than in \
+code_aster's models, which
+  differ by 1.7 and 3.3 % from each other. With elements half as large (`mesh.subdivisions = \
+1`) the displacement here
+  is 0.05 % larger, the stress 0.01 % smaller. The meshes of code_aster are coarse at the \
+rounded edge: this is the
+  likely cause, but it was not shown.
 - SSNV506: 1 % more and 9 % less than a formula whose own source meets it within 5 to 15 %. On \
-this mesh
-  the force rises in steps, as one node after the other closes on a body that flows (11 nodes \
-at 1 mm, steps
-  of a fifth); the 6 % stated at 0.5 mm do not see them. On twice the elements 0.860 and 0.905 \
-of the formula:
-  at 1 mm a^2 = 1.41 (2 R h) and a mean pressure of 2.6 Y, where 1.36 and 3 Y make the \
-published force. At the
-  source's 20 mm, a/R = 0.3, small strains give 0.67 of it (another mesh): not explained beyond \
-that.
-- deal.II: one step of Hencky's law, linear hexahedra integrated at all points. With the mean \
-dilatation (`mesh.formulation = \"mean\"`)
-  the same step takes 52.8, the path in small increments 61.0 (`stepping = \"auto\"`, on a finer \
-mesh): the published force is that of its
-  law and elements.\n
-Not here: measured dents (their tables were not read); CB1's displacement, which is that of a \
-block and a load whose sizes the
-source at hand does not give. NAFEMS CB1, SSNV104, SSNP14, SSNP121 and \
-SSNP170 are in
+this mesh the force
+  rises in steps, as one node after the other closes on a body that flows (11 nodes at 1 mm, \
+steps of a fifth); the
+  6 % stated at 0.5 mm do not account for these steps. With twice the elements the results are \
+0.860 and 0.905 of the
+  formula. At 1 mm they have a^2 = 1.41 (2 R h) and a mean pressure of 2.6 Y, while the \
+published force follows from
+  1.36 and 3 Y. At the source's 20 mm, a/R = 0.3, small strains give 0.67 of it (on another \
+mesh): not explained
+  beyond that.
+- deal.II: the published run is one step of Hencky's law with linear hexahedra integrated at \
+all points. With the mean
+  dilatation (`mesh.formulation = \"mean\"`) the same step takes 52.8, the path in small \
+increments 61.0
+  (`stepping = \"auto\"`, on a finer mesh): the published force is that of its law and elements.
+
+Not included are measured dents (their tables were not read) and CB1's displacement, which \
+depends on the sizes of a
+block and a load that the source at hand does not give. NAFEMS CB1, SSNV104, SSNP14, SSNP121 \
+and SSNP170 are in
 [verification.md](verification.md) and the tests.
 ";
 

@@ -23,10 +23,10 @@ const VARIANTS: [(&str, &str); 2] = [
 const HEAD: &str = "\
 # What was verified, against what
 
-Computed by `cargo run --release --example paper_figures -- verification`, which writes this file; \
-each number also stands in
-the report of the command beside it. *Ratio* is computed over reference. \
-The sources of the reference values are in
+This file is written by `cargo run --release --example paper_figures -- verification`. Each \
+number also stands in the
+report of the command beside it. *Ratio* is computed over reference. The sources of the \
+reference values are in
 [`data/reference`](reference/README.md).
 ";
 
@@ -35,10 +35,11 @@ pub fn write() -> Outcome<()> {
     table_1(&mut text)?;
     let mut quality = String::new();
     scenes(&mut text, &mut quality)?;
-    text += "\n## Quality of every state\n\nThe worst over all states of a scene. Backward error: \
-             of the full solve. Equilibrium: out-of-balance force of the stresses over the largest \
-             nodal force. Complementarity: gap times force over their largest values. Penetration: \
-             over the largest displacement.\n\n| scene | states | backward error | equilibrium | \
+    text += "\n## Quality of every state\n\nEach figure is the worst over all states of a \
+             scene. Backward error: that of the full solve. Equilibrium: out-of-balance force \
+             of the stresses over the largest nodal force. Complementarity: gap times force \
+             over the product of their largest values. Penetration: overlap over the largest \
+             displacement.\n\n| scene | states | backward error | equilibrium | \
              complementarity | penetration |\n|---|---|---|---|---|---|\n";
     text += &quality;
     let path = runs::data("verification.md");
@@ -59,9 +60,9 @@ fn analysis(scene: &Scene) -> Outcome<Analysis> {
 }
 
 fn table_1(text: &mut String) -> Outcome<()> {
-    *text += "\n## Table I of the paper: first yield of the cylinder on the half plane\n\nComputed \
-              over exact (Hertz, von Mises, nu = 0.3), by the number of elements over the contact \
-              half width b* at first yield.\n\n| elements over b* | load P* | pressure p* | half \
+    *text += "\n## Table I of the paper: first yield of the cylinder on the half plane\n\n\
+             Ratios of computed to exact values (Hertz, von Mises, nu = 0.3), for several \
+             numbers of elements over the contact half width b* at first yield.\n\n| elements over b* | load P* | pressure p* | half \
               width b* | depth z* |\n|---|---|---|---|---|\n| paper, 1984 | 0.87 | 0.94 | 0.98 | \
               0.94 |\n";
     for resolution in RESOLUTIONS {
