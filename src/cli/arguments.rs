@@ -255,8 +255,8 @@ pub(super) struct CommonArguments {
     /// Print one JSON object (the content of summary.json) instead of tables
     #[arg(long)]
     pub json: bool,
-    /// Compute the steps of a deck that ask for NLGEOM with small strains and displacements,
-    /// instead of refusing them
+    /// Accept the results of steps with NLGEOM, which are computed with small strains and
+    /// displacements, even if the run finds them not to be small
     #[arg(long)]
     pub small_strain: bool,
     #[arg(

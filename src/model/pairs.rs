@@ -9,6 +9,7 @@ mod covered;
 mod held;
 mod matching;
 pub(super) mod mortar;
+mod repeated;
 mod rigid;
 mod sides;
 pub(super) mod stated;
@@ -25,6 +26,7 @@ use crate::mesh::{Curve, Mesh, Surface};
 use crate::scene::{Contact, Scene, SlaveSide};
 use crate::space::{Space, Vector, difference, direction, dot, length};
 use covered::{Covered, Pieces, extent};
+use repeated::Repeated;
 use stated::Stated;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -213,6 +215,7 @@ pub(super) fn resolve(
     let mut pairs: Vec<Pair> = Vec::new();
     let mut contacts = Vec::new();
     let mut slave_of: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut repeated = Repeated::default();
     let supports = Supports::resolve(scene, mesh)?;
     for (index, contact) in scene.contact.iter().enumerate() {
         let is_held = |pair: &Pair| contact.held && supports.hold_along(pair.slave, pair.normal);
@@ -241,7 +244,7 @@ pub(super) fn resolve(
         let is_rigid = [&contact.first, &contact.second].map(|name| rigid.named(name));
         let given = given.pairs.get(&index).map(Vec::as_slice);
         let find = |entries: &ContactInput, notes: &mut Vec<String>| {
-            let found = match is_rigid {
+            let mut found = match is_rigid {
                 [Some(body), _] => rigid::pairs(entries, 1, body)?,
                 [_, Some(body)] => rigid::pairs(entries, 0, body)?,
                 _ => {
@@ -258,6 +261,7 @@ pub(super) fn resolve(
                     found
                 }
             };
+            repeated.take_from(&mut found);
             let shared = |pair: &Pair| Some((pair.slave, *slave_of.get(&pair.slave)?));
             let shared: Vec<(usize, usize)> = found.pairs.iter().filter_map(shared).collect();
             Ok((found, shared))
@@ -309,6 +313,19 @@ pub(super) fn resolve(
                 ["second", "first"][found.slave],
             ))));
         }
+        if found.pairs.is_empty() {
+            notes.push(format!(
+                "{what}: earlier contacts have all of its pairs of nodes"
+            ));
+        }
+        repeated
+            .share_areas(
+                &found.repeated,
+                &mut pairs,
+                (mesh, entries.surfaces),
+                (contact, &scene.contact),
+            )
+            .map_err(refused)?;
         slave_of.extend(found.pairs.iter().map(|pair| (pair.slave, index)));
         for pair in &mut found.pairs {
             pair.take_off_round_off(mesh);
@@ -326,6 +343,7 @@ pub(super) fn resolve(
         pairs.append(&mut found.pairs);
         let mut surface = surface_of(&entries, &found, &mut pairs, start);
         surface.is_rigid = is_rigid.iter().any(Option::is_some);
+        repeated.add(&pairs, start);
         contacts.push(surface);
     }
     Ok((pairs, contacts))
@@ -340,6 +358,8 @@ struct Found {
     covered: Covered,
     /// Nodes of pairs that were left to supports.
     held: Vec<usize>,
+    /// Pairs that an earlier contact has.
+    repeated: Vec<Pair>,
 }
 
 /// Makes the contact surface of the pairs from `start` on.

@@ -26,7 +26,7 @@ pub struct Contact {
     /// facets are linear and more than twice as long as those of the finer one (or longer at all,
     /// on a curved surface whose shape is not known). The second surface is the slave if the nodes
     /// of the two surfaces face each other. The other surface becomes the slave if nodes at an edge
-    /// are already slaves of an earlier contact.
+    /// are already slaves of an earlier contact or, with `held`, if fewer of its nodes are held.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
     /// Stiffness of soft contact, pressure over overlap: `g + p / stiffness >= 0` in place of

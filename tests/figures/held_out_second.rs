@@ -286,8 +286,8 @@ targets = [{{ load_factor = 1.0 }}]
     // The forces of a pressure on straight sides: half of it at either end.
     let mut forces = vec![[0.0; 2]; mesh.n_nodes()];
     for facet in &mesh.surfaces["tube.inner"].facets {
-        let nodes = mesh.facet_nodes(*facet);
-        let [a, b] = [nodes[0] as usize, nodes[1] as usize];
+        let nodes: Vec<usize> = mesh.facet_nodes(*facet).collect();
+        let [a, b] = [nodes[0], nodes[1]];
         let [p, q] = [mesh.point(a), mesh.point(b)];
         // The body is on the left of the facet, so that this is the way into it.
         let force = [0.5 * (p[1] - q[1]), 0.5 * (q[0] - p[0])];
@@ -308,7 +308,7 @@ targets = [{{ load_factor = 1.0 }}]
     }
     let file = folder.join(format!("tube-{n}.inp"));
     std::fs::write(&file, out).unwrap();
-    Scene::load(&file).unwrap_or_else(|error| panic!("{error}"))
+    brinell::deck::load(&file).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A block with a wavy underside on a flat one, both meshed by themselves: pressed, it touches

@@ -134,6 +134,7 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
         facet_length,
         covered: BTreeMap::new(),
         held: Vec::new(),
+        repeated: Vec::new(),
     }))
 }
 

@@ -115,6 +115,7 @@ pub(super) fn pairs(entries: &ContactInput, notes: &mut Vec<String>) -> Result<F
         facet_length: found.facet_length,
         covered: found.covered,
         held: Vec::new(),
+        repeated: Vec::new(),
     })
 }
 
@@ -157,6 +158,7 @@ pub(super) fn tied(entries: &ContactInput, distance: Option<f64>) -> Result<(Fou
         facet_length: found.facet_length,
         covered: found.covered,
         held: Vec::new(),
+        repeated: Vec::new(),
     };
     Ok((found, free))
 }

@@ -77,6 +77,7 @@ pub(super) fn pairs(entries: &ContactInput, slave: usize, body: &RigidBody) -> R
         facet_length,
         covered: BTreeMap::new(),
         held: Vec::new(),
+        repeated: Vec::new(),
     })
 }
 
