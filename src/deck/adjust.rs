@@ -1,18 +1,40 @@
 //! Nodes of slave surfaces that are moved onto the master surface (`ADJUST` of `*CONTACT PAIR`).
 //!
-//! Slave nodes within a given distance of the master surface, or the nodes of a given set, move to
-//! the nearest point of the master surface, from either side. Faces are divided into triangles;
+//! Slave nodes within a given distance of the master surface and those inside the other body, or
+//! the nodes of a given set, move to the nearest point of the master surface. Faces are divided into triangles;
 //! edges in the plane are straight.
 
 use super::Deck;
-use super::data::{Account, Adjust};
+use super::data::{Account, Adjust, ContactPair};
 use super::facets::Face;
 use super::sets::What;
 use crate::balls::Balls;
 use crate::number::exact;
-use crate::space::{Vector, along, difference, dot, length};
+use crate::space::{Vector, along, cross, difference, dot, length};
 
 impl Deck {
+    /// Whether a contact has an interference: a negative clearance, or slave nodes behind the master
+    /// surface.
+    pub(super) fn any_interference(&self) -> bool {
+        let properties = &self.properties;
+        let is_behind = |pair: &ContactPair| {
+            let at = (pair.place, "CONTACT PAIR");
+            let [slave, master] = [&pair.slave, &pair.master].map(|name| self.surface(name, at));
+            let (Ok(slave), Ok(master)) = (slave, master) else {
+                return false;
+            };
+            let surface = SurfacePieces::new(self, &master);
+            self.nodes_of(&slave).iter().any(|&node| {
+                let x = self.point(node as usize);
+                let (target, outward) = surface.nearest(x);
+                dot(difference(x, target), outward) < 0.0
+            })
+        };
+        let clearances = &properties.clearances;
+        let mut open = properties.contacts.iter().filter(|pair| !pair.is_closed);
+        clearances.iter().any(|clearance| clearance.value < 0.0) || open.any(is_behind)
+    }
+
     /// Moves the nodes of all contact pairs that ask for it. An undefined name is reported later,
     /// when the pair is used.
     pub(super) fn adjust(&mut self) {
@@ -37,9 +59,12 @@ impl Deck {
                 .filter(|node| chosen.binary_search(node).is_ok())
             {
                 let x = self.point(node as usize);
-                let target = surface.nearest(x);
-                let distance = length(difference(target, x));
-                if matches!(adjust, Adjust::Within(most) if distance > *most) {
+                let (target, outward) = surface.nearest(x);
+                let off = difference(x, target);
+                let distance = length(off);
+                // A node inside the other body moves, however deep it is.
+                let is_apart = dot(off, outward) >= 0.0;
+                if matches!(adjust, Adjust::Within(most) if is_apart && distance > *most) {
                     continue;
                 }
                 n_moved += 1;
@@ -104,18 +129,29 @@ impl SurfacePieces {
         SurfacePieces { corners, around }
     }
 
-    /// The point of the surface nearest to `x`.
-    fn nearest(&self, x: Vector) -> Vector {
-        let found = std::cell::Cell::new((f64::INFINITY, x));
+    /// The point of the surface nearest to `x`, and a vector out of the body there.
+    fn nearest(&self, x: Vector) -> (Vector, Vector) {
+        let found = std::cell::Cell::new((f64::INFINITY, x, 0));
         self.around.nearest(x, |piece| {
             let point = nearest_on(&self.corners[piece], x);
             let distance = length(difference(point, x));
             if distance < found.get().0 {
-                found.set((distance, point));
+                found.set((distance, point, piece));
             }
             distance
         });
-        found.get().1
+        let (_, point, piece) = found.get();
+        (point, self.corners.get(piece).map_or([0.0; 3], outward))
+    }
+}
+
+/// A vector out of the body behind a piece of its surface. Seen from outside, corners run
+/// counter-clockwise; a plane body lies on the left of its edges.
+fn outward([a, b, c]: &[Vector; 3]) -> Vector {
+    let (ab, ac) = (difference(*b, *a), difference(*c, *a));
+    match b == c {
+        true => [ab[1], -ab[0], 0.0],
+        false => cross(ab, ac),
     }
 }
 

@@ -30,6 +30,8 @@ pub(super) struct Reader<'t> {
     is_history: bool,
     /// Displacements that are given before the first step, and are reached over the first step.
     of_first_step: Vec<Condition>,
+    /// Number of conditions of the first step that were given before it.
+    n_before: usize,
 }
 
 impl<'t> Reader<'t> {
@@ -43,6 +45,7 @@ impl<'t> Reader<'t> {
             is_in_step: false,
             is_history: false,
             of_first_step: Vec::new(),
+            n_before: 0,
         }
     }
 

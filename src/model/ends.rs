@@ -90,9 +90,10 @@ fn ends(contacts: &[ContactSurface]) -> Vec<End> {
     let mut out = Vec::new();
     for (contact, surface) in contacts.iter().enumerate() {
         let range = surface.range.clone();
-        let Some(last) = range.end.checked_sub(1) else {
+        if range.is_empty() {
             continue;
-        };
+        }
+        let last = range.end - 1;
         let neighbour = |k: usize| Some(k).filter(|k| range.contains(k));
         for (end, inner, begins) in [
             (range.start, neighbour(range.start + 1), true),

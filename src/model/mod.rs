@@ -121,6 +121,20 @@ impl Model {
         loads::leading(&self.loads)
     }
 
+    /// Share of the interference of all contacts that is applied at a load factor.
+    pub(crate) fn interference_at(&self, alpha: f64) -> f64 {
+        let until = self.scene.program.interference_until;
+        until.map_or(1.0, |until| (alpha / until).clamp(0.0, 1.0))
+    }
+
+    /// Load factors at which the history of a load or of the interference has a kink.
+    pub(crate) fn kinks(&self) -> impl Iterator<Item = f64> + '_ {
+        let of_loads = self.loads.iter().flat_map(LoadCase::kinks);
+        let interferes = || self.pairs.iter().any(|pair| pair.interference != 0.0);
+        let until = self.scene.program.interference_until;
+        of_loads.chain(until.filter(|_| interferes()))
+    }
+
     /// Factor of each list of loads that change alike, from the factors of all loads.
     pub fn factors_of_alike<'a>(&'a self, factors: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         self.alike.iter().map(|loads| factors[loads[0]])

@@ -23,6 +23,7 @@ use super::supports::Supports;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{self, PAIRING};
 use crate::mesh::{Curve, Mesh, Surface};
+use crate::number::exact;
 use crate::scene::{Contact, Scene, SlaveSide};
 use crate::space::{Space, Vector, difference, direction, dot, length};
 use covered::{Covered, Pieces, extent};
@@ -334,9 +335,13 @@ pub(super) fn resolve(
             let deepest = found.pairs.iter_mut().map(Pair::overlap_interferes);
             let deepest = deepest.fold(0.0, f64::max);
             if deepest > 0.0 {
+                let when = match scene.program.interference_until {
+                    Some(until) => format!("over load factors from 0 to {}", exact(until)),
+                    None => "before the load program".to_string(),
+                };
                 notes.push(format!(
                     "{what}: the surfaces overlap by up to {deepest:.4e} in the mesh: an \
-                     interference, applied before the load program"
+                     interference, applied {when}"
                 ));
             }
         }

@@ -206,7 +206,6 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
             if share.abs() <= ROUND_OFF {
                 continue;
             }
-            let is_sum = pair.faced().is_none() || matches!(slot, Slot::Sum(_));
             freedoms.each(*slot, |slot, c| match slot {
                 Slot::Free(freedom) => {
                     let (freedom, b) = (freedom as usize, -c * weight * share);
@@ -216,7 +215,7 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
                     }
                 }
                 // A prescribed motion of a rigid surface changes the gaps instead.
-                Slot::Prescribed(_) => is_moved |= is_sum && !freedoms.is_rigid(node),
+                Slot::Prescribed(_) => is_moved |= !freedoms.is_rigid(node),
                 Slot::Fixed | Slot::Sum(_) => {}
             });
         }
@@ -226,8 +225,9 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
 
 fn moved(mesh: &Mesh, pair: &Pair) -> Error {
     Error::input(format!(
-        "node {} faces nodes whose displacement towards it a load prescribes: let the load act on \
-         another surface of the body",
+        "node {} is in contact with nodes whose displacement towards it is prescribed, which leaves \
+         the contact force on them out: prescribe the displacement of nodes behind the surface, or \
+         press with a force",
         mesh.node_label(pair.slave)
     ))
 }

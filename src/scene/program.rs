@@ -37,6 +37,11 @@ pub struct Program {
     /// and the maximum of the stress at first yield.
     #[serde(default = "super::defaults::gamma")]
     pub gamma: f64,
+    /// Load factor up to which the interference of contacts grows in proportion to it, from none at
+    /// zero. By default the interference is applied before the load factor leaves zero. Needs
+    /// `unit = "load"`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub interference_until: Option<f64>,
     /// The targets, reached one after the other; each yields one state in the results.
     pub targets: Vec<Target>,
     /// Node sets or surfaces that every row of the history records: the mean displacement of their
@@ -79,6 +84,7 @@ impl Default for Program {
             path_error: super::defaults::path_error(),
             max_increments: super::defaults::max_increments(),
             gamma: super::defaults::gamma(),
+            interference_until: None,
             targets: Vec::new(),
             history: Vec::new(),
             cycles: super::defaults::cycles(),

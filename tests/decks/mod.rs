@@ -14,6 +14,7 @@ mod sections;
 mod sets;
 mod sides;
 mod table;
+mod two_bars;
 mod variants;
 
 use brinell::analysis::Analysis;

@@ -427,7 +427,10 @@ pub(in crate::analysis) fn effects(
             "interference",
             interference || !changed.is_empty(),
             match (interference, changed.is_empty()) {
-                (true, _) => "a contact states an interference, applied before the load".into(),
+                (true, _) => match model.scene.program.interference_until {
+                    Some(_) => "a contact states an interference, applied with the load".into(),
+                    None => "a contact states an interference, applied before the load".into(),
+                },
                 (false, true) => "no contact states one".into(),
                 (false, false) => format!("{} changes gaps", changed.join(", ")),
             },

@@ -165,9 +165,7 @@ impl<'m> Run<'m, '_> {
         let first_yield = &self.position.first_yield;
         let mut stops: Vec<f64> = self
             .model()
-            .loads
-            .iter()
-            .flat_map(|l| l.kinks())
+            .kinks()
             .chain(first_yield.alpha.filter(|_| !first_yield.is_behind))
             .filter(|k| (*k - from) * (alpha - *k) > 0.0)
             .collect();

@@ -70,7 +70,7 @@ impl<'m> Unloading<'m> {
 
     /// Load factors at the ends of the straight pieces on the way from a load factor to zero.
     fn stops(&self, from: f64) -> Vec<f64> {
-        let kinks = self.model.loads.iter().flat_map(|load| load.kinks());
+        let kinks = self.model.kinks();
         let mut stops: Vec<f64> = kinks.filter(|kink| kink * (from - kink) > 0.0).collect();
         stops.sort_by(|a, b| b.abs().total_cmp(&a.abs()));
         stops.dedup();

@@ -138,7 +138,7 @@ impl Run<'_, '_> {
         let low = all.iter().copied().fold(0.0, f64::min);
         let mut extremes = vec![high];
         extremes.extend((low < 0.0).then_some(low));
-        let kinks = self.model().loads.iter().flat_map(|load| load.kinks());
+        let kinks = self.model().kinks();
         extremes.extend(kinks.filter(|k| (at_yield..high).contains(k) || (low..0.0).contains(k)));
         extremes
     }

@@ -256,13 +256,14 @@ impl<'m> Structure<'m> {
         self.gaps.initial.len()
     }
 
-    /// The load point at a load factor, with preloads and interference fully applied.
+    /// The load point at a load factor, with preloads fully applied and the interference as far as
+    /// the program has it there.
     pub fn point(&self, alpha: f64) -> LoadPoint {
         let loads = self.model.loads.iter();
         LoadPoint {
             alpha,
             factors: loads.map(|l| l.factor(alpha, self.unit)).collect(),
-            interference: 1.0,
+            interference: self.model.interference_at(alpha),
         }
     }
 

@@ -38,6 +38,30 @@ impl Draft<'_> {
             self.places.insert(key, self.deck.files.show(pair.place));
             self.contacts.push(contact);
         }
+        self.require_pairs_of_clearances()
+    }
+
+    /// Requires a contact pair for each clearance.
+    ///
+    /// # Errors
+    /// `Input`, at the clearance.
+    fn require_pairs_of_clearances(&self) -> Result<()> {
+        let properties = &self.deck.properties;
+        let alike = |a: &str, b: &str| a.eq_ignore_ascii_case(b);
+        for clearance in &properties.clearances {
+            let mut pairs = properties.contacts.iter();
+            let is_there = |pair: &ContactPair| {
+                alike(&pair.slave, &clearance.slave) && alike(&pair.master, &clearance.master)
+            };
+            if !pairs.any(is_there) {
+                let message = format!(
+                    "no *CONTACT PAIR has {} as its slave surface and {} as its master surface: \
+                     name both as in a *CONTACT PAIR",
+                    clearance.slave, clearance.master
+                );
+                return Err(self.deck.error(clearance.place, "CLEARANCE", message));
+            }
+        }
         Ok(())
     }
 

@@ -297,7 +297,12 @@ impl Deck {
             };
             start[1] == 0.0 && rest.iter().all(|row| ends.contains(&row[0]))
         };
-        let common = first.filter(from_step_to_step);
+        // An interference grows over the first step and stays.
+        let interferes = self.any_interference();
+        if interferes {
+            scene.program.interference_until = ends.first().copied();
+        }
+        let common = first.filter(|shape| !interferes && from_step_to_step(shape));
         let common = common.filter(|first| varying.all(|shape| are_alike(shape, first)));
         let factor = |time: f64| match common {
             Some(shape) => interpolate(shape, time),

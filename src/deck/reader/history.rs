@@ -94,10 +94,12 @@ impl Reader<'_> {
             self.take(keyword, keyword.place, how);
         }
         (self.is_in_step, self.is_history) = (true, false);
+        let given_before = std::mem::take(&mut self.of_first_step);
+        self.n_before = given_before.len();
         self.deck.program.steps.push(Step {
             place: keyword.place,
             period: 1.0,
-            conditions: std::mem::take(&mut self.of_first_step),
+            conditions: given_before,
             ..Step::default()
         });
         // A line of text may follow, which describes the step.
@@ -197,10 +199,13 @@ impl Reader<'_> {
         let amplitude = keyword.get("AMPLITUDE").map(str::to_string);
         match self.current_step() {
             Some(step) if is_new => {
-                let renewed = &mut self.deck.program.steps[step].renewed;
-                renewed[kind as usize].get_or_insert(keyword.place);
+                let step = &mut self.deck.program.steps[step];
+                step.renewed[kind as usize].get_or_insert(keyword.place);
+                if kind == Kind::Boundary {
+                    step.conditions.drain(..std::mem::take(&mut self.n_before));
+                }
                 if kind == Kind::Pressure {
-                    renewed[Kind::Volume as usize].get_or_insert(keyword.place);
+                    step.renewed[Kind::Volume as usize].get_or_insert(keyword.place);
                 }
             }
             None if kind != Kind::Boundary => {
@@ -214,11 +219,19 @@ impl Reader<'_> {
     pub(super) fn add(&mut self, condition: Condition) {
         match self.current_step() {
             Some(step) => self.deck.program.steps[step].conditions.push(condition),
-            // A displacement given before the first step is reached over that step.
-            None if condition.kind == Kind::Boundary && condition.value != 0.0 => {
-                self.of_first_step.push(condition);
+            None => {
+                // A displacement given before the first step is reached over that step, unless a
+                // later line holds the node.
+                let is_support = condition.kind == Kind::Boundary && condition.value == 0.0;
+                if condition.kind == Kind::Boundary
+                    && (!is_support || !self.of_first_step.is_empty())
+                {
+                    self.of_first_step.push(condition.clone());
+                }
+                if is_support || condition.kind != Kind::Boundary {
+                    self.deck.program.initial.push(condition);
+                }
             }
-            None => self.deck.program.initial.push(condition),
         }
     }
 

@@ -67,6 +67,14 @@ impl Checks {
         if program.cycles > 1 {
             self.cycle(&program.targets);
         }
+        if let Some(until) = program.interference_until {
+            self.positive("program.interference_until", until);
+            self.require(
+                program.unit == Unit::Load,
+                "program.interference_until",
+                "counts in load factors of the loads as given; use `unit = \"load\"`",
+            );
+        }
         if program.unit == Unit::Yield {
             self.needs_yield("program.unit", "\"yield\"", scene);
             for (index, load) in scene.load.iter().enumerate() {
