@@ -109,6 +109,18 @@ impl Mesh {
         self.shapes[element].rule(self.integration_of(element))
     }
 
+    /// Length of the diagonal of the box around the nodes.
+    pub(crate) fn diagonal(&self) -> f64 {
+        let along = |axis: usize| {
+            let places = (0..self.n_nodes()).map(|node| self.point(node)[axis]);
+            let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
+                [a.min(x), b.max(x)]
+            });
+            ends[1] - ends[0]
+        };
+        (0..3).map(|axis| along(axis).powi(2)).sum::<f64>().sqrt()
+    }
+
     /// Number of integration points of an element.
     #[inline]
     pub(crate) fn n_points(&self, element: usize) -> usize {

@@ -1,6 +1,5 @@
 //! The nodes at which gaps and pressures of a contact are shown in the files of CalculiX.
 
-use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::results::PairState;
 
@@ -19,7 +18,7 @@ impl<'a> Slaves<'a> {
         Slaves {
             model,
             firsts: nodes.map(Option::unwrap_or_default).collect(),
-            far: 0.5 * diagonal(&model.mesh),
+            far: 0.5 * model.mesh.diagonal(),
         }
     }
 
@@ -47,16 +46,4 @@ impl<'a> Slaves<'a> {
         let is_on_first = |node: &usize| self.is_on_first(*node, of_pair.contact);
         Some(pair.faced().filter(is_on_first).unwrap_or(pair.slave))
     }
-}
-
-/// The diagonal of the box around a mesh.
-fn diagonal(mesh: &Mesh) -> f64 {
-    let along = |axis: usize| {
-        let places = (0..mesh.n_nodes()).map(|node| mesh.point(node)[axis]);
-        let ends = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| {
-            [a.min(x), b.max(x)]
-        });
-        ends[1] - ends[0]
-    };
-    (0..3).map(|axis| along(axis).powi(2)).sum::<f64>().sqrt()
 }

@@ -205,3 +205,15 @@ fn a_clearance_needs_its_pair() {
         &["*CLEARANCE", "no *CONTACT PAIR has M as its slave surface"],
     );
 }
+
+/// A body whose only support is a contact that a step removes goes through it: told.
+#[test]
+fn a_body_that_loses_its_contact_is_named() {
+    let step = "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nS,M\n*DSLOAD\nTOP,P,1.";
+    let (_, results) = computed(&bars(0.0, &pair("S", "M"), step)).unwrap();
+    let told = results.inaccurate.join("; ");
+    assert!(
+        told.contains("though its surfaces are taken apart"),
+        "{told}"
+    );
+}

@@ -8,7 +8,7 @@ use crate::analysis::figures::quality;
 use crate::analysis::structure::starting::end_state;
 use crate::model::Model;
 use crate::number::significant;
-use crate::results::{Quality, Results, Sizes, State, Status, Tolerances};
+use crate::results::{PairState, Quality, Results, Sizes, State, Status, Tolerances};
 
 /// Lower bound of the condition number above which the condition number is estimated without being
 /// asked for: six digits of a displacement may be left.
@@ -36,6 +36,10 @@ impl Run<'_, '_> {
         self.tell_of_deformation(&mut results);
         for text in never_closed(model, &results.states) {
             self.tell(&mut results, text);
+        }
+        if let Some(text) = self.closed_though_opened(&results.states) {
+            self.tell(&mut results, text.clone());
+            results.inaccurate.push(text);
         }
         self.tell_of_inaccuracy(&mut results, &judged, &tolerances);
         if model.scene.analysis.condition
@@ -113,6 +117,34 @@ impl Run<'_, '_> {
         if !is_small {
             results.inaccurate.push(text);
         }
+    }
+
+    /// The message about a contact that a load opens by more than half the size of the model, and
+    /// that is closed all the same: its body has gone there, since nothing else holds it.
+    fn closed_though_opened(&self, states: &[State]) -> Option<String> {
+        let model = self.solver.structure.model;
+        let far = 0.5 * model.mesh.diagonal();
+        states.iter().find_map(|state| {
+            let factors = self.solver.structure.point(state.alpha).factors;
+            let opened = |pair: &PairState| -> f64 {
+                let loads = model.loads.iter().zip(&factors);
+                let own = &model.pairs[pair.pair];
+                loads.map(|(load, factor)| factor * load.gap(own)).sum()
+            };
+            let mut closed = (state.pairs.iter()).filter(|pair| pair.status == Status::Closed);
+            let pair = closed.find(|pair| opened(pair) > far)?;
+            let contact = &model.contacts[pair.contact];
+            Some(format!(
+                "contact {} (`{}` on `{}`) carries a force in state `{}` though its surfaces are \
+                 taken apart by {}: nothing else holds a body there, which moves as far; give it \
+                 a support",
+                pair.contact + 1,
+                contact.names[0],
+                contact.names[1],
+                state.name,
+                significant(opened(pair), 4)
+            ))
+        })
     }
 
     /// Warns of states whose figures of quality miss their tolerances.

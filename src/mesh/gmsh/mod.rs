@@ -92,14 +92,20 @@ pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
                 entities.read_partitioned(&mut cursor)?;
                 cursor.section_end("$EndPartitionedEntities")?;
             }
-            (b"$Nodes", Some(_)) if has_nodes => {
+            (b"$Nodes" | b"$ParametricNodes", Some(_)) if has_nodes => {
                 return Err(cursor.error_at(at, "a second section $Nodes"));
+            }
+            (b"$ParametricNodes", Some(Version::V2)) => {
+                cursor.section = "$ParametricNodes";
+                has_nodes = true;
+                version2::read_nodes(&mut content, &mut cursor, true)?;
+                cursor.section_end("$EndParametricNodes")?;
             }
             (b"$Nodes", Some(version)) => {
                 cursor.section = "$Nodes";
                 has_nodes = true;
                 match version {
-                    Version::V2 => version2::read_nodes(&mut content, &mut cursor)?,
+                    Version::V2 => version2::read_nodes(&mut content, &mut cursor, false)?,
                     Version::V4 => version4::read_nodes(&mut content, &mut cursor)?,
                 }
                 cursor.section_end("$EndNodes")?;

@@ -7,7 +7,14 @@ use super::kind::Kind;
 use crate::Result;
 
 /// Reads `$Nodes`, with `number x y z` per line.
-pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<()> {
+///
+/// In `$ParametricNodes` the entity of the node follows, its dimension and number, and as many
+/// parameters as a curve or a surface has.
+pub(super) fn read_nodes(
+    content: &mut Content,
+    cursor: &mut Cursor,
+    parametric: bool,
+) -> Result<()> {
     let n = count_line(cursor, "the number of nodes")?;
     content.node_labels.reserve(n);
     content.coordinates.reserve(3 * n);
@@ -16,7 +23,17 @@ pub(super) fn read_nodes(content: &mut Content, cursor: &mut Cursor) -> Result<(
         for _ in 0..3 {
             content.coordinates.push(cursor.float("a coordinate")?);
         }
-        cursor.end_line()?;
+        match parametric {
+            true if cursor.is_binary() => {
+                let dimension = cursor.small("the dimension of an entity")?;
+                cursor.signed("the tag of an entity")?;
+                for _ in 0..if dimension < 3 { dimension } else { 0 } {
+                    cursor.float("a parameter of a node")?;
+                }
+            }
+            true => drop(cursor.rest_of_line()),
+            false => cursor.end_line()?,
+        }
     }
     content.index_nodes(cursor)
 }

@@ -201,6 +201,20 @@ fn bodies_of_one_name_are_one_body() {
 }
 
 #[test]
+fn parametric_nodes_are_nodes() {
+    let mut text = V2.replace("$Nodes", "$ParametricNodes");
+    text = text.replace("$EndNodes", "$EndParametricNodes");
+    for (node, parameters) in [
+        ("10 0 0 0.5\n", "10 0 0 0.5 0 1\n"),
+        ("20 1 0 0.5\n", "20 1 0 0.5 1 3 0.25\n"),
+        ("30 1 1.0e0 0.5\n", "30 1 1.0e0 0.5 2 7 0.25 0.75\n"),
+    ] {
+        text = text.replace(node, parameters);
+    }
+    assert_eq!(format!("{:?}", parsed(&text)), format!("{:?}", parsed(V2)));
+}
+
+#[test]
 fn a_negative_physical_tag_is_the_same_group() {
     let mesh = parsed(&V2.replace("100 3 2 4 1", "100 3 2 -4 1"));
     assert_eq!(mesh.bodies, ["hard body", "soft"]);
