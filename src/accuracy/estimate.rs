@@ -7,6 +7,7 @@ use super::meter::work;
 use super::path::{self, PathErrors};
 use super::quantities::{Quantity, formal_order, quantities, value_of};
 use super::runs::{Extent, Finished, Runs};
+use super::unresolved::Unresolved;
 use crate::analysis::left_of_search;
 use crate::linalg::{Backend, smallest_pivot_ratio};
 use crate::number::percent;
@@ -95,6 +96,8 @@ pub(super) fn assess(
         true if has_norm && results.incomplete.is_none() => EstimateMethod::EnergyNorm,
         _ => EstimateMethod::None,
     };
+    let unresolved = Unresolved::of(scene, results);
+    out.notes.extend(unresolved.note());
     for quantity in &quantities(results) {
         let algebraic = algebraic_error(run, quantity);
         let mesh = match out.method {
@@ -109,6 +112,10 @@ pub(super) fn assess(
             EstimateMethod::None => OfMeshes::default(),
         };
         let path = path.of(&quantity.path);
+        let mesh = match unresolved.hides(quantity) {
+            true => OfMeshes::default(),
+            false => mesh,
+        };
         let error = mesh.error.map(|e| e + path.unwrap_or(0.0) + algebraic);
         out.quantities.push(QuantityError {
             quantity: quantity.path.clone(),

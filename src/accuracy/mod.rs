@@ -47,6 +47,7 @@ mod quantities;
 mod record;
 mod runs;
 mod study;
+mod unresolved;
 mod verdict;
 
 pub use crate::memory::available as available_memory;
