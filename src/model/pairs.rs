@@ -262,7 +262,9 @@ pub(super) fn resolve(
                     found
                 }
             };
-            repeated.take_from(&mut found);
+            let is_same =
+                |other: usize| held::are_same(mesh, entries.surfaces, &scene.contact[other]);
+            repeated.take_from(&mut found, &pairs, is_same);
             let shared = |pair: &Pair| Some((pair.slave, *slave_of.get(&pair.slave)?));
             let shared: Vec<(usize, usize)> = found.pairs.iter().filter_map(shared).collect();
             Ok((found, shared))

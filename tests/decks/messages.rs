@@ -107,7 +107,7 @@ fn messages_of_a_deck_have_no_keys_of_scenes() {
         "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE, SMALL SLIDING",
         "*TIE, NAME=T, POSITION TOLERANCE=1E-4",
     );
-    let cases: [(&[(&str, &str)], &str); 13] = [
+    let cases: [(&[(&str, &str)], &str); 14] = [
         (
             &[("210000., 0.3", "-1., 0.3")],
             "*ELASTIC of My steel: Young's modulus",
@@ -136,6 +136,10 @@ fn messages_of_a_deck_have_no_keys_of_scenes() {
         (
             &[("FACE, FLOOR", "FACE, FLOR")],
             "*CONTACT PAIR: there is no surface FLOR",
+        ),
+        (
+            &[("FACE, FLOOR", "FACE, FLOOR\nFACE, FLOOR")],
+            "is the slave of two contacts",
         ),
         (
             &[

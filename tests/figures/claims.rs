@@ -54,14 +54,19 @@ const SOLIDS: &str = "# Stated errors of solids beside true ones\n\n`cargo run -
 const HELD_OUT: &str = "# Stated errors by default beside true ones\n\n`cargo run --release \
                         --example claims -- default` writes this page. The default estimate takes \
                         no more than the run (`--estimate quick`); meshes from files and decks are \
-                        judged by the energy norm of the recovered stress error alone. The \
-                        families \"held out\" were written when the procedure was finished, are \
-                        of kinds that no other family has, and nothing was changed for what they \
-                        show. Those \"held out before\" judged it earlier, of meshes from files \
-                        with 82 % of loads and 79 % of plastic strains within the stated error: \
-                        loads that the stress decides and plastic strains near a surface have \
-                        rules of their own since. True errors are the differences from meshes two \
-                        to eight times finer.\n";
+                        judged by the energy norm of the recovered stress error alone. Both sets \
+                        of families were written when the procedure was finished, are of kinds \
+                        that no other family has, and judged it once as it was then: the first \
+                        set with 94.9 % of 1,207 figures within the stated error (82 % of loads, \
+                        79 % of plastic strains), the second with 86.5 % of 585 (69 % of rings \
+                        squeezed between flats, at worst 13.9 times beyond it). What they showed \
+                        has changed it since, so that the tables below, of the procedure as it \
+                        is now, judge it no more: found loads follow the stress that decides \
+                        them, plastic strains are known to what lies between the outermost points \
+                        and the surface, and where one or two pairs carry a contact the errors of \
+                        its pressures and of first yield there are unknown. The load of the deck \
+                        is that of its first force on a node, which depends on the mesh. True \
+                        errors are the differences from meshes two to eight times finer.\n";
 
 fn main() {
     if std::env::args()
@@ -71,8 +76,8 @@ fn main() {
         let folder = tempfile::tempdir().unwrap();
         let mut page = HELD_OUT.to_string();
         let groups = [
-            ("held out", held_out_second::families(folder.path())),
-            ("held out before", held_out_first::families(folder.path())),
+            ("second set", held_out_second::families(folder.path())),
+            ("first set", held_out_first::families(folder.path())),
         ];
         for (group, families) in &groups {
             let claims = judged(group, families, &mut page, None);

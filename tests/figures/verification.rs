@@ -62,7 +62,8 @@ fn analysis(scene: &Scene) -> Outcome<Analysis> {
 fn table_1(text: &mut String) -> Outcome<()> {
     *text += "\n## Table I of the paper: first yield of the cylinder on the half plane\n\n\
              Ratios of computed to exact values (Hertz, von Mises, nu = 0.3), for several \
-             numbers of elements over the contact half width b* at first yield.\n\n| elements over b* | load P* | pressure p* | half \
+             numbers of elements over the contact half width b* at first yield.\n\n\
+             | elements over b* | load P* | pressure p* | half \
               width b* | depth z* |\n|---|---|---|---|---|\n| paper, 1984 | 0.87 | 0.94 | 0.98 | \
               0.94 |\n";
     for resolution in RESOLUTIONS {

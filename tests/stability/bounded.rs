@@ -1,5 +1,6 @@
 //! Increments that cannot be as asked: more than the run may take, and a path error that a limit
-//! load or the increments themselves keep out of reach. Each run ends by name, with what it reached.
+//! load or the increments themselves keep out of reach. Each run ends by name and with what was
+//! reached.
 
 use crate::support::{close, load, run};
 use brinell::ErrorKind;

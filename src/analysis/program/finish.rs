@@ -128,8 +128,9 @@ impl Run<'_, '_> {
             let factors = self.solver.structure.point(state.alpha).factors;
             let opened = |pair: &PairState| -> f64 {
                 let loads = model.loads.iter().zip(&factors);
-                let own = &model.pairs[pair.pair];
-                loads.map(|(load, factor)| factor * load.gap(own)).sum()
+                // A point on the axis of revolution may be no pair of the model.
+                let own = model.pairs.get(pair.pair);
+                own.map_or(0.0, |own| loads.map(|(load, h)| h * load.gap(own)).sum())
             };
             let mut closed = (state.pairs.iter()).filter(|pair| pair.status == Status::Closed);
             let pair = closed.find(|pair| opened(pair) > far)?;

@@ -27,9 +27,19 @@ impl Repeated {
     }
 
     /// Moves pairs that an earlier contact has to [`Found::repeated`]: two conditions on the same
-    /// two nodes would leave open how the force is shared.
-    pub(super) fn take_from(&self, found: &mut Found) {
-        let is_new = |pair: &Pair| nodes(pair).is_none_or(|n| !self.pair_of.contains_key(&n));
+    /// two nodes would leave open how the force is shared. Pairs stay if the whole contact is that
+    /// of an earlier one with the same slaves, which is refused.
+    pub(super) fn take_from(
+        &self,
+        found: &mut Found,
+        earlier: &[Pair],
+        is_same: impl Fn(usize) -> bool,
+    ) {
+        let is_new = |pair: &Pair| {
+            let number = nodes(pair).and_then(|nodes| self.pair_of.get(&nodes));
+            let before = number.map(|&number| &earlier[number]);
+            before.is_none_or(|other| other.slave == pair.slave && is_same(other.contact))
+        };
         let (own, repeated) = std::mem::take(&mut found.pairs)
             .into_iter()
             .partition(is_new);
