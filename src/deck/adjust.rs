@@ -67,6 +67,7 @@ impl Adjust {
             Adjust::Within(distance) => exact(*distance).to_string(),
             Adjust::Nodes(super::data::Target::Set(name)) => name.clone(),
             Adjust::Nodes(super::data::Target::Label(label)) => label.to_string(),
+            Adjust::Nodes(super::data::Target::All) => "all".to_string(),
         }
     }
 }

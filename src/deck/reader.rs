@@ -1,5 +1,7 @@
 //! Reads a deck, keyword by keyword.
 
+mod amplitude;
+mod contact;
 mod history;
 mod mesh;
 mod output;
