@@ -32,6 +32,8 @@ pub(super) struct Reader<'t> {
     is_history: bool,
     /// Displacements that are given before the first step, and are reached over the first step.
     of_first_step: Vec<Condition>,
+    /// Requests at time points, with the name of the points.
+    time_points_wanted: Vec<(Keyword, String)>,
 }
 
 impl<'t> Reader<'t> {
@@ -45,6 +47,7 @@ impl<'t> Reader<'t> {
             is_in_step: false,
             is_history: false,
             of_first_step: Vec::new(),
+            time_points_wanted: Vec::new(),
         }
     }
 
@@ -68,6 +71,7 @@ impl<'t> Reader<'t> {
                 false => self.block(&keyword)?,
             }
         }
+        self.check_time_points();
         let here = self.source.here();
         self.deck.files = self.source.files;
         self.deck.end = here;
