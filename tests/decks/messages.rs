@@ -215,6 +215,11 @@ fn nlgeom_is_measured() {
     };
     assert!(flows("400.").unwrap().contains(" flows at a stress of 3"));
     assert_eq!(flows("3400."), None);
+    // Kinematic hardening raises the stress of flow, too: 95 at the slope 1000, and 6 of strain.
+    let curve = "*PLASTIC, HARDENING=KINEMATIC\n95., 0.\n195., 0.1\n";
+    let results = with("105.", curve);
+    let told = |text: &String| text.contains("flows at a stress of 10 % of the slope");
+    assert!(results.warnings.iter().any(told), "{:?}", results.warnings);
     let error = brinell::output::ending(&large("50000.")).unwrap_err();
     assert!(
         error.to_string().contains("compute with --small-strain"),
