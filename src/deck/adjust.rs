@@ -1,8 +1,8 @@
 //! Nodes of slave surfaces that are moved onto the master surface (`ADJUST` of `*CONTACT PAIR`).
 //!
 //! Slave nodes within a given distance of the master surface and those inside the other body, or
-//! the nodes of a given set, move to the nearest point of the master surface. Faces are divided into triangles;
-//! edges in the plane are straight.
+//! the nodes of a given set, move to the nearest point of the master surface. Faces are divided
+//! into triangles; edges in the plane are straight.
 
 use super::Deck;
 use super::data::{Account, Adjust, ContactPair};
@@ -13,8 +13,8 @@ use crate::number::exact;
 use crate::space::{Vector, along, cross, difference, dot, length};
 
 impl Deck {
-    /// Whether a contact has an interference: a negative clearance, or slave nodes behind the master
-    /// surface.
+    /// Whether a contact has an interference: a negative clearance, or slave nodes behind the
+    /// master surface.
     pub(super) fn any_interference(&self) -> bool {
         let properties = &self.properties;
         let is_behind = |pair: &ContactPair| {
@@ -92,6 +92,7 @@ impl Adjust {
             Adjust::Within(distance) => exact(*distance).to_string(),
             Adjust::Nodes(super::data::Target::Set(name)) => name.clone(),
             Adjust::Nodes(super::data::Target::Label(label)) => label.to_string(),
+            Adjust::Nodes(super::data::Target::All) => "all".to_string(),
         }
     }
 }

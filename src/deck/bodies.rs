@@ -35,9 +35,10 @@ impl Deck {
         match types.iter().position(|other| other.space != first.space) {
             Some(other) => {
                 let message = format!(
-                    "elements of kind {} after others of kind {}: a model is of one kind",
-                    types[other].space.name(),
-                    first.space.name()
+                    "elements {} after others {}: a model is of plane strain (CPE), of plane \
+                     stress (CPS), axisymmetric (CAX) or solid (C3D): give types of one kind",
+                    types[other].name(),
+                    first.name()
                 );
                 Err(self.error(self.elements.places[other], "ELEMENT", message))
             }

@@ -126,6 +126,10 @@ impl Deck {
                 return;
             }
             Target::Set(name) => name,
+            Target::All => {
+                out.extend(self.boundary.nodes.keys());
+                return;
+            }
         };
         if !seen.insert(name.to_uppercase()) {
             return;

@@ -45,11 +45,12 @@ impl Elements {
     }
 }
 
-/// A named set or surface, or a single node or element by its number.
+/// A named set or surface, a single node or element by its number, or all of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Target {
     Label(u64),
     Set(String),
+    All,
 }
 
 /// A member of a set of nodes or elements.
@@ -95,6 +96,12 @@ impl<T> Named<T> {
     /// Calls `show` with each value.
     pub(super) fn for_each(&mut self, show: impl FnMut(&mut T)) {
         self.0.values_mut().map(|(_, value)| value).for_each(show);
+    }
+
+    /// Calls `change` with each name, as it was first written, and its value.
+    pub(super) fn for_each_named(&mut self, mut change: impl FnMut(&str, &mut T)) {
+        let all = self.0.values_mut();
+        all.for_each(|(name, value)| change(name, value));
     }
 
     /// All values, each with its name as it was first written.
@@ -222,6 +229,8 @@ pub(super) struct Amplitude {
     pub(super) rows: Vec<[f64; 2]>,
     /// Whether times are measured from the beginning of the first step instead of the current step.
     pub(super) is_total: bool,
+    /// Whether values are those of the load itself, whatever value the load's line gives.
+    pub(super) is_absolute: bool,
 }
 
 /// A linear equation `sum coefficient u = 0`.
@@ -398,6 +407,8 @@ pub(super) struct Step {
     /// For each kind, the place at which the step declares that conditions replace those of earlier
     /// steps.
     pub(super) renewed: [Option<Place>; Kind::COUNT],
+    /// Whether conditions of each kind have been given, whose `OP` is that of the first keyword.
+    pub(super) is_begun: [bool; Kind::COUNT],
 }
 
 /// Conditions and steps of a deck.

@@ -51,7 +51,13 @@ impl ElementType {
         let solid = name.strip_prefix("C3D").and_then(in_space);
         let solid = solid.map(|(shape, note)| (shape, Space::Solid, note));
         let (shape, space, note) = plane.or(solid).ok_or_else(|| {
+            let is_point = [
+                "SPRING", "DASHPOT", "MASS", "GAP", "DCOUP", "CONN", "ROTARY",
+            ];
             let why = match name.as_bytes() {
+                _ if is_point.iter().any(|start| name.starts_with(start)) => {
+                    "springs, dashpots, masses, gaps and connectors are not"
+                }
                 [b'S', ..] | [b'M', b'3', ..] => "shells and membranes are not",
                 [b'B', ..] | [b'T', ..] => "beams and trusses are not",
                 [b'R', b'3', ..] | [b'R', b'2', ..] | [b'R', b'A', ..] => "rigid elements are not",

@@ -313,10 +313,14 @@ impl Deck {
                 let message = format!("there is no *AMPLITUDE {name}");
                 self.error(given.place, keyword, message)
             })?;
+            let size = match amplitude.is_absolute {
+                true => 1.0,
+                false => *value,
+            };
             if amplitude.is_total {
-                entry.runs_on.push((*value, name.to_string()));
+                entry.runs_on.push((size, name.to_string()));
             }
-            Ok((*value, amplitude))
+            Ok((size, amplitude))
         });
         let laws: Vec<(f64, &Amplitude)> = named.collect::<Result<_>>()?;
         let start = value_at(&laws, time.start, time);

@@ -1,5 +1,7 @@
 //! Reads a deck, keyword by keyword.
 
+mod amplitude;
+mod contact;
 mod history;
 mod mesh;
 mod output;
@@ -32,6 +34,8 @@ pub(super) struct Reader<'t> {
     of_first_step: Vec<Condition>,
     /// Number of conditions of the first step that were given before it.
     n_before: usize,
+    /// Requests at time points, with the name of the points.
+    time_points_wanted: Vec<(Keyword, String)>,
 }
 
 impl<'t> Reader<'t> {
@@ -46,6 +50,7 @@ impl<'t> Reader<'t> {
             is_history: false,
             of_first_step: Vec::new(),
             n_before: 0,
+            time_points_wanted: Vec::new(),
         }
     }
 
@@ -69,6 +74,7 @@ impl<'t> Reader<'t> {
                 false => self.block(&keyword)?,
             }
         }
+        self.check_time_points();
         let here = self.source.here();
         self.deck.files = self.source.files;
         self.deck.end = here;

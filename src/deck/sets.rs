@@ -80,6 +80,10 @@ impl Deck {
                 return Ok(());
             }
             Target::Set(name) => name,
+            Target::All => {
+                out.extend(0..self.table(what).2.len() as u32);
+                return Ok(());
+            }
         };
         let members = sets
             .get(name)
@@ -177,10 +181,102 @@ impl Deck {
                 notes.push((place, key, text));
             }
         }
+        self.leave_out_of_surfaces(&mut notes)?;
+        self.refuse_empty_circles()?;
         for (place, key, text) in notes {
             Account::add(&mut self.account.taken, &self.files, place, key, &text);
         }
         Ok(())
+    }
+
+    /// Takes undefined numbers out of surfaces, with a remark for each surface.
+    ///
+    /// # Errors
+    /// `Input` if nothing of a surface is left.
+    fn leave_out_of_surfaces(&mut self, notes: &mut Vec<(Place, &str, String)>) -> Result<()> {
+        let mut surfaces = std::mem::take(&mut self.sets.surfaces);
+        let mut wrong = None;
+        surfaces.for_each_named(|name, parts| {
+            let n = parts.len();
+            let mut first = None;
+            parts.retain(|(part, place)| {
+                let (what, on) = match part {
+                    SurfacePart::Face(on, _) | SurfacePart::Free(on) => (What::Elements, on),
+                    SurfacePart::OfNodes(on) => (What::Nodes, on),
+                };
+                let Target::Label(label) = on else {
+                    return true;
+                };
+                let is_line = what == What::Elements && self.boundary.has(*label);
+                let is_there = is_line || self.table(what).1.get(*label).is_some();
+                if !is_there && first.is_none() {
+                    first = Some((*place, what.words()[0], *label));
+                }
+                is_there
+            });
+            let Some((place, thing, label)) = first else {
+                return;
+            };
+            let (shown, hint) = (self.instances.shown(label), self.instances.hint(label));
+            if parts.is_empty() {
+                let message = format!("there is no {thing} {shown}{hint}");
+                wrong.get_or_insert_with(|| self.error(place, "SURFACE", message));
+            }
+            let more = match n - parts.len() {
+                1 => String::new(),
+                n => format!(", nor {} more", n - 1),
+            };
+            let text = format!("{name}: there is no {thing} {shown}{more}: left out");
+            notes.push((place, "SURFACE", text));
+        });
+        self.sets.surfaces = surfaces;
+        wrong.map_or(Ok(()), Err)
+    }
+
+    /// Checks that no set consists of nothing but sets that contain it.
+    ///
+    /// # Errors
+    /// `Input`, at the line that names the other set.
+    fn refuse_empty_circles(&self) -> Result<()> {
+        for what in [What::Nodes, What::Elements] {
+            let [thing, key] = what.words();
+            for (name, members) in self.table(what).0.iter() {
+                let other = members.iter().find_map(|(member, place)| match member {
+                    Member::Of(Target::Set(other)) => Some((other, *place)),
+                    _ => None,
+                });
+                let Some((other, place)) = other else {
+                    continue;
+                };
+                let mut reached = BTreeSet::new();
+                self.reach(what, name, &mut reached);
+                if !reached.contains(&name.to_uppercase()) {
+                    continue;
+                }
+                let mut found = Vec::new();
+                let on = Target::Set(name.to_string());
+                self.collect(what, &on, (place, key), &mut BTreeSet::new(), &mut found)?;
+                if found.is_empty() && (what == What::Nodes || self.boundary_of(&on).is_empty()) {
+                    let message = format!(
+                        "{name} contains {other}, and that contains {name}, but no {thing} is in \
+                         them: give the numbers of some"
+                    );
+                    return Err(self.error(place, key, message));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Collects the names, in capitals, of all sets that a set contains.
+    fn reach(&self, what: What, name: &str, reached: &mut BTreeSet<String>) {
+        for (member, _) in self.table(what).0.get(name).into_iter().flatten() {
+            if let Member::Of(Target::Set(other)) = member
+                && reached.insert(other.to_uppercase())
+            {
+                self.reach(what, other, reached);
+            }
+        }
     }
 
     fn unknown(&self, what: &str, name: &str, known: Vec<String>, at: At) -> crate::error::Error {

@@ -41,11 +41,20 @@ const OF_MATERIALS: [(&str, &str); 8] = [
 ];
 
 /// Lists of a scene, each with the keyword from which the entries come.
-const LISTS: [(&str, &str); 4] = [
+const LISTS: [(&str, &str); 5] = [
     ("contact.", "*CONTACT PAIR"),
+    ("load.", "*DLOAD"),
     ("tie.", "*TIE"),
     ("equation.", "*EQUATION"),
     ("support.", "*BOUNDARY"),
+];
+
+/// Keys of a load, each with the keyword of the deck that gives it.
+const OF_LOADS: [(&str, &str); 4] = [
+    (".acceleration", "*DLOAD: GRAV"),
+    (".rotation", "*DLOAD: CENTRIF"),
+    (".force", "*CLOAD"),
+    (".temperature", "*TEMPERATURE"),
 ];
 
 /// Rewords an error about the scene of a deck as one about the deck; errors of other scenes are
@@ -107,8 +116,10 @@ fn entries(text: &str, key: &str, keyword: &str) -> String {
             continue;
         }
         let is_path = |c: char| c.is_ascii_alphanumeric() || c == '.' || c == '_';
-        out.push_str(keyword);
         rest = after.trim_start_matches(is_path);
+        let path = &after[..after.len() - rest.len()];
+        let own = OF_LOADS.iter().find(|(end, _)| path.contains(end));
+        out.push_str(own.filter(|_| key == "load.").map_or(keyword, |own| own.1));
     }
     out + rest
 }
@@ -134,6 +145,10 @@ mod tests {
             ),
             ("give materials.S.density", "give *DENSITY of S"),
             ("in contact. 3 of them", "in contact. 3 of them"),
+            (
+                "load.1.acceleration: has a radial",
+                "*DLOAD: GRAV: has a radial",
+            ),
         ] {
             assert_eq!(reworded(scene), deck);
         }

@@ -3,6 +3,7 @@
 use super::{Facet, Mesh, Surface};
 use crate::deck::{Deck, Options};
 use crate::error::Result;
+use crate::space::Space;
 use std::path::Path;
 
 /// Reads the mesh of a deck.
@@ -47,6 +48,9 @@ pub fn mesh(deck: &Deck) -> Result<Mesh> {
     if mesh.dimension == 2 {
         check_plane(deck, &geometry.is_used)?;
     }
+    if deck.space()? == Space::Axisymmetric {
+        check_radii(deck, &geometry.is_used)?;
+    }
     mesh.shapes.reserve(deck.n_elements());
     let mut nodes = Vec::new();
     for (element, &body) in bodies.of_element.iter().enumerate() {
@@ -78,6 +82,22 @@ pub fn mesh(deck: &Deck) -> Result<Mesh> {
         );
     }
     Ok(mesh)
+}
+
+/// Checks that no node of an axisymmetric mesh lies beyond the axis.
+fn check_radii(deck: &Deck, is_used: &[bool]) -> Result<()> {
+    let is_beyond = |node: &usize| is_used[*node] && deck.point(*node)[0] < 0.0;
+    match (0..deck.n_nodes()).find(is_beyond) {
+        Some(node) => {
+            let (label, x) = (deck.node_label(node), deck.point(node)[0]);
+            let message = format!(
+                "node {label} lies at the negative radius {x}: of an axisymmetric model give the \
+                 side x >= 0 of the axis"
+            );
+            Err(deck.node_error(node, message))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Checks that the nodes of a plane mesh lie in a plane z = constant.

@@ -315,6 +315,8 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
         |p| mesh::generate::ellipse_size::of(scene, p),
     );
     let mut mesh = made.map_err(|error| match scene.mesh.file {
+        // Messages about a deck name its file and line themselves.
+        Some(_) if scene.requests.is_of_deck() => error,
         Some(_) => scene.places.in_front("mesh.file", error),
         None => scene.places.in_front("mesh", error),
     })?;

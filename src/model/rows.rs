@@ -225,9 +225,9 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
 
 fn moved(mesh: &Mesh, pair: &Pair) -> Error {
     Error::input(format!(
-        "node {} is in contact with nodes whose displacement towards it is prescribed, which leaves \
-         the contact force on them out: prescribe the displacement of nodes behind the surface, or \
-         press with a force",
+        "node {} is in contact with nodes whose displacement towards it is prescribed, which \
+         leaves the contact force on them out: prescribe the displacement of nodes behind the \
+         surface, or press with a force",
         mesh.node_label(pair.slave)
     ))
 }

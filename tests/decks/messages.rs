@@ -174,6 +174,64 @@ fn messages_of_a_deck_have_no_keys_of_scenes() {
     }
 }
 
+/// Messages about elements and sets name the types and the lines of the deck.
+#[test]
+fn elements_and_sets_are_told_by_type_and_line() {
+    let plane = "*NODE\n1, 0., 0.\n2, 1., 0.\n3, 1., 1.\n4, 0., 1.\n5, -1., 0.\n6, -1., 1.\n\
+                 *ELEMENT, TYPE=CPE4, ELSET=E\n1, 1, 2, 3, 4\n2, 5, 1, 4, 6\n\
+                 *MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*DENSITY\n1.\n\
+                 *SOLID SECTION, ELSET=E, MATERIAL=M\n*NSET, NSET=A\nB\n*NSET, NSET=B\n1\n\
+                 *BOUNDARY\n1, 1, 2\n4, 1\n*STEP\n*STATIC\n*DLOAD\n\
+                 E, GRAV, 1., 1., 0.\n*END STEP\n";
+    run(plane).unwrap();
+    let axisymmetric = ("CPE4", "CAX4");
+    let axial = ("GRAV, 1., 1., 0.", "GRAV, 1., 0., 1.");
+    let side = ("5, -1., 0.\n6, -1., 1.", "5, 2., 0.\n6, 2., 1.");
+    let other = (
+        "\n2, 5, 1, 4, 6",
+        "\n*ELEMENT, TYPE=CPS4, ELSET=E\n2, 5, 1, 4, 6",
+    );
+    let turned = ("2, 5, 1, 4, 6", "2, 2, 5, 6, 3");
+    let cases: [(&[(&str, &str)], &str); 6] = [
+        (
+            &[axisymmetric, axial],
+            "deck.inp, line 6: *NODE: node 5 lies at the negative radius -1",
+        ),
+        (
+            &[axisymmetric, side, turned],
+            "*DLOAD: GRAV: has a radial component",
+        ),
+        (
+            &[other],
+            "line 11: *ELEMENT: elements CPS4 after others CPE4: a model is of",
+        ),
+        (
+            &[("6, -1., 1.", "6, -1., 1., 3.")],
+            "deck.inp, line 7: *NODE: node 6 lies at z = 3",
+        ),
+        (
+            &[("B\n1\n", "B\nA\n")],
+            "line 18: *NSET: A contains B, and that contains A, but no node",
+        ),
+        (
+            &[("TYPE=CPE4", "TYPE=SPRINGA")],
+            "TYPE=SPRINGA: springs, dashpots, masses",
+        ),
+    ];
+    for (changes, expected) in cases {
+        let text = changes.iter().fold(plane.to_string(), |text, (old, new)| {
+            assert!(text.contains(old), "{old}");
+            text.replacen(old, new, 1)
+        });
+        let text = run(&text).unwrap_err().to_string();
+        assert!(text.contains(expected), "{expected}: {text}");
+        assert_eq!(text.matches("deck.inp").count(), 1, "{text}");
+        for key in OF_SCENES {
+            assert!(!text.contains(key), "{key}: {text}");
+        }
+    }
+}
+
 /// Large displacements are computed as small ones where they are small.
 #[test]
 fn nlgeom_is_measured() {
@@ -215,6 +273,11 @@ fn nlgeom_is_measured() {
     };
     assert!(flows("400.").unwrap().contains(" flows at a stress of 3"));
     assert_eq!(flows("3400."), None);
+    // Kinematic hardening raises the stress of flow, too: 95 at the slope 1000, and 6 of strain.
+    let curve = "*PLASTIC, HARDENING=KINEMATIC\n95., 0.\n195., 0.1\n";
+    let results = with("105.", curve);
+    let told = |text: &String| text.contains("flows at a stress of 10 % of the slope");
+    assert!(results.warnings.iter().any(told), "{:?}", results.warnings);
     let error = brinell::output::ending(&large("50000.")).unwrap_err();
     assert!(
         error.to_string().contains("compute with --small-strain"),

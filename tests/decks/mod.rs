@@ -8,6 +8,7 @@ mod expansion;
 mod frd;
 mod local_axes;
 mod messages;
+mod parameters;
 mod programs;
 mod refusals;
 mod sections;

@@ -132,8 +132,9 @@ pub(in crate::analysis) fn softened(
         .enumerate()
         .filter_map(|(body, material)| {
             let curve = material.hardening.as_ref().filter(|_| flowed(body))?;
-            let slope = curve.slope(strain) + material.back_stresses.linear();
-            Some((curve.yield_stress(strain) / slope, body))
+            let moves = material.back_stresses.linear();
+            let stress = curve.yield_stress(strain) + moves * strain;
+            Some((stress / (curve.slope(strain) + moves), body))
         });
     let (share, body) = shares.max_by(|a, b| a.0.total_cmp(&b.0))?;
     let body = &model.mesh.bodies[body];

@@ -229,7 +229,7 @@ impl RequestedSets<'_, '_> {
         let is_of_elements = keyword == "EL PRINT";
         let Some(name) = request.set.as_ref().map(|name| name.to_uppercase()) else {
             if keyword == "CONTACT PRINT" {
-                return Ok(On::Set(self.contact(request)));
+                return Ok(self.contact(request));
             }
             if request.is_print {
                 self.remark(
@@ -284,9 +284,9 @@ impl RequestedSets<'_, '_> {
         Ok(On::Section(NamedSet { name, labels }, Arc::new(faces)))
     }
 
-    /// The contact between the surfaces that a request names, by its number; an empty set if there
-    /// is no such pair.
-    fn contact(&self, request: &OutputRequest) -> NamedSet {
+    /// The contact between the surfaces that a request names, by its number. A pair that does not
+    /// exist causes a remark; a request without surfaces has an empty set.
+    fn contact(&mut self, request: &OutputRequest) -> On {
         let [slave, master] = request.contact.clone().unwrap_or_default();
         let pairs = &self.deck.properties.contacts;
         let is_it = |pair: &ContactPair| {
@@ -294,14 +294,22 @@ impl RequestedSets<'_, '_> {
         };
         let number = pairs.iter().position(is_it);
         let [slave, master] = [slave, master].map(|name| name.to_uppercase());
-        NamedSet {
+        if number.is_none() && request.contact.is_some() {
+            let text = format!(
+                "there is no *CONTACT PAIR of slave {slave} and master {master}: nothing is \
+                 printed for it"
+            );
+            self.remark(request, "CONTACT PRINT", &text);
+            return On::Nothing;
+        }
+        On::Set(NamedSet {
             name: format!("slave set {slave}, master set {master}"),
             labels: Arc::new(number.iter().map(|&number| number as u64).collect()),
-        }
+        })
     }
 
     fn remark(&mut self, request: &OutputRequest, keyword: &str, text: &str) {
-        let list = &mut self.account.ignored;
+        let list = &mut self.account.taken;
         Account::add(list, &self.deck.files, request.place, keyword, text);
     }
 }

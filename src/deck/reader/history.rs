@@ -1,4 +1,4 @@
-//! Reading of steps, amplitudes, and the conditions of each step.
+//! Reading of steps and the conditions of each step.
 
 use super::mesh::{face, target};
 use super::volume::{OnVolume, volume_load};
@@ -24,40 +24,6 @@ const NAMED_SUPPORTS: [(&str, &[[usize; 2]]); 5] = [
 ];
 
 impl Reader<'_> {
-    pub(super) fn amplitude(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        keyword.allow(files, &["NAME", "TIME", "DEFINITION", "VALUE"])?;
-        let name = keyword.require(files, "NAME")?;
-        keyword.choice(files, "DEFINITION", &["TABULAR"])?;
-        keyword.choice(files, "VALUE", &["RELATIVE"])?;
-        let times = ["STEP TIME", "TOTAL TIME"];
-        let is_total = keyword.choice(files, "TIME", &times)? == "TOTAL TIME";
-        let mut rows: Vec<[f64; 2]> = Vec::new();
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
-            while !row.is_at_end() {
-                let time = row.number("the time")?;
-                let value = row.number("the value")?;
-                let last = rows.last().map(|last| last[0]);
-                if last.is_some_and(|last| time <= last) {
-                    return Err(row.place.error(format!(
-                        "time {} must be greater than {} before it",
-                        exact(time),
-                        exact(last.unwrap_or_default())
-                    )));
-                }
-                rows.push([time, value]);
-            }
-        }
-        if rows.is_empty() {
-            let message = "lines with times and values should follow; give them";
-            return Err(keyword.error(&self.source.files, message));
-        }
-        let amplitude = self.deck.program.amplitudes.entry(name);
-        (amplitude.rows, amplitude.is_total) = (rows, is_total);
-        Ok(())
-    }
-
     pub(super) fn step(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
         let known = [
@@ -71,6 +37,8 @@ impl Reader<'_> {
             "EXTRAPOLATION",
             "UNSYMM",
             "SHEARINCR",
+            "SOLVER",
+            "CONVERTSDI",
         ];
         keyword.allow(files, &known)?;
         if self.is_in_step {
@@ -117,8 +85,17 @@ impl Reader<'_> {
                 "TIMERESET",
                 "TOTALTIMEATSTART",
                 "STABILIZE",
+                "FACTOR",
+                "ALLSDTOL",
+                "CONTINUE",
             ],
         )?;
+        for key in ["FACTOR", "ALLSDTOL", "CONTINUE"] {
+            if keyword.has(key) && !keyword.has("STABILIZE") {
+                let message = format!("{key} belongs to STABILIZE; take it out, or add STABILIZE");
+                return Err(keyword.error(files, message));
+            }
+        }
         for key in ["TIMERESET", "TOTALTIMEATSTART"] {
             if keyword.has(key) {
                 return Err(keyword.error(
@@ -193,19 +170,39 @@ impl Reader<'_> {
     /// amplitude.
     pub(super) fn conditions(&mut self, keyword: &Keyword, kind: Kind) -> Result<Option<String>> {
         let files = &self.source.files;
-        keyword.allow(files, &["OP", "AMPLITUDE", "FIXED", "TYPE"])?;
+        let known = [
+            "OP",
+            "AMPLITUDE",
+            "FIXED",
+            "TYPE",
+            "FOLLOWER",
+            "CONSTANTRESULTANT",
+        ];
+        // Where displacements are small, loads neither turn with the bodies nor grow with them.
+        let n_known = match kind {
+            Kind::Force | Kind::Pressure => known.len(),
+            _ => known.len() - 2,
+        };
+        keyword.allow(files, &known[..n_known])?;
         let is_new = keyword.choice(files, "OP", &["MOD", "NEW"])? == "NEW";
         keyword.choice(files, "TYPE", &["DISPLACEMENT"])?;
         let amplitude = keyword.get("AMPLITUDE").map(str::to_string);
         match self.current_step() {
-            Some(step) if is_new => {
+            Some(step) => {
                 let step = &mut self.deck.program.steps[step];
-                step.renewed[kind as usize].get_or_insert(keyword.place);
-                if kind == Kind::Boundary {
-                    step.conditions.drain(..std::mem::take(&mut self.n_before));
-                }
-                if kind == Kind::Pressure {
-                    step.renewed[Kind::Volume as usize].get_or_insert(keyword.place);
+                let is_first = !std::mem::replace(&mut step.is_begun[kind as usize], true);
+                if is_new && is_first {
+                    step.renewed[kind as usize] = Some(keyword.place);
+                    if kind == Kind::Boundary {
+                        step.conditions.drain(..std::mem::take(&mut self.n_before));
+                    }
+                    if kind == Kind::Pressure {
+                        step.renewed[Kind::Volume as usize] = Some(keyword.place);
+                    }
+                } else if is_new && step.renewed[kind as usize].is_none() {
+                    let how = "OP=NEW has no effect behind others of its kind in the step, as in \
+                               CalculiX: give it to the first";
+                    self.take(keyword, keyword.place, how);
                 }
             }
             None if kind != Kind::Boundary => {
@@ -288,8 +285,21 @@ impl Reader<'_> {
         let amplitude = self.conditions(keyword, Kind::Pressure)?;
         while let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
-            let on = target(&mut row)?;
+            let mut ahead = row;
+            // Nothing in front of a load on volumes stands for all elements.
+            let on = match ahead.word().is_empty() && !ahead.is_at_end() {
+                true => {
+                    row = ahead;
+                    Target::All
+                }
+                false => target(&mut row)?,
+            };
             match volume_load(row)? {
+                OnVolume::Face if on == Target::All => {
+                    let message = "a pressure acts on faces of some elements: give their set or \
+                                   number in front of it";
+                    return Err(row.place.error(message));
+                }
                 OnVolume::Face => {}
                 OnVolume::Refused(why) => {
                     self.refuse(keyword, line.place, &why);

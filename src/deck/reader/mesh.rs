@@ -140,8 +140,8 @@ impl Reader<'_> {
 /// Reads a number, or the name of a set.
 pub(super) fn target(fields: &mut Fields) -> Result<Target> {
     let mut ahead = *fields;
-    let word = ahead.word();
-    // Names in quotes may begin with a digit.
+    let word = ahead.written();
+    // Names may begin with a digit; in quotes they may consist of digits alone.
     let is_name = word.iter().any(u8::is_ascii_alphabetic);
     if word.first().is_some_and(u8::is_ascii_digit) && !is_name {
         return Ok(Target::Label(fields.label("the number")?));

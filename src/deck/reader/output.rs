@@ -22,9 +22,23 @@ impl Reader<'_> {
     fn schedule(&mut self, keyword: &Keyword) {
         let every = || keyword.get("FREQUENCY")?.parse().ok().map(Schedule::Every);
         let points = keyword.get("TIMEPOINTS");
+        let wanted = points.map(|name| (keyword.clone(), name.to_string()));
+        self.time_points_wanted.extend(wanted);
         let named = points.map(|name| Schedule::At(name.to_string()));
         if let Some((step, schedule)) = self.current_step().zip(named.or_else(every)) {
             self.deck.program.steps[step].schedule = Some(schedule);
+        }
+    }
+
+    /// Adds a remark for each name of time points that the deck does not define.
+    pub(super) fn check_time_points(&mut self) {
+        for (keyword, name) in std::mem::take(&mut self.time_points_wanted) {
+            if self.deck.program.time_points.get(&name).is_none() {
+                let how = format!(
+                    "there is no *TIME POINTS, NAME={name}: results are those of the ends of steps"
+                );
+                self.take(&keyword, keyword.place, &how);
+            }
         }
     }
 

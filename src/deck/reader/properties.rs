@@ -1,11 +1,9 @@
-//! Reading of materials, sections, contact and constraints.
+//! Reading of materials, sections and constraints.
 
 use super::mesh::target;
 use super::{Reader, fields};
-use crate::deck::data::{
-    Adjust, Clearance, ContactPair, Equation, Hardening, Interaction, MaterialData, Section,
-    Target, TiedPair, Transform,
-};
+use crate::deck::bodies::unsupported;
+use crate::deck::data::{Equation, Hardening, MaterialData, Section, Transform};
 use crate::deck::fields::Where;
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
@@ -41,8 +39,30 @@ impl Reader<'_> {
         }
     }
 
+    /// Requires that a material's law does not depend on further variables.
+    ///
+    /// # Errors
+    /// `Unsupported`, with their number.
+    pub(super) fn without_dependencies(&self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        match keyword.number(files, "DEPENDENCIES")? {
+            Some(n) if n != 0.0 => {
+                let message = format!(
+                    "DEPENDENCIES={n}: materials depend on no field variables here; give 0, and \
+                     lines without them"
+                );
+                Err(unsupported(keyword.error(files, message)))
+            }
+            _ => Ok(()),
+        }
+    }
+
     pub(super) fn elastic(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &["TYPE"])?;
+        keyword.allow(&self.source.files, &["TYPE", "MODULI", "DEPENDENCIES"])?;
+        self.without_dependencies(keyword)?;
+        // Moduli at once and in the long run differ in viscoelastic materials alone.
+        let moduli = ["LONG TERM", "INSTANTANEOUS"];
+        keyword.choice(&self.source.files, "MODULI", &moduli)?;
         let types = [
             "ISO",
             "ISOTROPIC",
@@ -80,13 +100,18 @@ impl Reader<'_> {
     }
 
     pub(super) fn plastic(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &["HARDENING", "RATE"])?;
+        let known = ["HARDENING", "RATE", "DEPENDENCIES", "EXTRAPOLATION"];
+        keyword.allow(&self.source.files, &known)?;
+        self.without_dependencies(keyword)?;
+        let ways = ["CONSTANT", "LINEAR"];
+        let goes_on = keyword.choice(&self.source.files, "EXTRAPOLATION", &ways)? == "LINEAR";
         let laws = ["ISOTROPIC", "KINEMATIC", "COMBINED", "JOHNSON COOK", "USER"];
         let law = keyword.choice(&self.source.files, "HARDENING", &laws)?;
         let is_kinematic = law == "KINEMATIC";
         if !(is_kinematic || law == "ISOTROPIC") || keyword.has("RATE") {
             let why = "hardening of decks is isotropic or linear kinematic, and independent of \
-                       rate; back stresses that fade are `back_stresses` of a scene's material";
+                       rate: give HARDENING=ISOTROPIC or HARDENING=KINEMATIC with a table, \
+                       without RATE";
             self.refuse(keyword, keyword.place, why);
             return self.skip();
         }
@@ -122,6 +147,9 @@ impl Reader<'_> {
             let why = "kinematic hardening of a deck is linear: give two lines, its ends";
             self.refuse(keyword, keyword.place, why);
         }
+        if goes_on {
+            tables.iter_mut().for_each(|(_, rows)| extend(rows));
+        }
         let material = self.of_material(keyword)?;
         (material.plastic, material.is_kinematic) = (tables, is_kinematic);
         self.skip()
@@ -129,7 +157,14 @@ impl Reader<'_> {
 
     pub(super) fn section(&mut self, keyword: &Keyword) -> Result<()> {
         let files = &self.source.files;
-        let known = ["ELSET", "MATERIAL", "ORIENTATION", "CONTROLS", "OFFSET"];
+        let known = [
+            "ELSET",
+            "MATERIAL",
+            "ORIENTATION",
+            "CONTROLS",
+            "OFFSET",
+            "STACKDIRECTION",
+        ];
         keyword.allow(files, &known)?;
         let elements = keyword.require(files, "ELSET")?.to_string();
         let material = keyword.require(files, "MATERIAL")?.to_string();
@@ -139,6 +174,10 @@ impl Reader<'_> {
         }
         if keyword.has("OFFSET") {
             let why = "OFFSET: sections of solids and of the plane have none";
+            self.ignore(keyword, keyword.place, why);
+        }
+        if keyword.has("STACKDIRECTION") {
+            let why = "STACK DIRECTION: sections are of one material, without layers";
             self.ignore(keyword, keyword.place, why);
         }
         let mut thickness = None;
@@ -158,235 +197,6 @@ impl Reader<'_> {
             place: keyword.place,
         });
         self.skip()
-    }
-
-    pub(super) fn interaction(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        keyword.allow(files, &["NAME"])?;
-        let name = keyword.require(files, "NAME")?;
-        *self.deck.properties.interactions.entry(name) = Interaction {
-            place: keyword.place,
-            stiffness: None,
-        };
-        self.interaction = Some(name.to_string());
-        // A thickness out of the plane may follow; it is not used, because forces are per unit
-        // thickness.
-        self.skip()
-    }
-
-    /// Reads the law of contact: exact complementarity, for hard contact or on a linear spring.
-    pub(super) fn behavior(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        keyword.allow(
-            files,
-            &[
-                "PRESSURE-OVERCLOSURE",
-                "PENALTY",
-                "AUGMENTEDLAGRANGE",
-                "NOSEPARATION",
-            ],
-        )?;
-        let laws = [
-            "HARD",
-            "LINEAR",
-            "EXPONENTIAL",
-            "TABULAR",
-            "TIED",
-            "SCALE FACTOR",
-        ];
-        let law = keyword.choice(files, "PRESSURE-OVERCLOSURE", &laws)?;
-        if law == "TIED" || keyword.has("NOSEPARATION") {
-            self.refuse(
-                keyword,
-                keyword.place,
-                "surfaces in contact can part: give those that never do a *TIE instead",
-            );
-        } else if law == "LINEAR" {
-            return self.slope(keyword);
-        } else if law != "HARD" {
-            let how = format!(
-                "PRESSURE-OVERCLOSURE={law} is taken as hard contact: the surfaces do not overlap, \
-                 and no stiffness is needed"
-            );
-            self.take(keyword, keyword.place, &how);
-        }
-        self.skip()
-    }
-
-    /// Reads the slope of the pressure. The further value that CalculiX accepts, a tension at large
-    /// distance, has no counterpart here.
-    fn slope(&mut self, keyword: &Keyword) -> Result<()> {
-        let line = self.one_line(keyword, "the slope of the pressure over the overlap")?;
-        let mut row = fields(&self.source, keyword, line);
-        let slope = row.number("the slope")?;
-        if slope <= 0.0 {
-            let message = format!("the slope is {}; it must be positive", exact(slope));
-            return Err(row.place.error(message));
-        }
-        let interactions = &mut self.deck.properties.interactions;
-        match self
-            .interaction
-            .as_deref()
-            .and_then(|name| interactions.get_mut(name))
-        {
-            Some(interaction) => interaction.stiffness = Some(slope),
-            None => {
-                let message = "it belongs to no *SURFACE INTERACTION; put it below one";
-                return Err(keyword.error(&self.source.files, message));
-            }
-        }
-        let how = format!(
-            "PRESSURE-OVERCLOSURE=LINEAR: soft contact of pressure {} times overlap",
-            exact(slope)
-        );
-        self.take(keyword, keyword.place, &how);
-        self.skip()
-    }
-
-    /// Reads the coefficient of friction, which must be 0.
-    pub(super) fn friction(&mut self, keyword: &Keyword) -> Result<()> {
-        let mut coefficient = f64::NAN;
-        if let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
-            coefficient = row.number_or("the coefficient of friction", 0.0)?;
-        }
-        if coefficient != 0.0 {
-            self.refuse(
-                keyword,
-                keyword.place,
-                "contact is frictionless: take it out, or give the coefficient 0",
-            );
-        }
-        self.skip()
-    }
-
-    pub(super) fn contact_pair(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        let known = [
-            "INTERACTION",
-            "TYPE",
-            "SMALLSLIDING",
-            "ADJUST",
-            "EXTENSIONZONE",
-            "HCRIT",
-            "TRACKING",
-        ];
-        keyword.allow(files, &known)?;
-        let interaction = keyword.require(files, "INTERACTION")?.to_string();
-        let adjust = match keyword.get("ADJUST") {
-            Some(text) => match text.parse::<f64>() {
-                Ok(distance) if distance >= 0.0 && distance.is_finite() => {
-                    Some(Adjust::Within(distance))
-                }
-                Ok(_) => {
-                    let why = format!(
-                        "ADJUST={text}: give a distance, 0 or more, or a set of nodes, or take it \
-                         out"
-                    );
-                    return Err(keyword.error(files, why));
-                }
-                Err(_) => Some(Adjust::Nodes(Target::Set(text.to_string()))),
-            },
-            None => None,
-        };
-        let mut is_first = true;
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
-            let slave = row.text("the slave surface")?;
-            let master = row.text("the master surface")?;
-            row.end()?;
-            self.deck.properties.contacts.push(ContactPair {
-                slave,
-                master,
-                interaction: interaction.clone(),
-                adjust: adjust.clone(),
-                is_closed: false,
-                place: line.place,
-            });
-            is_first = false;
-        }
-        if is_first {
-            let message = "a line with the slave and the master surface should follow; give it";
-            return Err(keyword.error(&self.source.files, message));
-        }
-        if !keyword.has("SMALLSLIDING") {
-            let how = "sliding is small: each node stays at what it faces in the mesh";
-            self.take(keyword, keyword.place, how);
-        }
-        Ok(())
-    }
-
-    pub(super) fn tie(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        let cyclic = ["CYCLICSYMMETRY", "MULTISTAGE", "FLUIDPERIODIC", "CYCLIC"];
-        if cyclic.iter().any(|key| keyword.has(key)) {
-            let why = "there is no cyclic symmetry: model what repeats once, with symmetry planes";
-            self.refuse(keyword, keyword.place, why);
-            return self.skip();
-        }
-        let known = [
-            "NAME",
-            "POSITIONTOLERANCE",
-            "ADJUST",
-            "TYPE",
-            "NOROTATION",
-            "NOTHICKNESS",
-        ];
-        keyword.allow(files, &known)?;
-        let tolerance = match keyword.get("POSITIONTOLERANCE") {
-            Some(text) => match text.parse::<f64>() {
-                Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(distance),
-                _ => {
-                    let why = format!("POSITION TOLERANCE={text} must be a distance, 0 or more");
-                    return Err(keyword.error(files, why));
-                }
-            },
-            None => None,
-        };
-        let is_moved = keyword.choice(files, "ADJUST", &["YES", "NO"])? == "YES";
-        let mut is_first = true;
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
-            let slave = row.text("the slave surface")?;
-            let master = row.text("the master surface")?;
-            row.end()?;
-            self.deck.properties.ties.push(TiedPair {
-                slave,
-                master,
-                tolerance,
-                place: line.place,
-            });
-            is_first = false;
-        }
-        if is_first {
-            let message = "a line with the slave and the master surface should follow; give it";
-            return Err(keyword.error(&self.source.files, message));
-        }
-        let how = match is_moved {
-            true => "the surfaces are tied in the mean over their faces, not node by node",
-            false => {
-                "the surfaces are tied in the mean over their faces, not node by node; nodes of \
-                 the slave surface are moved onto the master surface, ADJUST=NO or not"
-            }
-        };
-        self.take(keyword, keyword.place, how);
-        Ok(())
-    }
-
-    pub(super) fn clearance(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        keyword.allow(files, &["MASTER", "SLAVE", "VALUE"])?;
-        let [master, slave] = ["MASTER", "SLAVE"].map(|key| keyword.require(files, key));
-        let (master, slave) = (master?.to_string(), slave?.to_string());
-        keyword.require(files, "VALUE")?;
-        let value = keyword.number(files, "VALUE")?.unwrap_or(0.0);
-        self.deck.properties.clearances.push(Clearance {
-            slave,
-            master,
-            value,
-            place: keyword.place,
-        });
-        self.no_more(keyword)
     }
 
     /// Reads the number of terms, then node, degree of freedom and coefficient of each term, line
@@ -474,6 +284,18 @@ pub(super) fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> R
             exact(temperature),
             exact(last)
         ))),
+    }
+}
+
+/// Plastic strain up to which a curve is continued along its last slope.
+const FAR: f64 = 1e3;
+
+/// Continues rows of plastic strain and yield stress along the slope between the last two.
+fn extend(rows: &mut Hardening) {
+    if let [.., [from, low], [to, high]] = rows[..]
+        && high != low
+    {
+        rows.push([to + FAR, high + (high - low) / (to - from) * FAR]);
     }
 }
 

@@ -11,14 +11,16 @@ use crate::error::Result;
 
 impl Reader<'_> {
     pub(super) fn density(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &[])?;
+        keyword.allow(&self.source.files, &["DEPENDENCIES"])?;
+        self.without_dependencies(keyword)?;
         let value = self.one_value(keyword, "the density")?;
         self.of_material(keyword)?.density = Some(value);
         Ok(())
     }
 
     pub(super) fn expansion(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &["TYPE", "ZERO"])?;
+        keyword.allow(&self.source.files, &["TYPE", "ZERO", "DEPENDENCIES"])?;
+        self.without_dependencies(keyword)?;
         keyword.choice(&self.source.files, "TYPE", &["ISO"])?;
         let zero = keyword.number(&self.source.files, "ZERO")?.unwrap_or(0.0);
         let mut rows: Vec<[f64; 2]> = Vec::new();

@@ -1,6 +1,7 @@
 //! Results that a deck requests.
 
 use super::{Conversion, Deck, Options};
+use crate::deck::Note;
 use crate::scene::{Moment, ResultItem, Totals};
 
 const BLOCK: &str = "\
@@ -86,17 +87,35 @@ fn requests_stay_until_their_group_is_asked_for_anew() {
         };
         assert_eq!((print.item, print.totals), (Force, Totals::Yes));
     }
-    let ignored: Vec<String> = found
-        .account
-        .ignored
-        .iter()
-        .map(|n| n.text.clone())
-        .collect();
-    let expected = [
-        "SDV: not among the results that are written",
-        "there is no set NONE: nothing is written for it",
-    ];
-    assert_eq!(ignored, expected);
+    let texts = |notes: &[Note]| -> Vec<String> { notes.iter().map(|n| n.text.clone()).collect() };
+    let expected = ["SDV: not among the results that are written"];
+    assert_eq!(texts(&found.account.ignored), expected);
+    let absent = "there is no set NONE: nothing is written for it".to_string();
+    assert!(texts(&found.account.taken).contains(&absent));
+}
+
+/// Requests for a contact pair, or at time points, that the deck does not have are told.
+#[test]
+fn what_is_asked_for_and_absent_is_told() {
+    let found = converted(
+        &[
+            "; *CONTACT PRINT, SLAVE=A, MASTER=B; CF\n",
+            "; *NODE PRINT, NSET=TOP, TIME POINTS=NONE; U\n",
+        ],
+        false,
+    );
+    let told: Vec<String> = found.account.taken.iter().map(|n| n.text.clone()).collect();
+    for expected in [
+        "there is no *CONTACT PAIR of slave A and master B: nothing is printed for it",
+        "there is no *TIME POINTS, NAME=NONE: results are those of the ends of steps",
+    ] {
+        assert!(told.iter().any(|text| text == expected), "{told:#?}");
+    }
+    let prints = &found.scene.requests.moments[0].prints;
+    assert!(
+        prints.iter().all(|print| print.set.name == "TOP"),
+        "{prints:?}"
+    );
 }
 
 /// With the option `increments`, increments of `DIRECT` and time points become targets.
