@@ -144,11 +144,12 @@ fn union(a: &[usize], b: &[usize]) -> Vec<usize> {
 /// Hash of everything on which a factor depends apart from its zone; `None` for a matrix that is
 /// distributed over several ranks.
 fn key(matrix: &Symmetric, backend: Backend, partition: &Partition, shift: &[f64]) -> Option<u128> {
-    let matrix = match matrix {
-        Symmetric::Whole(matrix) => matrix,
+    let whole = match matrix {
+        Symmetric::Whole(matrix) => Some(matrix),
         #[cfg(feature = "mumps")]
-        Symmetric::Shared(_) => return None,
+        Symmetric::Shared(_) => None,
     };
+    let matrix = whole?;
     let mut hash = Xxh3::new();
     hash.update(backend.name().as_bytes());
     hash.update(&partition.contact.len().to_le_bytes());
