@@ -219,6 +219,14 @@ pub struct EdgeReading {
     pub pairs: usize,
 }
 
+impl EdgeReading {
+    /// Whether an edge of this half width ends inside the surfaces, where pressures show it; an edge
+    /// of a surface is read twice alike, to round-off.
+    pub(crate) fn is_of_pressures(&self, half_width: f64) -> bool {
+        self.error > 1e-9 * half_width
+    }
+}
+
 /// The state of the model at a target.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct State {

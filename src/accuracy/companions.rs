@@ -24,9 +24,6 @@ const READABLE: usize = 6;
 const READABLE_PATCH: usize = 4;
 /// The nearest coarser mesh of solids, where others cannot be read: five elements instead of six.
 const NEARER: f64 = 1.2;
-/// Share of a half width below which two readings of it are the same: the edge is that of a
-/// surface.
-const ROUND_OFF: f64 = 1e-9;
 /// Most of a run that other runs may take by default.
 const QUICK: f64 = 1.0;
 /// What a run with half as many increments takes of the same mesh.
@@ -262,7 +259,7 @@ fn fewest_pairs(results: &Results) -> Option<usize> {
     let strongest = |a: &&State, b: &&State| a.contact_force.total_cmp(&b.contact_force);
     let state = results.states.iter().max_by(strongest);
     let state = state.map(|s| (s.half_width, s.half_width_reading));
-    let is_read = |(width, reading): &(f64, EdgeReading)| reading.error > ROUND_OFF * width;
+    let is_read = |(width, reading): &(f64, EdgeReading)| reading.is_of_pressures(*width);
     let read = first.into_iter().chain(state).filter(is_read);
     read.map(|(_, reading)| reading.pairs)
         .filter(|n| *n > 0)

@@ -12,9 +12,6 @@ use std::collections::BTreeSet;
 
 /// Pairs on a side of a contact up to which it is not resolved: those at its edge.
 const AT_EDGE: usize = 2;
-/// Share of a half width below which two readings of it are the same: the edge is that of a
-/// surface, and no pressure ends there.
-const ROUND_OFF: f64 = 1e-9;
 /// Figures of a state that the contact does not decide, but the equilibrium of the whole.
 const OF_THE_WHOLE: [&str; 3] = ["load", "approach", "contact_force"];
 
@@ -30,7 +27,7 @@ pub(super) struct Unresolved {
 }
 
 fn is_unresolved(width: f64, reading: &EdgeReading) -> bool {
-    (1..=AT_EDGE).contains(&reading.pairs) && reading.error > ROUND_OFF * width
+    (1..=AT_EDGE).contains(&reading.pairs) && reading.is_of_pressures(width)
 }
 
 impl Unresolved {

@@ -12,6 +12,9 @@ use crate::balls::Balls;
 use crate::number::exact;
 use crate::space::{Vector, along, cross, difference, dot, length};
 
+/// Relative error of a coordinate of a deck, which a rotation may have rounded.
+const ROUND_OFF: f64 = 256.0 * f64::EPSILON;
+
 impl Deck {
     /// Whether a contact has an interference: a negative clearance, or slave nodes behind the
     /// master surface.
@@ -27,7 +30,9 @@ impl Deck {
             self.nodes_of(&slave).iter().any(|&node| {
                 let x = self.point(node as usize);
                 let (target, outward) = surface.nearest(x);
-                dot(difference(x, target), outward) < 0.0
+                // Nodes that touch are behind the surface by the round-off of their coordinates.
+                let size = length(x).max(length(target)) * length(outward);
+                dot(difference(x, target), outward) < -ROUND_OFF * size
             })
         };
         let clearances = &properties.clearances;

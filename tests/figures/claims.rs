@@ -5,8 +5,10 @@
 mod calibration;
 #[path = "../accuracy/families.rs"]
 mod families;
+mod grading;
 mod held_out_first;
 mod held_out_second;
+mod pressed_file;
 mod prices;
 mod solids;
 #[path = "../support/mod.rs"]
@@ -84,6 +86,13 @@ fn main() {
             by_quantity(group, &claims, &mut page);
         }
         std::fs::write("data/accuracy/claims_default.md", page).unwrap();
+        return;
+    }
+    if std::env::args()
+        .nth(1)
+        .is_some_and(|only| only == "grading")
+    {
+        std::fs::write("data/accuracy/grading.md", grading::page()).unwrap();
         return;
     }
     if std::env::args().nth(1).is_some_and(|only| only == "solids") {

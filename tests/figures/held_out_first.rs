@@ -2,9 +2,8 @@
 //! finished, of kinds that no other family has, and run once.
 
 use super::families::{Family, Truth, from_file, named, stepped};
+use super::pressed_file::PressedFile;
 use super::support;
-use super::support::msh::{Body, Msh};
-use super::support::random::Random;
 use brinell::accuracy::Extent;
 use brinell::scene::{Direction, Extrusion, Kind, Scene};
 use std::path::Path;
@@ -290,73 +289,32 @@ fn drawn_rings(element: &str, n: usize) -> Scene {
     scene
 }
 
-/// A round hump on a flat, both meshed by themselves, graded and jittered: pressed beyond yield and
-/// off.
+/// A round hump on a flat: pressed beyond yield and off.
 fn hump(name: &str, triangles: bool, order: usize, folder: &Path) -> Family {
-    let scene = |n: usize, even: bool| {
-        let mut msh = Msh::default();
-        let random = &mut Random::new(7);
-        let jitter = if even { 0.0 } else { 0.3 };
-        let round = |x: f64| x * x / 40.0;
-        let body = |name, cells, heights| Body {
-            name,
-            from: 0.0,
+    let scene = |n: usize, jitter: f64| {
+        let pressed = PressedFile {
+            title: "hump on a flat",
+            names: ["hump", "flat"],
             width: 4.0,
-            cells,
-            heights,
-            kink: None,
+            underside: &|x| x * x / 40.0,
+            height: 4.0,
             grading: 1.8,
             jitter,
+            seed: 7,
+            head: "symmetry = 2",
+            lower: "youngs_modulus = 110e3\npoissons_ratio = 0.34\nyield_stress = 120.0\n\
+                    tangent_modulus = 6000.0",
+            load: "traction = [0.0, -1.0]",
+            program: "targets = [{ yield = true }, { name = \"pressed\", load_factor = 60.0 }, \
+                      { name = \"off\", load_factor = 0.0 }]",
         };
-        let hump = body("hump", [2 * n, n], [&round, &|_| 4.0]);
-        let flat = body("flat", [2 * n, n], [&|_| -4.0, &|_| 0.0]);
-        hump.plane(&mut msh, triangles, order, random);
-        flat.plane(&mut msh, triangles, order, random);
-        let file = folder.join(format!("hump-{name}-{n}-{even}.msh"));
-        std::fs::write(&file, msh.text()).unwrap();
-        support::parse(&format!(
-            r#"
-title = "hump on a flat"
-kind = "plane_strain"
-symmetry = 2
-mesh.file = {file:?}
-[materials.steel]
-youngs_modulus = 210e3
-poissons_ratio = 0.3
-[materials.bronze]
-youngs_modulus = 110e3
-poissons_ratio = 0.34
-yield_stress = 120.0
-tangent_modulus = 6000.0
-[bodies]
-hump = {{ material = "steel" }}
-flat = {{ material = "bronze" }}
-[[contact]]
-first = "hump bottom"
-second = "flat top"
-[[support]]
-on = "hump axis"
-fix = ["x"]
-[[support]]
-on = "flat axis"
-fix = ["x"]
-[[support]]
-on = "flat bottom"
-fix = ["y"]
-[[load]]
-on = "hump top"
-traction = [0.0, -1.0]
-[program]
-targets = [{{ yield = true }}, {{ name = "pressed", load_factor = 60.0 }},
-    {{ name = "off", load_factor = 0.0 }}]
-"#
-        ))
+        pressed.scene(folder, (triangles, order), n)
     };
     let finest = if order == 1 { 64 } else { 36 };
     Family {
         name: format!("hump on a flat from a file, {name}"),
         extent: Extent::Program,
-        meshes: named(&[8, 12, 18], |n| scene(n, false)),
-        truth: Truth::Finer(stepped(scene(finest, true), 20)),
+        meshes: named(&[8, 12, 18], |n| scene(n, 0.3)),
+        truth: Truth::Finer(stepped(scene(finest, 0.0), 20)),
     }
 }

@@ -3,9 +3,8 @@
 //! that no other family has, and run once.
 
 use super::families::{Family, Truth, from_file, named, stepped};
+use super::pressed_file::PressedFile;
 use super::support;
-use super::support::msh::{Body, Msh};
-use super::support::random::Random;
 use brinell::accuracy::Extent;
 use brinell::model::Model;
 use brinell::scene::Scene;
@@ -318,63 +317,23 @@ targets = [{{ load_factor = 1.0 }}]
     brinell::deck::load(&file).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A block with a wavy underside on a flat one, both meshed by themselves: pressed, it touches
-/// ever more of it.
-fn waves(folder: &Path, (triangles, order): (bool, usize), n: usize, jitter: f64) -> Scene {
-    let mut msh = Msh::default();
-    let random = &mut Random::new(11);
-    let wave = |x: f64| 0.01 * (1.0 - (std::f64::consts::PI * x / 2.0).cos());
-    let body = |name, cells, heights| Body {
-        name,
-        from: 0.0,
+/// A block with a wavy underside on a flat one: pressed, it touches ever more of it.
+fn waves(folder: &Path, of: (bool, usize), n: usize, jitter: f64) -> Scene {
+    let pressed = PressedFile {
+        title: "waves",
+        names: ["upper", "lower"],
         width: 2.0,
-        cells,
-        heights,
-        kink: None,
+        underside: &|x| 0.01 * (1.0 - (std::f64::consts::PI * x / 2.0).cos()),
+        height: 2.0,
         grading: 1.3,
         jitter,
+        seed: 11,
+        head: "",
+        lower: "youngs_modulus = 60e3\npoissons_ratio = 0.35\nyield_stress = 300.0\n\
+                plastic_modulus = 2000.0",
+        load: "pressure = 1.0",
+        program: "unit = \"yield\"\ntargets = [{ yield = true }, \
+                  { name = \"pressed\", load_factor = 1.6 }, { name = \"off\", load_factor = 0.0 }]",
     };
-    let upper = body("upper", [2 * n, n], [&wave, &|_| 2.0]);
-    let lower = body("lower", [2 * n, n], [&|_| -2.0, &|_| 0.0]);
-    upper.plane(&mut msh, triangles, order, random);
-    lower.plane(&mut msh, triangles, order, random);
-    let file = folder.join(format!("waves-{triangles}-{order}-{n}-{jitter}.msh"));
-    std::fs::write(&file, msh.text()).unwrap();
-    support::parse(&format!(
-        r#"
-title = "waves"
-kind = "plane_strain"
-mesh.file = {file:?}
-[materials.steel]
-youngs_modulus = 210e3
-poissons_ratio = 0.3
-[materials.lead]
-youngs_modulus = 60e3
-poissons_ratio = 0.35
-yield_stress = 300.0
-plastic_modulus = 2000.0
-[bodies]
-upper = {{ material = "steel" }}
-lower = {{ material = "lead" }}
-[[contact]]
-first = "upper bottom"
-second = "lower top"
-[[support]]
-on = "upper axis"
-fix = ["x"]
-[[support]]
-on = "lower axis"
-fix = ["x"]
-[[support]]
-on = "lower bottom"
-fix = ["y"]
-[[load]]
-on = "upper top"
-pressure = 1.0
-[program]
-unit = "yield"
-targets = [{{ yield = true }}, {{ name = "pressed", load_factor = 1.6 }},
-    {{ name = "off", load_factor = 0.0 }}]
-"#
-    ))
+    pressed.scene(folder, of, n)
 }

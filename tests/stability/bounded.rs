@@ -47,7 +47,7 @@ fn a_run_ends_at_its_bound_on_increments() {
             let reached = found.states.len();
             let last = whole.history[most - 1].alpha;
             for words in [
-                format!("program.max_increments = {most} were taken"),
+                format!("has taken program.max_increments = {most}: "),
                 format!("load factor {last:.6}, {reached} of 2 targets"),
                 "Raise program.max_increments".to_string(),
             ] {

@@ -164,9 +164,9 @@ impl<'m, 'o> Run<'m, 'o> {
             Stepping::Steps => format!("fewer program.steps (now {})", program.steps),
         };
         Err(Error::analysis(format!(
-            "program.max_increments = {taken} were taken: the last one ended at load factor {:.6}, \
-             {} of {} targets were reached{}. Raise program.max_increments, or ask for fewer \
-             increments by {shorter}",
+            "the run has taken program.max_increments = {taken}: the last increment ended at load \
+             factor {:.6}, {} of {} targets were reached{}. Raise program.max_increments, or ask \
+             for fewer increments by {shorter}",
             self.solver.at.alpha,
             self.position.target,
             self.labels.len(),
