@@ -17,7 +17,7 @@ pub fn declared(source: &MeshSource) -> Vec<(String, &str, Curve)> {
     let mut add = |list: &str, index: usize, on, curve| {
         out.push((format!("mesh.{list}.{index}"), on, curve));
     };
-    // A placeholder: the side on which the body lies is determined from the mesh.
+    // Overwritten once the mesh is known, which shows the side on which the body lies.
     let outward = true;
     for (index, given) in source.circles.iter().enumerate() {
         let curve = Curve::Circle {
