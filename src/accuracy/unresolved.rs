@@ -1,17 +1,15 @@
 //! Contacts that a mesh does not resolve, and the figures whose error is therefore unknown.
 //!
-//! The pressures of the last two pairs at the edge of a contact are not those of points
-//! ([`crate::results::EdgeReading`]). Where a side of a contact has no other pairs, no pressure is
-//! known, and nor is the stress below it: meshes that agree there do so because all of them replace
-//! the contact by the same few forces.
+//! The pressures of the last pairs at the edge of a contact ([`EdgeReading::AT_EDGE`]) are not
+//! those of points. Where a side of a contact has no other pairs, no pressure is known, nor is the
+//! stress below it: meshes that agree there do so because all of them replace the contact by the
+//! same few forces.
 
 use super::quantities::Quantity;
 use crate::results::{EdgeReading, Results};
 use crate::scene::{Scene, Unit};
 use std::collections::BTreeSet;
 
-/// Pairs on a side of a contact up to which it is not resolved: those at its edge.
-const AT_EDGE: usize = 2;
 /// Figures of a state that the contact does not decide, but the equilibrium of the whole.
 const OF_THE_WHOLE: [&str; 3] = ["load", "approach", "contact_force"];
 
@@ -27,7 +25,7 @@ pub(super) struct Unresolved {
 }
 
 fn is_unresolved(width: f64, reading: &EdgeReading) -> bool {
-    (1..=AT_EDGE).contains(&reading.pairs) && reading.is_of_pressures(width)
+    (1..=EdgeReading::AT_EDGE).contains(&reading.pairs) && reading.is_of_pressures(width)
 }
 
 impl Unresolved {
@@ -66,11 +64,71 @@ impl Unresolved {
         let places: Vec<String> = at_yield.into_iter().chain(of_states).collect();
         (!places.is_empty()).then(|| {
             format!(
-                "no more than {AT_EDGE} pairs of nodes carry a side of the contact ({}): the mesh \
+                "no more than {} pairs of nodes carry a side of the contact ({}): the mesh \
                  does not resolve it, and the errors of pressures and of the strains below them \
                  are unknown; make the elements there smaller",
+                EdgeReading::AT_EDGE,
                 places.join(", ")
             )
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::quantities::quantities;
+    use super::*;
+    use crate::results::{State, YieldPoint};
+
+    /// Quantities whose error is hidden, of a run whose contact has so many pairs on a side at
+    /// first yield and in its state.
+    fn hidden([at_yield, in_state]: [usize; 2], error: f64, unit: Unit) -> Vec<String> {
+        let text = include_str!("../../data/scenes/thick_cylinder.toml");
+        let mut scene = Scene::parse(text, "scene.toml").unwrap();
+        scene.program.unit = unit;
+        let half_width_reading = |pairs| EdgeReading { error, pairs };
+        let mut results = Results {
+            first_yield: Some(YieldPoint {
+                alpha: 1.0,
+                load: 5.0,
+                max_pressure: 2.0,
+                half_width: 0.1,
+                half_width_reading: half_width_reading(at_yield),
+                location: [0.0; 3],
+                body: 0,
+            }),
+            states: vec![State {
+                name: "pressed".into(),
+                half_width: 0.1,
+                half_width_reading: half_width_reading(in_state),
+                ..State::default()
+            }],
+            ..Results::default()
+        };
+        results.sizes.contact_pairs = 9;
+        let found = Unresolved::of(&scene, &results);
+        let all = quantities(&results);
+        let hidden = all.iter().filter(|quantity| found.hides(quantity));
+        let hidden: Vec<String> = hidden.map(|quantity| quantity.path.clone()).collect();
+        assert_eq!(hidden.is_empty(), found.note().is_none());
+        hidden
+    }
+
+    #[test]
+    fn what_one_or_two_pairs_carry_has_no_error() {
+        let all = |pairs| hidden(pairs, 0.01, Unit::Load);
+        assert!(all([3, 3]).is_empty());
+        // Contact that ends with its surfaces has no edge of pressures.
+        assert!(hidden([1, 2], 0.0, Unit::Load).is_empty());
+        let of_state = all([3, 2]);
+        assert!(of_state.contains(&"states.pressed.max_pressure".to_string()));
+        assert!(!of_state.contains(&"states.pressed.load".to_string()));
+        assert!(!of_state.iter().any(|path| path.starts_with("yield.")));
+        let of_yield = all([1, 3]);
+        assert!(of_yield.contains(&"yield.load".to_string()));
+        assert!(of_yield.iter().all(|path| path.starts_with("yield.")));
+        // Load factors in loads at first yield pass what is unknown there on to every state.
+        let passed_on = hidden([1, 3], 0.01, Unit::Yield);
+        assert!(passed_on.contains(&"states.pressed.load".to_string()));
     }
 }

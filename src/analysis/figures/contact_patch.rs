@@ -2,15 +2,13 @@
 
 use super::contact_edge::{EdgePoint, Tail};
 use crate::model::{AxisPoint, ContactSurface, Mirror, Model};
+use crate::results::EdgeReading;
 use crate::scene::Kind;
 use crate::space::{Vector, dot};
 use std::f64::consts::PI;
 
-/// Number of pairs at the edge, including the last closed one, whose pressures are not trusted one
-/// by one, only their total force: the share of each depends on where in the facet the contact ends
-/// (on Hertz' line contact the last two put the edge off by 0.08 and -0.06 elements, those before
-/// by 0.01).
-const EDGE_SKIP: isize = 2;
+/// Number of pairs at the edge whose pressures are not trusted one by one.
+const EDGE_SKIP: isize = EdgeReading::AT_EDGE as isize;
 /// Number of pairs before the edge pairs to which the pressure near the edge is fitted.
 const EDGE_POINTS: isize = 4;
 /// Angle of the sector between two planes of symmetry below which they count as parallel, so that
