@@ -226,8 +226,8 @@ impl EdgeReading {
     /// elements, those before by 0.01).
     pub(crate) const AT_EDGE: usize = 2;
 
-    /// Whether an edge of this half width ends inside the surfaces, where pressures show it; an edge
-    /// of a surface is read twice alike, to round-off.
+    /// Whether an edge of this half width ends inside the surfaces, where pressures show it; an
+    /// edge of a surface is read twice alike, to round-off.
     pub(crate) fn is_of_pressures(&self, half_width: f64) -> bool {
         self.error > 1e-9 * half_width
     }

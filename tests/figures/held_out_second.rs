@@ -333,7 +333,8 @@ fn waves(folder: &Path, of: (bool, usize), n: usize, jitter: f64) -> Scene {
                 plastic_modulus = 2000.0",
         load: "pressure = 1.0",
         program: "unit = \"yield\"\ntargets = [{ yield = true }, \
-                  { name = \"pressed\", load_factor = 1.6 }, { name = \"off\", load_factor = 0.0 }]",
+                  { name = \"pressed\", load_factor = 1.6 }, \
+                  { name = \"off\", load_factor = 0.0 }]",
     };
     pressed.scene(folder, of, n)
 }
