@@ -24,9 +24,16 @@ struct End {
 
 /// Finds [`ContactSurface::goes_on`] of each contact.
 pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
-    if mesh.is_solid() {
-        return solid::find(mesh, pairs, contacts);
+    match mesh.is_solid() {
+        true => solid::find(mesh, pairs, contacts),
+        false => find_in_plane(mesh, pairs, contacts),
     }
+    for contact in contacts.iter_mut().filter(|contact| contact.is_partial) {
+        contact.goes_on.clear();
+    }
+}
+
+fn find_in_plane(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
     let ends = ends(contacts);
     if ends.is_empty() {
         return;

@@ -138,6 +138,7 @@ impl Freedoms {
             followers.terms.push(self.basis.share_of(terms.collect()));
             self.slots[equation.node][axis] = Slot::Sum(k as u32);
         }
+        self.n_followers_of_ties = followers.of_ties;
         Ok(())
     }
 
@@ -304,6 +305,12 @@ impl Freedoms {
     /// Number of displacements that follow others, in ties and equations.
     pub(crate) fn n_tied(&self) -> usize {
         self.followers.len()
+    }
+
+    /// Whether the displacement of a slot that is a sum follows others through a tie, not through
+    /// an equation.
+    pub(crate) fn is_of_tie(&self, tied: u32) -> bool {
+        (tied as usize) < self.n_followers_of_ties
     }
 
     /// Nodes, axes and coefficients whose sum a tied slot is.

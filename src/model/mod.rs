@@ -231,7 +231,7 @@ impl Model {
         let stated = (&mut pairs[..], &contacts[..]);
         pairs::stated::at_control_points(scene, &mesh, &freedoms.basis, stated)?;
         let mut loads = loads::resolve(scene, &mesh, given, (&freedoms, &contacts))?;
-        rigid.open(scene, &mut loads, (&pairs, &contacts));
+        openings::of_moved_masters(&mut loads, &freedoms, (&pairs, &contacts));
         let of_bodies = (&materials[..], &contacts[..]);
         loads.extend(initial_strain::resolve(scene, &mesh, of_bodies, &freedoms)?);
         check_targets(scene, &mesh)?;

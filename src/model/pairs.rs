@@ -9,6 +9,7 @@ mod covered;
 mod held;
 mod matching;
 pub(super) mod mortar;
+mod only;
 mod repeated;
 mod rigid;
 mod sides;
@@ -118,6 +119,9 @@ pub struct ContactSurface {
     /// Pairs at which the contact surface ends although both bodies go on there: material beyond
     /// could touch too.
     pub goes_on: Vec<usize>,
+    /// Whether only chosen nodes of the slave surface may touch, so that the contact may end
+    /// anywhere.
+    pub(super) is_partial: bool,
     /// Pairs at the corners of each piece of a face of the slave surface, in order; in a solid
     /// model only.
     pub faces: Vec<Vec<usize>>,
@@ -218,8 +222,10 @@ pub(super) fn resolve(
     let mut slave_of: BTreeMap<usize, usize> = BTreeMap::new();
     let mut repeated = Repeated::default();
     let supports = Supports::resolve(scene, mesh)?;
+    let moved = Supports::moved(scene, mesh)?;
     for (index, contact) in scene.contact.iter().enumerate() {
         let is_held = |pair: &Pair| contact.held && supports.hold_along(pair.slave, pair.normal);
+        let is_moved = |pair: &Pair| moved.towards(pair.slave, pair.normal);
         let start = pairs.len();
         let entry = Entry::of_list(scene, "contact", index);
         let what = format!(
@@ -242,6 +248,10 @@ pub(super) fn resolve(
             space: scene.kind,
             is_of_deck: scene.requests.is_of_deck(),
         };
+        let only = only::nodes(contact, (&entry, mesh), entries.surfaces)?;
+        if let Some(only) = &only {
+            entries.contact.slave = only.side;
+        }
         let is_rigid = [&contact.first, &contact.second].map(|name| rigid.named(name));
         let given = given.pairs.get(&index).map(Vec::as_slice);
         let find = |entries: &ContactInput, notes: &mut Vec<String>| {
@@ -262,6 +272,9 @@ pub(super) fn resolve(
                     found
                 }
             };
+            if let Some(only) = &only {
+                only.retain(&mut found, mesh)?;
+            }
             let is_same =
                 |other: usize| held::are_same(mesh, entries.surfaces, &scene.contact[other]);
             repeated.take_from(&mut found, &pairs, is_same);
@@ -278,7 +291,7 @@ pub(super) fn resolve(
         let is_twice = |(_, other): &(usize, usize)| {
             held::are_same(mesh, entries.surfaces, &scene.contact[*other])
         };
-        let may_swap = contact.slave == SlaveSide::Auto && !shared.iter().any(is_twice);
+        let may_swap = entries.contact.slave == SlaveSide::Auto && !shared.iter().any(is_twice);
         if may_swap && !shared.is_empty() {
             entries.contact.slave = [SlaveSide::Second, SlaveSide::First][found.slave];
             let mut other_notes = Vec::new();
@@ -290,8 +303,12 @@ pub(super) fn resolve(
             }
         }
         // A slave whose support carries what presses on it needs no pair; it is better as a master.
-        let n_held = |found: &Found| found.pairs.iter().filter(|pair| is_held(pair)).count();
-        if n_held(&found) > 0 && contact.slave == SlaveSide::Auto {
+        // A slave whose displacement is prescribed cannot be one.
+        let n_held = |found: &Found| {
+            let pairs = found.pairs.iter();
+            pairs.filter(|pair| is_held(pair) || is_moved(pair)).count()
+        };
+        if n_held(&found) > 0 && contact.slave == SlaveSide::Auto && only.is_none() {
             entries.contact.slave = [SlaveSide::Second, SlaveSide::First][found.slave];
             let mut other_notes = Vec::new();
             match find(&entries, &mut other_notes) {
@@ -400,6 +417,7 @@ fn surface_of(
         facet_length: found.facet_length,
         axis,
         goes_on: Vec::new(),
+        is_partial: entries.contact.nodes.is_some(),
         faces: pieces.faces,
         covered: pieces.covered,
         slivers: pieces.slivers,

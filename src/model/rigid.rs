@@ -9,10 +9,8 @@ mod form;
 mod heights;
 
 use super::freedoms::{Freedoms, Slot};
-use super::{ContactSurface, LoadCase, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::{Facet, Mesh, Shape, Surface};
-use crate::model::openings::Opening;
 use crate::scene::{Load, Scene};
 use crate::shape::CORNERS_OF_CUBE;
 use crate::space::{Vector, along, direction, dot, length, unit};
@@ -114,34 +112,6 @@ impl RigidBodies {
             }
         }
         shared
-    }
-
-    /// Lets prescribed displacements of rigid surfaces change the gaps of the pairs that face them:
-    /// by `n . d`, with the normal `n` from the slave towards the surface that moves by `d`.
-    pub fn open(
-        &self,
-        scene: &Scene,
-        loads: &mut [LoadCase],
-        (pairs, contacts): (&[Pair], &[ContactSurface]),
-    ) {
-        for (load, case) in scene.load.iter().zip(loads) {
-            let Some(given) = &load.displacement else {
-                continue;
-            };
-            if self.named(&load.on).is_none() {
-                continue;
-            }
-            let moved: Vector = (given.components())
-                .map(|field| field.and_then(|field| field.uniform()).unwrap_or(0.0));
-            for (index, contact) in contacts.iter().enumerate() {
-                if contact.names[1 - contact.slave] != load.on {
-                    continue;
-                }
-                let pairs = pairs[contact.range.clone()].iter();
-                let gaps = pairs.map(|pair| (pair.slave, dot(pair.normal, moved) / pair.unit_gap));
-                case.opens.push((index, Opening::At(gaps.collect())));
-            }
-        }
     }
 }
 

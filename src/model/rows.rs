@@ -37,7 +37,7 @@ impl ContactRows {
     /// Builds the rows of the pairs.
     ///
     /// # Errors
-    /// A slave whose normal displacement is held, or a master that a load moves.
+    /// A slave whose normal displacement is held or prescribed.
     pub(super) fn of(mesh: &Mesh, freedoms: &Freedoms, pairs: &[Pair]) -> Result<Self> {
         let held = |node: usize| {
             Error::input(format!(
@@ -58,7 +58,7 @@ impl ContactRows {
         let mut place: BTreeMap<usize, usize> = BTreeMap::new();
         let mut masters = Vec::new();
         for pair in pairs {
-            let row = on_masters(freedoms, pair).ok_or_else(|| moved(mesh, pair))?;
+            let row = on_masters(freedoms, pair);
             for &(freedom, _) in &row {
                 if !is_slave.contains_key(&freedom) {
                     place.entry(freedom).or_insert_with(|| {
@@ -189,10 +189,9 @@ impl ContactRows {
     }
 }
 
-/// Coefficients of a pair's row on the freedoms of its masters; `None` if a load moves a master.
-fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
+/// Coefficients of a pair's row on the freedoms of its masters.
+fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Vec<(usize, f64)> {
     let mut row: Vec<(usize, f64)> = Vec::new();
-    let mut is_moved = false;
     for &(node, weight) in &pair.masters {
         let axes = freedoms.local(node);
         let along_normal = axes[0] == pair.normal;
@@ -214,20 +213,10 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Option<Vec<(usize, f64)>> {
                         None => row.push((freedom, b)),
                     }
                 }
-                // A prescribed motion of a rigid surface changes the gaps instead.
-                Slot::Prescribed(_) => is_moved |= !freedoms.is_rigid(node),
-                Slot::Fixed | Slot::Sum(_) => {}
+                // A prescribed motion changes the gap instead ([`super::openings`]).
+                Slot::Prescribed(_) | Slot::Fixed | Slot::Sum(_) => {}
             });
         }
     }
-    (!is_moved).then_some(row)
-}
-
-fn moved(mesh: &Mesh, pair: &Pair) -> Error {
-    Error::input(format!(
-        "node {} is in contact with nodes whose displacement towards it is prescribed, which \
-         leaves the contact force on them out: prescribe the displacement of nodes behind the \
-         surface, or press with a force",
-        mesh.node_label(pair.slave)
-    ))
+    row
 }

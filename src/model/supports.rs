@@ -37,6 +37,18 @@ impl Held {
     }
 }
 
+/// Directions in which loads prescribe the displacement of each node.
+pub(super) struct Moved(BTreeMap<usize, Vec<Vector>>);
+
+impl Moved {
+    /// Whether the displacement of a node along a direction is prescribed, and not only nearly at
+    /// right angles to it.
+    pub(super) fn towards(&self, node: usize, direction: Vector) -> bool {
+        let mut moved = self.0.get(&node).into_iter().flatten();
+        moved.any(|moved| dot(direction, *moved).abs() >= NEARLY_TANGENT)
+    }
+}
+
 /// Held directions of each node, in the order of the scene.
 pub(super) struct Supports {
     pub(super) of_node: BTreeMap<usize, Vec<Held>>,
@@ -69,6 +81,24 @@ impl Supports {
             }
         }
         Ok(Supports { of_node })
+    }
+
+    /// Finds the prescribed displacements of all loads.
+    pub(super) fn moved(scene: &Scene, mesh: &Mesh) -> Result<Moved> {
+        let mut of_node: BTreeMap<usize, Vec<Vector>> = BTreeMap::new();
+        for (index, load) in scene.load.iter().enumerate() {
+            let Some(displacement) = &load.displacement else {
+                continue;
+            };
+            let given = displacement.components().into_iter().enumerate();
+            let axes: Vec<Vector> = given
+                .filter_map(|(axis, field)| field.map(|_| unit(axis)))
+                .collect();
+            for node in Entry::of_list(scene, "load", index).nodes(mesh, &load.on)? {
+                of_node.entry(node).or_default().extend(&axes);
+            }
+        }
+        Ok(Moved(of_node))
     }
 }
 

@@ -29,6 +29,11 @@ pub struct Contact {
     /// are already slaves of an earlier contact or, with `held`, if fewer of its nodes are held.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
+    /// Set of the only nodes that may touch: nodes of one of the surfaces, which becomes the slave.
+    /// Its other nodes pass through the other surface, and the contact may reach the end of the
+    /// set. By default all nodes may touch.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub nodes: Option<String>,
     /// Stiffness of soft contact, pressure over overlap: `g + p / stiffness >= 0` in place of
     /// `g >= 0`. By default contact is hard.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -59,7 +59,8 @@ pub(crate) use read::closest;
 pub(crate) use reference::PlaceQuantity;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
 pub use requests::{
-    ContactForce, FileRequest, Moment, NamedSet, Print, Requests, ResultItem, Totals,
+    ContactForce, FileRequest, LooseAxis, LooseNode, Moment, NamedSet, Print, Requests, ResultItem,
+    Totals,
 };
 pub use rigid::{
     RigidCone, RigidCylinder, RigidHeights, RigidPlane, RigidPunch, RigidSphere, RigidSurface,
@@ -195,7 +196,9 @@ impl Scene {
         let ties = self.tie.iter().flat_map(|tie| [&tie.first, &tie.second]);
         let terms = self.equation.iter().flat_map(|equation| &equation.terms);
         let targets = self.program.targets.iter();
+        let of_contacts = self.contact.iter().filter_map(|c| c.nodes.as_ref());
         contacts
+            .chain(of_contacts)
             .chain(ties)
             .chain(terms.map(|term| &term.on))
             .chain(self.support.iter().map(|support| &support.on))

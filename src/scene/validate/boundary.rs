@@ -122,6 +122,9 @@ impl Checks {
                 contact.second
             ),
         );
+        if let Some(nodes) = &contact.nodes {
+            self.set_name(&format!("{key}.nodes"), nodes);
+        }
         if let Some(normal) = contact.normal {
             self.vector(&format!("{key}.normal"), normal, space);
             self.is_direction(&format!("{key}.normal"), normal);
