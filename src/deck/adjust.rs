@@ -21,13 +21,12 @@ impl Deck {
     pub(super) fn any_interference(&self) -> bool {
         let properties = &self.properties;
         let is_behind = |pair: &ContactPair| {
-            let at = (pair.place, "CONTACT PAIR");
-            let [slave, master] = [&pair.slave, &pair.master].map(|name| self.surface(name, at));
-            let (Ok(slave), Ok(master)) = (slave, master) else {
+            let master = self.surface(&pair.master, (pair.place, "CONTACT PAIR"));
+            let (Ok(slaves), Ok(master)) = (self.slave_nodes(pair), master) else {
                 return false;
             };
             let surface = SurfacePieces::new(self, &master);
-            self.nodes_of(&slave).iter().any(|&node| {
+            slaves.iter().any(|&node| {
                 let x = self.point(node as usize);
                 let (target, outward) = surface.nearest(x);
                 // Nodes that touch are behind the surface by the round-off of their coordinates.
@@ -47,11 +46,10 @@ impl Deck {
             let pair = self.properties.contacts[number].clone();
             let Some(adjust) = &pair.adjust else { continue };
             let at = (pair.place, "CONTACT PAIR");
-            let [slave, master] = [&pair.slave, &pair.master].map(|name| self.surface(name, at));
-            let (Ok(slave), Ok(master)) = (slave, master) else {
+            let master = self.surface(&pair.master, at);
+            let (Ok(nodes), Ok(master)) = (self.slave_nodes(&pair), master) else {
                 continue;
             };
-            let nodes = self.nodes_of(&slave);
             let chosen = match adjust {
                 Adjust::Within(_) => Ok(nodes.clone()),
                 Adjust::Nodes(set) => self.indices(What::Nodes, set, at),
@@ -104,13 +102,13 @@ impl Adjust {
 
 /// A surface as triangles; in the plane as lines, given as triangles whose last two corners
 /// coincide.
-struct SurfacePieces {
+pub(super) struct SurfacePieces {
     corners: Vec<[Vector; 3]>,
     around: Balls,
 }
 
 impl SurfacePieces {
-    fn new(deck: &Deck, faces: &[Face]) -> Self {
+    pub(super) fn new(deck: &Deck, faces: &[Face]) -> Self {
         let mut corners = Vec::new();
         for &(element, local) in faces {
             let shape = deck.shape(element as usize);
@@ -136,7 +134,7 @@ impl SurfacePieces {
     }
 
     /// The point of the surface nearest to `x`, and a vector out of the body there.
-    fn nearest(&self, x: Vector) -> (Vector, Vector) {
+    pub(super) fn nearest(&self, x: Vector) -> (Vector, Vector) {
         let found = std::cell::Cell::new((f64::INFINITY, x, 0));
         self.around.nearest(x, |piece| {
             let point = nearest_on(&self.corners[piece], x);

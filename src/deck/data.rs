@@ -222,6 +222,14 @@ pub(super) struct Clearance {
     pub(super) place: Place,
 }
 
+/// A contact pair whose overlap is to be resolved gradually.
+#[derive(Debug, Clone)]
+pub(super) struct Resolved {
+    pub(super) slave: String,
+    pub(super) master: String,
+    pub(super) place: Place,
+}
+
 /// A function of time, piecewise linear, and constant outside its rows.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Amplitude {
@@ -287,6 +295,7 @@ pub(super) struct Properties {
     pub(super) contacts: Vec<ContactPair>,
     pub(super) ties: Vec<TiedPair>,
     pub(super) clearances: Vec<Clearance>,
+    pub(super) resolved: Vec<Resolved>,
     pub(super) equations: Vec<Equation>,
     pub(super) transforms: Vec<Transform>,
     pub(super) rigid: Vec<Rigid>,

@@ -34,6 +34,21 @@ impl Deck {
     /// The faces all of whose corners are among the given nodes and that belong to a single
     /// element.
     pub(super) fn free_faces_among(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
+        self.free_faces(nodes, |given, all| given == all)
+    }
+
+    /// The faces any of whose corners is among the given nodes and that belong to a single element.
+    pub(super) fn free_faces_at(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
+        self.free_faces(nodes, |given, _| given > 0)
+    }
+
+    /// The faces that belong to a single element, chosen by how many of their corners are among the
+    /// given nodes, and how many they have.
+    fn free_faces(
+        &self,
+        nodes: impl IntoIterator<Item = u32>,
+        is_chosen: impl Fn(usize, usize) -> bool,
+    ) -> Vec<Face> {
         let mut marked = vec![false; self.n_nodes()];
         nodes
             .into_iter()
@@ -44,8 +59,9 @@ impl Deck {
             let shape = self.elements.types[element].shape;
             for local in 0..shape.n_facets() {
                 let corners = corners(nodes, shape, local);
-                let is_among = |node: &u32| *node == u32::MAX || marked[*node as usize];
-                if corners.iter().all(is_among) {
+                let own = corners.iter().filter(|node| **node != u32::MAX);
+                let given = own.clone().filter(|node| marked[**node as usize]);
+                if is_chosen(given.count(), own.count()) {
                     let new = ((element as u32, local as u8), 0);
                     found.entry(corners).or_insert(new).1 += 1;
                 }

@@ -75,6 +75,7 @@ const KEYWORDS: &[(&str, Use)] = &[
     ("TIE", Use::Read),
     ("TRANSFORM", Use::Read),
     ("CONTACT FILE", Use::Read),
+    ("CONTACT INTERFERENCE", Use::Read),
     ("CONTACT OUTPUT", Use::Read),
     ("CONTACT PRINT", Use::Read),
     ("EL FILE", Use::Read),

@@ -38,6 +38,7 @@ mod instances;
 mod keyword;
 mod linear;
 mod load;
+mod node_slaves;
 mod reader;
 mod rigid;
 mod series;

@@ -157,6 +157,7 @@ impl<'t> Reader<'t> {
             "FRICTION" => self.friction(keyword),
             "CONTACT PAIR" => self.contact_pair(keyword),
             "CLEARANCE" => self.clearance(keyword),
+            "CONTACT INTERFERENCE" => self.contact_interference(keyword),
             "TIE" => self.tie(keyword),
             "RIGID BODY" => self.rigid_body(keyword),
             "COUPLING" => self.coupling(keyword),

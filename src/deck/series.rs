@@ -63,6 +63,11 @@ impl Series {
         interpolate(&self.0, time)
     }
 
+    /// The rows of time and value.
+    pub(super) fn rows(&self) -> &[[f64; 2]] {
+        &self.0
+    }
+
     /// The rows divided by the largest value.
     pub(super) fn shape(&self) -> Vec<[f64; 2]> {
         let largest = self.largest();

@@ -19,10 +19,32 @@ pub struct Requests {
     /// Local axes of nodes, by node number: tables list displacements and forces of these nodes
     /// along them.
     pub axes: Arc<BTreeMap<u64, [Vector; 3]>>,
+    /// Nodes of a deck that belong to no element, by node number.
+    pub loose: Arc<BTreeMap<u64, LooseNode>>,
     /// The place at which a deck asks for large displacements, which are computed as small ones.
     pub large: Option<String>,
     /// The moment of the deck's program that each target stands for, in the order of the targets.
     pub moments: Vec<Moment>,
+}
+
+/// A node of a deck that belongs to no element but occurs in equations, a reference node for
+/// instance. Its displacement and its force are sums of those of other nodes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LooseNode {
+    /// The sums along the axes of the node ([`Requests::axes`]).
+    pub axes: [LooseAxis; 3],
+}
+
+/// Displacement and force of a node without elements along one axis.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LooseAxis {
+    /// Terms of the displacement: number of a node of the mesh, number of its axis, coefficient.
+    pub displacement: Vec<(u64, u8, f64)>,
+    /// The part of the displacement that is prescribed: rows of time and value, between which it
+    /// is linear.
+    pub prescribed: Vec<[f64; 2]>,
+    /// Terms of the force, which is the sum of the forces on the nodes that follow this one.
+    pub force: Vec<(u64, u8, f64)>,
 }
 
 /// A moment of a deck's program, with the results that are requested there.
@@ -50,6 +72,8 @@ pub struct FileRequest {
     pub item: ResultItem,
     /// Nodes at which the result is written; all nodes if `None`.
     pub nodes: Option<NamedSet>,
+    /// Whether vectors are given along x, y, z even for nodes with local axes.
+    pub is_global: bool,
 }
 
 /// A table of a result on a set of nodes or elements.
@@ -164,7 +188,11 @@ impl Requests {
     /// Requests the usual results in each of `n_targets` states, unless moments are there already;
     /// without a deck each state is a step of its own.
     pub fn ask_for_usual(&mut self, n_targets: usize) {
-        let request = |item| FileRequest { item, nodes: None };
+        let request = |item| FileRequest {
+            item,
+            nodes: None,
+            is_global: true,
+        };
         let usual = || ResultItem::USUAL.map(request).to_vec();
         if self.moments.is_empty() {
             let moment = |number| Moment {

@@ -80,6 +80,17 @@ fn moved((model, results): &(Model, Results), label: u64) -> Vec<f64> {
     results.states.iter().map(of).collect()
 }
 
+/// Sum of the forces along y on nodes, by their numbers in the deck, in the last state.
+fn forces((model, results): &(Model, Results), labels: &[u64]) -> f64 {
+    let mesh = &model.continuum.mesh;
+    let fields = results.states.last().unwrap().fields.as_ref().unwrap();
+    let of = |label: &u64| {
+        let node = mesh.node_labels.iter().position(|l| l == label).unwrap();
+        fields.force[2 * node + 1]
+    };
+    labels.iter().map(of).sum()
+}
+
 fn refused(text: &str, words: &[&str]) {
     let error: Error = computed(text).expect_err("it is refused");
     for word in words {
@@ -124,17 +135,129 @@ fn contacts_that_share_nodes_are_one() {
     }
 }
 
-/// A displacement given to a node of a contact would leave its force out.
+/// Nodes of a contact that are moved press on what they meet, whichever surface is the slave.
 #[test]
-fn moved_nodes_of_a_contact_are_refused() {
-    for nodes in ["UPN", "12"] {
-        let step = format!("*BOUNDARY\n{nodes},2,2,-0.001");
-        let text = bars(0.0, &pair("S", "M"), &step);
-        refused(&text, &["contact", "displacement"]);
+fn moved_nodes_of_a_contact_press() {
+    for pairs in [pair("S", "M"), pair("M", "S")] {
+        // The whole upper bar moves as a rigid one.
+        let run = computed(&bars(0.0, &pairs, "*BOUNDARY\nUPN,2,2,-0.001")).unwrap();
+        near(moved(&run, 5)[0], -0.001);
+        near(run.1.states[0].contact_force, 2.0 * E * 0.001);
+        near(forces(&run, &[11, 12, 13, 14, 15, 16]), -2.0 * E * 0.001);
+        near(forces(&run, &[1, 2, 3]), 2.0 * E * 0.001);
+        // The contact nodes of the lower bar lift the upper one, and what presses on it goes into
+        // what moves them.
+        let step = "*BOUNDARY\nMID,2,2,0.001\n*DSLOAD\nTOP,P,1.";
+        let before = format!("*NSET, NSET=MID\n4,5,6\n{pairs}");
+        let run = computed(&bars(0.0, &before, step)).unwrap();
+        near(moved(&run, 12)[0], 0.001);
+        near(moved(&run, 15)[0], 0.001 - 1.0 / E);
+        near(forces(&run, &[4, 5, 6]), 2.0 + 2.0 * E * 0.001);
+        near(forces(&run, &[11, 12, 13]), 0.0);
+        // Nodes behind the surface.
+        let run = computed(&bars(0.0, &pairs, "*BOUNDARY\nLID,2,2,-0.002")).unwrap();
+        near(moved(&run, 12)[0], -0.001);
     }
-    let step = "*BOUNDARY\nLID,2,2,-0.002";
-    let run = computed(&bars(0.0, &pair("S", "M"), step)).unwrap();
-    near(moved(&run, 12)[0], -0.001);
+    // Both surfaces moved: nothing is left to find.
+    let step = "*BOUNDARY\nUPN,2,2,-0.001\nMID,2,2,0.001";
+    let before = format!("*NSET, NSET=MID\n4,5,6\n{}", pair("S", "M"));
+    refused(&bars(0.0, &before, step), &["contact", "displacement"]);
+}
+
+/// Slave nodes that make up no face alone touch: a pressure of 1 goes through one node or two.
+#[test]
+fn single_nodes_press() {
+    for (nodes, n) in [("12", 1), ("11\n13", 2), ("11\n12\n13", 3), ("12\n15", 1)] {
+        let before = format!("*SURFACE, NAME=N, TYPE=NODE\n{nodes}\n{}", pair("N", "M"));
+        let run = computed(&bars(0.0, &before, "*DSLOAD\nTOP,P,1.")).unwrap();
+        assert_eq!(run.0.pairs.len(), n, "{nodes:?}");
+        near(run.1.states[0].contact_force, 2.0);
+        near(forces(&run, &[1, 2, 3]), 2.0);
+    }
+    // A node of the lid faces nothing.
+    let before = format!("*SURFACE, NAME=N, TYPE=NODE\n15\n{}", pair("N", "M"));
+    let text = bars(0.0, &before, "*DSLOAD\nTOP,P,1.");
+    refused(
+        &text,
+        &[
+            "*CONTACT PAIR",
+            "no face at the nodes of N faces the surface M",
+        ],
+    );
+    // What presses on faces needs faces.
+    let before = format!("*SURFACE, NAME=N, TYPE=NODE\n15\n{}", pair("S", "M"));
+    let text = bars(0.0, &before, "*DSLOAD\nN,P,1.");
+    refused(&text, &["*DSLOAD", "N has no faces"]);
+}
+
+/// An overlap is resolved over the first step whether or not the deck asks for it.
+#[test]
+fn an_overlap_is_resolved_as_abaqus_does() {
+    let step = |keyword: &str| format!("{keyword}\n*BOUNDARY\nLID,2,2");
+    for keyword in [
+        "*CONTACT INTERFERENCE, SHRINK\nS, M",
+        "*CONTACT INTERFERENCE, TYPE=CONTACT PAIR\ns, m, 0.001",
+    ] {
+        let run = computed(&bars(0.001, &pair("S", "M"), &step(keyword))).unwrap();
+        near(moved(&run, 5)[0], -0.0005);
+    }
+    for (keyword, word) in [
+        (
+            "*CONTACT INTERFERENCE, SHRINK\nS, X",
+            "no *CONTACT PAIR has S",
+        ),
+        ("*CONTACT INTERFERENCE\nS, M, -0.1", "*CLEARANCE"),
+        ("*CONTACT INTERFERENCE\nS, M, 0.1, 1., 0., 0.", "*CLEARANCE"),
+        (
+            "*CONTACT INTERFERENCE, AMPLITUDE=A\nS, M, 0.1",
+            "give SHRINK",
+        ),
+        (
+            "*CONTACT INTERFERENCE, TYPE=ELEMENT\nS, 0.1",
+            "TYPE=ELEMENT",
+        ),
+    ] {
+        let text = bars(0.001, &pair("S", "M"), &step(keyword));
+        refused(&text, &["*CONTACT INTERFERENCE", word]);
+    }
+}
+
+/// Displacement, and force in total, of nodes that belong to no element, as tables list them.
+#[test]
+fn reference_nodes_have_displacements_and_forces() {
+    let body = "*NODE, NSET=REF\n100,3.,2.\n101,3.,2.\n*NODE, NSET=NONE\n102,9.,9.
+*RIGID BODY, NSET=LID, REF NODE=100, ROT NODE=101\n";
+    let prints = "*NODE PRINT, NSET=REF\nU,RF\n*NODE PRINT, NSET=NONE\nU
+*NODE PRINT, NSET=LID, TOTALS=ONLY\nRF";
+    let before = pair("S", "M") + body;
+    let step = format!("*BOUNDARY\n100,1,2\n101,3,3\n100,2,2,-0.002\n{prints}");
+    let (model, results) = computed(&bars(0.0, &before, &step)).unwrap();
+    let work = tempfile::tempdir().unwrap();
+    let path = work.path().join("bars.dat");
+    brinell::output::write_prints(&path, &model, &results).unwrap();
+    let text = std::fs::read_to_string(path).unwrap();
+    let rows = |head: &str| -> Vec<Vec<f64>> {
+        let from = text
+            .split(head)
+            .nth(1)
+            .unwrap_or_else(|| panic!("{head}: {text}"));
+        let rows = from.lines().skip(2).take_while(|line| !line.is_empty());
+        rows.map(|row| row.split_whitespace().map(|x| x.parse().unwrap()).collect())
+            .collect()
+    };
+    assert_eq!(
+        rows("displacements (vx,vy,vz) for set REF"),
+        [[100.0, 0.0, -0.002, 0.0], [101.0, 0.0, 0.0, 0.0]]
+    );
+    assert_eq!(
+        rows("displacements (vx,vy,vz) for set NONE"),
+        [[102.0, 0.0, 0.0, 0.0]]
+    );
+    // The lid is pushed down with 2, at 2 to the left of the reference node.
+    let forces = rows("forces (fx,fy,fz) for set REF");
+    near(forces[0][2], -2.0);
+    near(forces[1][3], 4.0);
+    near(rows("total force (fx,fy,fz) for set LID")[0][1], -2.0);
 }
 
 /// The last line before the steps holds; `OP=NEW` in the first step releases what it does not

@@ -1,10 +1,11 @@
-//! External force on each node: from loads, supports and prescribed displacements.
+//! External force on each node: from loads, supports, prescribed displacements and equations.
 //!
 //! ```text
 //!     f_node = sum_elements int B' sigma - contact forces
 //! ```
 //!
-//! Forces that pass through a tie count on the nodes that the tied node follows. Sums are taken on
+//! Forces that pass through a tie count on the nodes that the tied node follows; an equation acts
+//! with its own force on each of its nodes, as a support does. Sums are taken on
 //! the control points of quadratic faces in contact ([`crate::model::ContactBasis`]); the results
 //! are consistent forces on the nodes.
 
@@ -24,6 +25,9 @@ pub(super) fn on_nodes(model: &Model, mut forces: Vec<Vector>, of_pairs: &[f64])
     for node in 0..forces.len() {
         for (slot, axis) in freedoms.of_node(node).iter().zip(freedoms.local(node)) {
             let Slot::Sum(k) = *slot else { continue };
+            if !freedoms.is_of_tie(k) {
+                continue;
+            }
             let force = dot(forces[node], axis);
             forces[node] = along(forces[node], -force, axis);
             for &(other, local, c) in freedoms.followed_axes(k) {

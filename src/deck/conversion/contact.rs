@@ -1,7 +1,9 @@
 //! Contact pairs and ties of a deck as those of the scene.
 
 use super::super::data::{Account, Adjust, ContactPair};
+use super::super::node_slaves::NodeSlaves;
 use super::super::sets::What;
+use super::super::source::Place;
 use super::Draft;
 use crate::error::Result;
 use crate::number::exact;
@@ -18,11 +20,17 @@ impl Draft<'_> {
                 let message = format!("there is no *SURFACE INTERACTION {}", pair.interaction);
                 return Err(self.deck.error(at.0, at.1, message));
             };
-            for name in [&pair.slave, &pair.master] {
-                self.deck.surface(name, at)?;
-            }
+            self.deck.surface(&pair.master, at)?;
+            let (first, nodes) = match self.deck.node_slaves(pair)? {
+                Some(slaves) => self.around(pair, slaves, account),
+                None => {
+                    self.deck.surface(&pair.slave, at)?;
+                    (self.geometry.surface_name(&pair.slave), None)
+                }
+            };
             let mut contact = Contact {
-                first: self.geometry.surface_name(&pair.slave),
+                first,
+                nodes,
                 second: self.geometry.surface_name(&pair.master),
                 stiffness: interaction.stiffness,
                 ..Contact::default()
@@ -38,31 +46,59 @@ impl Draft<'_> {
             self.places.insert(key, self.deck.files.show(pair.place));
             self.contacts.push(contact);
         }
-        self.require_pairs_of_clearances()
+        let clearances = properties.clearances.iter();
+        let clearances = clearances.map(|c| (c.place, "CLEARANCE", [&c.slave, &c.master]));
+        let resolved = properties.resolved.iter();
+        let resolved = resolved.map(|r| (r.place, "CONTACT INTERFERENCE", [&r.slave, &r.master]));
+        clearances
+            .chain(resolved)
+            .try_for_each(|of| self.require_pair(of))
     }
 
-    /// Requires a contact pair for each clearance.
+    /// Adds the faces around slave nodes as a surface, and the nodes as a set; returns both names.
+    fn around(
+        &mut self,
+        pair: &ContactPair,
+        slaves: NodeSlaves,
+        account: &mut Account,
+    ) -> (String, Option<String>) {
+        let n = slaves.nodes.len();
+        let text = format!(
+            "the {n} node{} of {} make{} up no whole faces: in the faces around them no other node \
+             may touch",
+            if n == 1 { "" } else { "s" },
+            pair.slave,
+            if n == 1 { "s" } else { "" },
+        );
+        let list = &mut account.taken;
+        Account::add(list, &self.deck.files, pair.place, "CONTACT PAIR", &text);
+        let faces = format!("{}_faces", pair.slave);
+        let nodes = format!("{}_nodes", pair.slave);
+        (
+            self.geometry.add_surface(&faces, slaves.faces),
+            Some(self.geometry.add_nodes(&nodes, slaves.nodes)),
+        )
+    }
+
+    /// Requires that a contact pair has the surfaces that a line names.
     ///
     /// # Errors
-    /// `Input`, at the clearance.
-    fn require_pairs_of_clearances(&self) -> Result<()> {
-        let properties = &self.deck.properties;
-        let alike = |a: &str, b: &str| a.eq_ignore_ascii_case(b);
-        for clearance in &properties.clearances {
-            let mut pairs = properties.contacts.iter();
-            let is_there = |pair: &ContactPair| {
-                alike(&pair.slave, &clearance.slave) && alike(&pair.master, &clearance.master)
-            };
-            if !pairs.any(is_there) {
-                let message = format!(
-                    "no *CONTACT PAIR has {} as its slave surface and {} as its master surface: \
-                     name both as in a *CONTACT PAIR",
-                    clearance.slave, clearance.master
-                );
-                return Err(self.deck.error(clearance.place, "CLEARANCE", message));
-            }
+    /// `Input`, at the line.
+    fn require_pair(&self, (place, keyword, names): (Place, &str, [&String; 2])) -> Result<()> {
+        let mut pairs = self.deck.properties.contacts.iter();
+        let is_it = |pair: &ContactPair| {
+            let own = [&pair.slave, &pair.master].into_iter().zip(names);
+            own.into_iter().all(|(a, b)| a.eq_ignore_ascii_case(b))
+        };
+        if pairs.any(is_it) {
+            return Ok(());
         }
-        Ok(())
+        let message = format!(
+            "no *CONTACT PAIR has {} as its slave surface and {} as its master surface: name both \
+             as in a *CONTACT PAIR",
+            names[0], names[1]
+        );
+        Err(self.deck.error(place, keyword, message))
     }
 
     /// Adds the ties, with the deck's slave surface first and fixed as the slave.

@@ -4,7 +4,7 @@ use super::super::Deck;
 use super::super::series::Series;
 use super::super::source::Place;
 use super::Geometry;
-use crate::scene::{Contact, Direction, Equation, Load, Support, Tie};
+use crate::scene::{Contact, Direction, Equation, Load, LooseNode, Support, Tie};
 use crate::space::{Components, Vector};
 use std::collections::BTreeMap;
 
@@ -22,6 +22,8 @@ pub(super) struct Draft<'d> {
     pub(super) equations: Vec<Equation>,
     /// Names of the sets of a single node that equations use.
     pub(super) sets_of_nodes: BTreeMap<u32, String>,
+    /// Nodes without elements, by node number.
+    pub(super) loose: BTreeMap<u64, LooseNode>,
     /// Lines of the deck, by key of the scene.
     pub(super) places: BTreeMap<String, String>,
 }
@@ -38,6 +40,7 @@ impl<'d> Draft<'d> {
             ties: Vec::new(),
             equations: Vec::new(),
             sets_of_nodes: BTreeMap::new(),
+            loose: BTreeMap::new(),
             places: BTreeMap::new(),
         }
     }

@@ -144,6 +144,9 @@ impl Deck {
             let Some((_, place)) = parts.first() else {
                 continue;
             };
+            if self.is_of_nodes_alone(name) {
+                continue;
+            }
             let faces = self.surface(name, (*place, "SURFACE"))?;
             if self.looks_both_ways(&faces) && !self.presses_on(name) {
                 out.left_out.push((name.to_string(), *place));

@@ -6,6 +6,7 @@ mod contact_changes;
 mod draft;
 mod equations;
 mod geometry;
+mod loose;
 mod outputs;
 mod system;
 mod volume_loads;
@@ -27,6 +28,7 @@ use crate::space::Space;
 use draft::Draft;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Options for the conversion of a deck.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -96,6 +98,7 @@ impl Deck {
         draft.temperatures(&bodies, temperatures, &mut account)?;
         scene.requests = self.requests((space, draft.thickness), options, &mut account)?;
         scene.requests.large = large;
+        scene.requests.loose = Arc::new(std::mem::take(&mut draft.loose));
         self.add_loads(&mut draft, &mut scene);
         self.choose_stepping(&draft, &mut scene);
         scene.support = std::mem::take(&mut draft.supports);

@@ -162,7 +162,11 @@ fn add(request: &OutputRequest, on: On, moment: &mut Moment) {
             (_, false) => {
                 moment.file.retain(|known| known.item != item);
                 let nodes = on.clone().set();
-                moment.file.push(FileRequest { item, nodes });
+                moment.file.push(FileRequest {
+                    item,
+                    nodes,
+                    is_global: request.is_global,
+                });
             }
             // Gap and pressure form one table, whichever of them is named.
             (On::Set(_), true)

@@ -43,6 +43,7 @@ impl Draft<'_> {
                 rows.push(row);
             }
         }
+        self.forces_of_loose(&planes, &rows);
         let (simple, joined) = apart(planes, &rows, |plane| {
             let is_own = |node: &u32| axes.contains_key(node);
             let (leader, axis) = plane.leader;
@@ -64,6 +65,7 @@ impl Draft<'_> {
             .flat_map(|row| row.terms.keys().copied())
             .collect();
         let reduced = self.reduced(rows, boundary);
+        self.displacements_of_loose(&simple, &reduced, &of_rows, boundary);
         self.move_forces(&reduced, &of_rows, boundary, forces)?;
         self.check_known(&reduced.known, boundary)?;
         let known = boundary.clone();
@@ -276,7 +278,7 @@ impl Draft<'_> {
 const GLOBAL: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// The sum of known displacements multiplied by coefficients.
-fn series_of(terms: &Terms, known: &Map) -> Series {
+pub(super) fn series_of(terms: &Terms, known: &Map) -> Series {
     let mut sum = Series::starting(0.0);
     for (key, c) in terms {
         if let Some(entry) = known.get(key) {

@@ -2,7 +2,7 @@
 
 use super::{Reader, fields};
 use crate::deck::bodies::unsupported;
-use crate::deck::data::{Adjust, Clearance, ContactPair, Interaction, Target, TiedPair};
+use crate::deck::data::{Adjust, Clearance, ContactPair, Interaction, Resolved, Target, TiedPair};
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
 use crate::number::exact;
@@ -261,6 +261,58 @@ impl Reader<'_> {
             }
         };
         self.take(keyword, keyword.place, how);
+        Ok(())
+    }
+
+    /// Reads pairs whose overlap Abaqus resolves over a step. Here every overlap is resolved evenly
+    /// over the first step, which `SHRINK` asks for too. A given allowable interference that
+    /// decreases to zero leads to the same state at the end of the step.
+    pub(super) fn contact_interference(&mut self, keyword: &Keyword) -> Result<()> {
+        let files = &self.source.files;
+        keyword.allow(files, &["AMPLITUDE", "OP", "SHRINK", "TYPE"])?;
+        keyword.choice(files, "OP", &["MOD", "NEW"])?;
+        let is_shrink = keyword.has("SHRINK");
+        let refused = match self.current_step() {
+            None => {
+                return Err(keyword.error(files, "it stands in no *STEP; put it in the first"));
+            }
+            Some(0)
+                if keyword.choice(files, "TYPE", &["CONTACT PAIR", "ELEMENT"])? == "ELEMENT" =>
+            {
+                Some("TYPE=ELEMENT: contact is that of surfaces; give it to a *CONTACT PAIR")
+            }
+            Some(0) if keyword.has("AMPLITUDE") && !is_shrink => Some(
+                "AMPLITUDE: an overlap is resolved evenly over the first step: give SHRINK instead",
+            ),
+            Some(0) => None,
+            Some(_) => Some("overlaps are resolved over the first step: put it there"),
+        };
+        if let Some(why) = refused {
+            self.refuse(keyword, keyword.place, why);
+            return self.skip();
+        }
+        while let Some(line) = self.source.next_data()? {
+            let mut row = fields(&self.source, keyword, line);
+            let slave = row.text("the slave surface")?;
+            let master = row.text("the master surface")?;
+            let allowed = row.number_or("the allowable interference", 0.0)?;
+            if !is_shrink && (allowed < 0.0 || !row.is_at_end()) {
+                let why = "an interference that is not in the mesh is given by *CLEARANCE with a \
+                           negative value, and acts along the normal: give SHRINK, or *CLEARANCE";
+                self.refuse(keyword, line.place, why);
+                continue;
+            }
+            self.deck.properties.resolved.push(Resolved {
+                slave,
+                master,
+                place: line.place,
+            });
+        }
+        if !is_shrink {
+            let how = "the overlap of the mesh is resolved evenly over the first step, whatever \
+                       the allowable interference: its end is the same";
+            self.take(keyword, keyword.place, how);
+        }
         Ok(())
     }
 

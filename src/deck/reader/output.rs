@@ -103,7 +103,12 @@ impl Reader<'_> {
             contact: (keyword.get("SLAVE").zip(keyword.get("MASTER")))
                 .map(|(slave, master)| [slave, master].map(str::to_string)),
             totals,
-            is_global: (keyword.get("GLOBAL")).is_some_and(|value| plain(value) == "YES"),
+            // Files are in global axes unless they say otherwise, tables in those of the nodes.
+            is_global: match keyword.get("GLOBAL").map(plain).as_deref() {
+                Some("YES") => true,
+                Some("NO") => false,
+                _ => !is_print,
+            },
             place: keyword.place,
         };
         let is_3d = |value: &str| value.eq_ignore_ascii_case("3D");

@@ -2,11 +2,13 @@
 //! `*SECTION PRINT` of CalculiX write them into its `.dat` file.
 //!
 //! The time of a state is the time of the deck; for a scene it is the load factor. Forces are those
-//! that act from outside: loads and reactions. In an axisymmetric model they act on the whole
-//! circle, in a plane model on the thickness of the deck. Values of elements are those at the
+//! that act from outside: loads and reactions. In a plane model they act on the thickness of the
+//! deck. In an axisymmetric model they act on the whole circle, but in the tables that a deck asks
+//! for they act on a slice of 2 degrees, as those of CalculiX do. Values of elements are those at the
 //! integration points, in the order of CalculiX ([`points`]); if a run did not keep them, the means
 //! of elements are written as integration point 0. Shear strains are those of the tensor.
 
+mod loose;
 mod points;
 mod section;
 mod statistics;
@@ -31,7 +33,9 @@ pub(super) use tables::fortran;
 /// [`crate::ErrorKind::Io`] naming the file.
 pub fn write_dat(path: &Path, model: &Model, results: &Results) -> Result<()> {
     let prints = of_all_sets(model);
-    atomic::replace_with(path, |out| write(out, model, results, |_| &prints))
+    atomic::replace_with(path, |out| {
+        write(out, &Tables::new(model, false), results, |_| &prints)
+    })
 }
 
 /// Writes the tables that the model's scene asks for ([`crate::scene::Moment::prints`]) into a
@@ -42,21 +46,22 @@ pub fn write_dat(path: &Path, model: &Model, results: &Results) -> Result<()> {
 pub fn write_prints(path: &Path, model: &Model, results: &Results) -> Result<()> {
     let moments = &model.scene.requests.moments;
     let prints = |state: usize| moments.get(state).map_or(&[][..], |moment| &moment.prints);
-    atomic::replace_with(path, |out| write(out, model, results, prints))
+    atomic::replace_with(path, |out| {
+        write(out, &Tables::new(model, true), results, prints)
+    })
 }
 
 fn write<'p>(
     out: &mut impl Write,
-    model: &Model,
+    tables: &Tables,
     results: &Results,
     prints: impl Fn(usize) -> &'p [Print],
 ) -> io::Result<()> {
-    let tables = Tables::new(model);
     for (index, state) in results.states.iter().enumerate() {
         let Some(fields) = &state.fields else {
             continue;
         };
-        let moment = model.scene.requests.moments.get(index);
+        let moment = tables.model.scene.requests.moments.get(index);
         let time = moment.and_then(|moment| moment.time).unwrap_or(state.alpha);
         for print in prints(index) {
             tables.write(out, print, (state, fields), time)?;

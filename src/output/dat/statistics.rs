@@ -80,7 +80,6 @@ impl Tables<'_> {
 
     fn sums(&self, contact: usize, state: &State, fields: &Fields) -> ContactSums {
         let model = self.model;
-        let thickness = model.scene.requests.thickness.unwrap_or(1.0);
         let mut out = ContactSums::default();
         let presses =
             |pair: &&crate::results::PairState| pair.contact == contact && pair.force > 0.0;
@@ -97,8 +96,8 @@ impl Tables<'_> {
             let normal = pair.normal.map(|n| side * n);
             let moved = self.vector(node, &fields.displacement);
             let place = along(model.mesh.point(node), 1.0, moved);
-            let force = normal.map(|n| -thickness * of_pair.force * n);
-            let area = thickness * of_pair.area;
+            let force = normal.map(|n| -self.of_forces * of_pair.force * n);
+            let area = self.of_forces * of_pair.area;
             out.force = along(out.force, 1.0, force);
             out.moment = along(out.moment, 1.0, cross(place, force));
             out.center = along(out.center, area, place);

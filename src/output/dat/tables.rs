@@ -6,24 +6,38 @@ use crate::labels::LabelIndex;
 use crate::model::Model;
 use crate::output::slaves::Slaves;
 use crate::results::{Fields, State};
+use crate::scene::LooseNode;
 use crate::scene::{Print, ResultItem, Totals};
-use crate::space::{Space, dot};
+use crate::space::{Space, Vector, along, dot};
 use std::io::{self, Write};
+
+/// Share of the circle that CalculiX computes of an axisymmetric model: 2 degrees.
+const SLICE: f64 = 1.0 / 180.0;
 
 /// Writes tables of a model.
 pub(super) struct Tables<'a> {
     pub(super) model: &'a Model,
     pub(super) slaves: Slaves<'a>,
-    nodes: LabelIndex,
+    pub(super) nodes: LabelIndex,
     pub(super) elements: LabelIndex,
+    /// Factor from the forces of the model to those of the tables.
+    pub(super) of_forces: f64,
 }
 
 impl<'a> Tables<'a> {
-    pub(super) fn new(model: &'a Model) -> Self {
+    /// Tables with forces on the whole circle of an axisymmetric model, or on the slice of 2
+    /// degrees that CalculiX computes.
+    pub(super) fn new(model: &'a Model, is_slice: bool) -> Self {
         let mesh = &model.mesh;
+        let thickness = model.scene.requests.thickness.unwrap_or(1.0);
+        let of_forces = match model.kind {
+            Space::Axisymmetric if is_slice => SLICE,
+            _ => thickness,
+        };
         let index = |labels: Vec<u64>| LabelIndex::new(&labels).unwrap_or_default();
         Tables {
             model,
+            of_forces,
             slaves: Slaves::new(model),
             nodes: index((0..mesh.n_nodes()).map(|n| mesh.node_label(n)).collect()),
             elements: index(
@@ -42,22 +56,24 @@ impl<'a> Tables<'a> {
         (state, fields): (&State, &Fields),
         time: f64,
     ) -> io::Result<()> {
-        let thickness = self.model.scene.requests.thickness.unwrap_or(1.0);
         let of_set = format!("for set {} and time {:>14}", print.set.name, fortran(time));
         match print.item {
             ResultItem::Displacement => {
                 let head = format!("displacements (vx,vy,vz) {of_set}");
-                self.of_nodes(out, print, &head, (&fields.displacement, 1.0))
+                self.of_nodes(out, print, &head, (&fields.displacement, 1.0), |loose| {
+                    self.displacement_of(loose, fields, time)
+                })
             }
             ResultItem::Force if fields.force.is_empty() => Ok(()),
             ResultItem::Force => {
                 if print.totals != Totals::Only {
                     let head = format!("forces (fx,fy,fz) {of_set}");
-                    self.of_nodes(out, print, &head, (&fields.force, thickness))?;
+                    let of_loose = |loose: &LooseNode| self.force_of(loose, fields);
+                    self.of_nodes(out, print, &head, (&fields.force, self.of_forces), of_loose)?;
                 }
                 if print.totals != Totals::No {
                     let head = format!("total force (fx,fy,fz) {of_set}");
-                    let sum = self.total_force(print, &fields.force, thickness);
+                    let sum = self.total_force(print, fields);
                     writeln!(out, "\n {head}\n\n{:6}{}", "", row(&sum))?;
                 }
                 Ok(())
@@ -75,12 +91,6 @@ impl<'a> Tables<'a> {
             ResultItem::Volume => self.volumes(out, print, &of_set),
             item => self.of_elements(out, (print, item), fields, &of_set),
         }
-    }
-
-    /// Returns the indices of the nodes of a set.
-    fn nodes(&self, print: &Print) -> impl Iterator<Item = (u64, usize)> {
-        let labels = print.set.labels.iter();
-        labels.filter_map(|&label| Some((label, self.nodes.get(label)? as usize)))
     }
 
     /// Returns the indices of the elements of a set.
@@ -101,10 +111,14 @@ impl<'a> Tables<'a> {
         print: &Print,
         head: &str,
         (values, factor): (&[f64], f64),
+        of_loose: impl Fn(&LooseNode) -> Vector,
     ) -> io::Result<()> {
         writeln!(out, "\n {head}\n")?;
-        for (label, node) in self.nodes(print) {
-            let vector = self.vector(node, values).map(|v| factor * v);
+        for &label in print.set.labels.iter() {
+            let vector = match self.nodes.get(label) {
+                Some(node) => self.vector(node as usize, values).map(|v| factor * v),
+                None => self.of_loose(label, &of_loose),
+            };
             // A row in local axes is marked with L, as in CalculiX.
             let own = self.model.scene.requests.axes.get(&label);
             match own.filter(|_| !print.is_global) {
@@ -118,13 +132,18 @@ impl<'a> Tables<'a> {
         Ok(())
     }
 
-    fn total_force(&self, print: &Print, force: &[f64], factor: f64) -> [f64; 3] {
-        let mut sum = [0.0; 3];
-        for (_, node) in self.nodes(print) {
-            let force = self.vector(node, force);
-            (0..3).for_each(|d| sum[d] += factor * force[d]);
-        }
-        sum
+    fn total_force(&self, print: &Print, fields: &Fields) -> Vector {
+        let labels = print.set.labels.iter();
+        labels.fold([0.0; 3], |sum, &label| match self.nodes.get(label) {
+            Some(node) => {
+                let force = self.vector(node as usize, &fields.force);
+                along(sum, self.of_forces, force)
+            }
+            None => {
+                let force = self.of_loose(label, |loose| self.force_of(loose, fields));
+                along(sum, 1.0, force)
+            }
+        })
     }
 
     /// Writes gap and pressure of the pairs that press.
@@ -184,7 +203,7 @@ impl<'a> Tables<'a> {
         let points = volume_points(space, kind, &nodes);
         let volume: f64 = points.map(|point| point.weight).sum();
         match space {
-            Space::Axisymmetric => volume / 180.0,
+            Space::Axisymmetric => SLICE * volume,
             _ => volume * self.model.scene.requests.thickness.unwrap_or(1.0),
         }
     }

@@ -6,7 +6,7 @@ use super::text;
 use crate::model::Model;
 use crate::output::slaves::Slaves;
 use crate::results::{Fields, State};
-use crate::scene::ResultItem;
+use crate::scene::{FileRequest, ResultItem};
 use std::io::{self, Write};
 
 /// Values at the nodes of a state.
@@ -35,7 +35,26 @@ impl<'a> Values<'a> {
     }
 
     /// Returns the values of a block; `None` if the state does not have them.
-    pub(super) fn of(&self, item: ResultItem) -> Option<OfNodes> {
+    pub(super) fn of(&self, request: &FileRequest) -> Option<OfNodes> {
+        let mut of_nodes = self.along_global(request.item)?;
+        if !request.is_global && of_nodes.size == 3 {
+            self.turn(&mut of_nodes.values);
+        }
+        Some(of_nodes)
+    }
+
+    /// Converts vectors of nodes with local axes to these axes.
+    fn turn(&self, values: &mut [f64]) {
+        let (mesh, axes) = (&self.model.mesh, &self.model.scene.requests.axes);
+        for (node, vector) in values.chunks_exact_mut(3).enumerate() {
+            if let Some(axes) = axes.get(&mesh.node_label(node)) {
+                let along = axes.map(|axis| (0..3).map(|d| axis[d] * vector[d]).sum());
+                vector.copy_from_slice(&along);
+            }
+        }
+    }
+
+    fn along_global(&self, item: ResultItem) -> Option<OfNodes> {
         let (model, fields) = (self.model, self.fields);
         let extrapolated = self.extrapolated.as_ref();
         match item {

@@ -82,7 +82,7 @@ pub(super) fn write(out: &mut impl Write, model: &Model, results: &Results) -> i
         n_moments += 1;
         let values = Values::new(model, state, fields);
         for request in &moment.file {
-            if let Some(of_nodes) = values.of(request.item) {
+            if let Some(of_nodes) = values.of(request) {
                 n_blocks += 1;
                 let rows = rows(request, &numbered, &model.mesh.node_labels);
                 let head = [n_blocks, n_moments, rows.len()];

@@ -1,0 +1,121 @@
+//! Slave surfaces that a deck gives by nodes (`TYPE=NODE`) which do not make up whole faces: a
+//! single node, a row, or the corners of faces alone.
+//!
+//! Their contact is that of the faces around them which face the master surface, in which no other
+//! node may touch.
+
+use super::Deck;
+use super::adjust::SurfacePieces;
+use super::data::{ContactPair, SurfacePart};
+use super::facets::Face;
+use super::sets::What;
+use crate::error::Result;
+use crate::space::{Vector, along, cross, difference, direction, dot};
+
+/// Cosine of the angle between the outward normals of two faces below which they face each other: a
+/// face that stands upright on the other does not, by any round-off.
+const FACING: f64 = -1e-3;
+
+/// A slave surface of nodes.
+pub(super) struct NodeSlaves {
+    /// The nodes that may touch, in ascending order.
+    pub(super) nodes: Vec<u32>,
+    /// The faces around them.
+    pub(super) faces: Vec<Face>,
+}
+
+impl Deck {
+    /// The slave nodes of a contact pair, in ascending order.
+    ///
+    /// # Errors
+    /// `Input` for names and numbers that are not defined.
+    pub(super) fn slave_nodes(&self, pair: &ContactPair) -> Result<Vec<u32>> {
+        if let Some(nodes) = self.loose_slaves(&pair.slave)? {
+            return Ok(nodes);
+        }
+        let faces = self.surface(&pair.slave, (pair.place, "CONTACT PAIR"))?;
+        Ok(self.nodes_of(&faces))
+    }
+
+    /// The nodes of a surface, if it is given by nodes on the boundary not all of which make up
+    /// whole faces.
+    fn loose_slaves(&self, name: &str) -> Result<Option<Vec<u32>>> {
+        let mut nodes = Vec::new();
+        for (part, place) in self.sets.surfaces.get(name).into_iter().flatten() {
+            let SurfacePart::OfNodes(on) = part else {
+                return Ok(None);
+            };
+            nodes.extend(self.indices(What::Nodes, on, (*place, "SURFACE"))?);
+        }
+        if nodes.is_empty() {
+            return Ok(None);
+        }
+        nodes.sort_unstable();
+        nodes.dedup();
+        let of_faces = self.nodes_of(&self.free_faces_among(nodes.iter().copied()));
+        let is_in = |of: &[u32], node: &u32| of.binary_search(node).is_ok();
+        if nodes.iter().all(|node| is_in(&of_faces, node)) {
+            return Ok(None);
+        }
+        // Nodes inside the body, which a set of all its nodes has too, touch nothing.
+        let boundary = self.nodes_of(&self.free_faces_at(nodes.iter().copied()));
+        nodes.retain(|node| is_in(&boundary, node));
+        let are_all = nodes.iter().all(|node| is_in(&of_faces, node));
+        Ok((!are_all).then_some(nodes))
+    }
+
+    /// Whether a surface is given by nodes that make up no face at all. Contacts alone may have it
+    /// then.
+    pub(super) fn is_of_nodes_alone(&self, name: &str) -> bool {
+        let slaves = self.loose_slaves(name).ok().flatten();
+        slaves.is_some_and(|nodes| self.free_faces_among(nodes).is_empty())
+    }
+
+    /// The slave nodes of a contact pair that do not make up whole faces, with the faces around
+    /// them; `None` for any other slave surface.
+    ///
+    /// # Errors
+    /// `Input` for names and numbers that are not defined, and if no face around the nodes faces
+    /// the master surface.
+    pub(super) fn node_slaves(&self, pair: &ContactPair) -> Result<Option<NodeSlaves>> {
+        let Some(mut nodes) = self.loose_slaves(&pair.slave)? else {
+            return Ok(None);
+        };
+        let at = (pair.place, "CONTACT PAIR");
+        let master = SurfacePieces::new(self, &self.surface(&pair.master, at)?);
+        let mut faces = self.free_faces_at(nodes.iter().copied());
+        faces.retain(|&face| {
+            let (center, outward) = self.center_and_normal(face);
+            dot(outward, direction(master.nearest(center).1)) < FACING
+        });
+        if faces.is_empty() {
+            let message = format!(
+                "no face at the nodes of {} faces the surface {}: name nodes that look at it",
+                pair.slave, pair.master
+            );
+            return Err(self.error(at.0, at.1, message));
+        }
+        let facing = self.nodes_of(&faces);
+        nodes.retain(|node| facing.binary_search(node).is_ok());
+        Ok(Some(NodeSlaves { nodes, faces }))
+    }
+
+    /// The centre of the corners of a face, and the unit vector out of its element.
+    fn center_and_normal(&self, (element, local): Face) -> (Vector, Vector) {
+        let shape = self.shape(element as usize);
+        let n = shape.facet_reference(local as usize).n_corners;
+        let nodes = self.element_nodes(element as usize);
+        let own = shape.facet(local as usize)[..n].iter();
+        let x: Vec<Vector> = own.map(|&k| self.point(nodes[k] as usize)).collect();
+        let center = x
+            .iter()
+            .fold([0.0; 3], |sum, &x| along(sum, 1.0 / n as f64, x));
+        let outward = match x[..] {
+            [a, b] => [b[1] - a[1], a[0] - b[0], 0.0],
+            [a, b, c] => cross(difference(b, a), difference(c, a)),
+            [a, b, c, d, ..] => cross(difference(c, a), difference(d, b)),
+            _ => [0.0; 3],
+        };
+        (center, direction(outward))
+    }
+}
