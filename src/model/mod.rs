@@ -194,6 +194,7 @@ impl Model {
         check_places(scene, &mesh)?;
         let rigid = RigidBodies::add(scene, &mut mesh)?;
         let mut warnings = scene.warnings.clone();
+        warnings.extend(std::mem::take(&mut mesh.notes));
         warnings.extend(scene.beyond_rows());
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
         warnings.extend(plausible::of_materials(scene));

@@ -19,9 +19,10 @@ pub(super) fn assemble(content: Content, cursor: &Cursor) -> Result<Mesh> {
              -2) and export those in a Physical Surface, or volumes (gmsh -3) in a Physical Volume",
         ));
     }
-    content.require_one_body(dimension, cursor)?;
+    let left_out = content.require_one_body(dimension, cursor)?;
     let mut mesh = Mesh {
         dimension: dimension as usize,
+        notes: left_out.into_iter().collect(),
         ..Mesh::default()
     };
     let kept = keep_nodes(&content, cursor, &mut mesh)?;

@@ -158,42 +158,68 @@ impl Content {
         })
     }
 
-    /// The elements of bodies, whose dimension is that of the mesh, with their nodes.
+    /// The elements of bodies, which are in a physical group of the mesh's dimension, with their
+    /// nodes.
     pub(super) fn of_bodies(&self, dimension: u64) -> impl Iterator<Item = (&RawElement, &[u32])> {
-        self.with_nodes()
-            .filter(move |(element, _)| element.kind.dimension() == dimension)
+        let is_of_body = move |e: &RawElement| e.kind.dimension() == dimension && e.group.is_some();
+        self.with_nodes().filter(move |(e, _)| is_of_body(e))
     }
 
-    /// Checks that every element of a body is in exactly one physical group.
-    pub(super) fn require_one_body(&self, dimension: u64, cursor: &Cursor) -> Result<()> {
-        let mut elements = self
-            .of_bodies(dimension)
-            .map(|(element, _)| element)
-            .peekable();
+    /// Checks that no element is in several physical groups, and that some are in one. Returns a
+    /// note on elements in no group, which Gmsh saves on request (`Mesh.SaveAll`).
+    pub(super) fn require_one_body(
+        &self,
+        dimension: u64,
+        cursor: &Cursor,
+    ) -> Result<Option<String>> {
+        let of_dimension = |e: &&RawElement| e.kind.dimension() == dimension;
+        let mut elements = self.elements.iter().filter(of_dimension).peekable();
+        let (mut n_kept, mut n_left, mut first_left) = (0, 0, None);
         while let Some(element) = elements.next() {
             let mut groups: Vec<u64> = element.group.into_iter().collect();
             // Copies of an element in several groups follow each other.
             while let Some(copy) = elements.next_if(|next| next.at == element.at) {
                 groups.extend(copy.group);
             }
-            if groups.len() != 1 {
-                let why = self.wrong_groups(dimension, element.label, &groups);
-                return Err(cursor.error_at(element.at, why));
+            match groups.len() {
+                0 => {
+                    n_left += 1;
+                    first_left.get_or_insert(element);
+                }
+                1 => n_kept += 1,
+                _ => {
+                    let why = self.several_groups(dimension, element.label, &groups);
+                    return Err(cursor.error_at(element.at, why));
+                }
             }
         }
-        Ok(())
+        let Some(first) = first_left else {
+            return Ok(None);
+        };
+        let (what, group) = match dimension {
+            3 => ("volume", "Volume"),
+            _ => ("surface", "Surface"),
+        };
+        if n_kept == 0 {
+            return Err(cursor.error_at(
+                first.at,
+                format!(
+                    "element {} is in no physical {what}: in Gmsh, put every {what} into a \
+                     Physical {group}; its name is the body's",
+                    first.label
+                ),
+            ));
+        }
+        Ok(Some(format!(
+            "elements of the mesh file in no physical {what} are left out, {n_left} of them, such \
+             as element {}: if they are a body, put it into a Physical {group} in Gmsh",
+            first.label
+        )))
     }
 
-    /// The reason why an element cannot be assigned to a body.
-    fn wrong_groups(&self, dimension: u64, label: u64, groups: &[u64]) -> String {
+    /// The reason why an element in several groups cannot be assigned to a body.
+    fn several_groups(&self, dimension: u64, label: u64, groups: &[u64]) -> String {
         let what = if dimension == 3 { "volume" } else { "surface" };
-        let group = if dimension == 3 { "Volume" } else { "Surface" };
-        if groups.is_empty() {
-            return format!(
-                "element {label} is in no physical {what}: in Gmsh, put every {what} into a \
-                 Physical {group}; its name is the body's"
-            );
-        }
         let name = |&g: &u64| self.group_name((dimension, g));
         let names: Vec<String> = groups.iter().map(name).collect();
         format!(

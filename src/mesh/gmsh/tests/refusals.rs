@@ -65,12 +65,19 @@ fn element_types_that_brinell_does_not_have() {
 #[test]
 fn groups_that_are_missing_or_double() {
     refused(
+        // The other element is a body, and this one is left out.
         &with(V2, "100 3 2 4 1", "100 3 2 0 1"),
-        &["line 28", "element 100 is in no physical surface"],
+        &[
+            "line 24",
+            "node 40 of physical point `pole` is a node of no element",
+        ],
     );
     refused(
         &with(V2, "100 3 2 4 1", "100 3 0"),
-        &["line 28", "element 100 is in no physical surface"],
+        &[
+            "line 24",
+            "node 40 of physical point `pole` is a node of no element",
+        ],
     );
     refused(
         &with(V4, "9 0 0 0 1 1 0 1 1 3", "9 0 0 0 1 1 0 0 3"),

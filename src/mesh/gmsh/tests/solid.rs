@@ -128,6 +128,14 @@ fn what_a_solid_mesh_must_say() {
         with("1 4 2 1 1 ", "1 4 2 0 1 "),
         &["element 1 is in no physical volume"],
     );
+    // Another volume in no group is left out, with a note.
+    let more = with("$EndElements", "9 4 2 0 7 1 2 3 5\n$EndElements");
+    let more = more.replacen("$EndNodes", "5 9 9 9\n$EndNodes", 1);
+    let more = more.replacen("$Nodes\n4", "$Nodes\n5", 1);
+    let more = parsed(&more.replacen("$Elements\n7", "$Elements\n8", 1));
+    assert_eq!((more.n_elements(), more.n_nodes()), (1, 4));
+    let told = &more.notes[0];
+    assert!(told.contains("in no physical volume are left out, 1 of them, such as element 9"));
     let stray = with("$EndNodes", "5 9 9 9\n$EndNodes");
     let stray = stray.replacen("$Nodes\n4", "$Nodes\n5", 1);
     let stray = stray.replacen("$EndElements", "9 2 2 1 1 1 2 5\n$EndElements", 1);
