@@ -10,7 +10,7 @@ use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary}
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::space::Space;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Bodies that are not held by supports alone, and their rigid motions.
 #[derive(Debug, Clone, Default)]
@@ -26,6 +26,22 @@ pub struct FloatingBodies {
     /// Part of the model to which each contact freedom belongs; a part is a set of bodies that
     /// share nodes or free motions.
     pub part_of_contact: Vec<usize>,
+}
+
+impl FloatingBodies {
+    /// Free freedoms of parts of the model that have no other freedoms than their rigid motions.
+    pub(super) fn rigid_freedoms(&self) -> BTreeSet<usize> {
+        let mut of_part: BTreeMap<usize, (usize, BTreeSet<usize>)> = BTreeMap::new();
+        for motion in &self.motions {
+            let (n_motions, freedoms) = of_part.entry(motion.part).or_default();
+            *n_motions += 1;
+            freedoms.extend(motion.values.iter().map(|&(freedom, _)| freedom as usize));
+        }
+        let only = of_part
+            .into_values()
+            .filter(|(n, freedoms)| *n == freedoms.len());
+        only.flat_map(|(_, freedoms)| freedoms).collect()
+    }
 }
 
 /// A rigid motion that supports leave free: a null vector of the stiffness. It is known exactly,

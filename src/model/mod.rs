@@ -282,11 +282,15 @@ impl Model {
         Ok(model)
     }
 
-    /// For each contact freedom, whether it is the motion of a rigid surface.
+    /// For each contact freedom, whether it is the motion of a rigid surface, or of bodies that
+    /// equations let move as rigid ones only. No stiffness acts on such a freedom.
     pub(crate) fn rigid_contact(&self) -> Vec<bool> {
-        let owner = |&freedom: &usize| self.freedoms.owners[freedom].0 as usize;
-        let nodes = self.rows.freedoms.iter().map(owner);
-        nodes.map(|node| self.freedoms.is_rigid(node)).collect()
+        let of_bodies = self.floating.rigid_freedoms();
+        let is_rigid = |&freedom: &usize| {
+            let node = self.freedoms.owners[freedom].0 as usize;
+            self.freedoms.is_rigid(node) || of_bodies.contains(&freedom)
+        };
+        self.rows.freedoms.iter().map(is_rigid).collect()
     }
 
     /// Displacements of all nodes in global axes, from free freedoms and load factors.

@@ -303,7 +303,7 @@ pub(super) fn resolve(
             }
         }
         // A slave whose support carries what presses on it needs no pair; it is better as a master.
-        // A slave whose displacement is prescribed cannot be one.
+        // A slave whose displacement is prescribed or follows others cannot be one.
         let n_held = |found: &Found| {
             let pairs = found.pairs.iter();
             pairs.filter(|pair| is_held(pair) || is_moved(pair)).count()

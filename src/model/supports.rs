@@ -37,12 +37,13 @@ impl Held {
     }
 }
 
-/// Directions in which loads prescribe the displacement of each node.
+/// Directions in which loads prescribe the displacement of each node, or equations let it follow
+/// others.
 pub(super) struct Moved(BTreeMap<usize, Vec<Vector>>);
 
 impl Moved {
-    /// Whether the displacement of a node along a direction is prescribed, and not only nearly at
-    /// right angles to it.
+    /// Whether the displacement of a node along a direction is prescribed or follows others, and
+    /// not only nearly at right angles to it.
     pub(super) fn towards(&self, node: usize, direction: Vector) -> bool {
         let mut moved = self.0.get(&node).into_iter().flatten();
         moved.any(|moved| dot(direction, *moved).abs() >= NEARLY_TANGENT)
@@ -83,7 +84,7 @@ impl Supports {
         Ok(Supports { of_node })
     }
 
-    /// Finds the prescribed displacements of all loads.
+    /// Finds the prescribed displacements of all loads, and those that follow others in equations.
     pub(super) fn moved(scene: &Scene, mesh: &Mesh) -> Result<Moved> {
         let mut of_node: BTreeMap<usize, Vec<Vector>> = BTreeMap::new();
         for (index, load) in scene.load.iter().enumerate() {
@@ -96,6 +97,15 @@ impl Supports {
                 .collect();
             for node in Entry::of_list(scene, "load", index).nodes(mesh, &load.on)? {
                 of_node.entry(node).or_default().extend(&axes);
+            }
+        }
+        for (index, equation) in scene.equation.iter().enumerate() {
+            let Some(first) = equation.terms.first() else {
+                continue;
+            };
+            for node in Entry::of_list(scene, "equation", index).nodes(mesh, &first.on)? {
+                let axis = unit(first.direction.axis());
+                of_node.entry(node).or_default().push(axis);
             }
         }
         Ok(Moved(of_node))

@@ -20,19 +20,19 @@ pub(in crate::model) struct Tied {
     pub rows: Vec<Pair>,
 }
 
-/// Resolves the ties of a scene.
+/// Resolves the ties of a scene. A node of two ties has one row, that of a tie of both surfaces.
 ///
 /// # Errors
-/// Input errors: surfaces that do not exist or do not lie on one another, a node tied twice, a
-/// surface tied to a surface with which it is in contact.
+/// Input errors: surfaces that do not exist or do not lie on one another, a surface tied to a
+/// surface with which it is in contact.
 pub(in crate::model) fn resolve(
     scene: &Scene,
     mesh: &Mesh,
     contacts: &[ContactSurface],
     notes: &mut Vec<String>,
 ) -> Result<Vec<Tied>> {
-    let mut out = Vec::new();
-    let mut tie_of: BTreeMap<usize, usize> = BTreeMap::new();
+    let mut out: Vec<Tied> = Vec::new();
+    let mut row_of: BTreeMap<usize, [usize; 2]> = BTreeMap::new();
     for (index, tie) in scene.tie.iter().enumerate() {
         let entry = Entry::of_list(scene, "tie", index);
         let surfaces = [
@@ -42,20 +42,35 @@ pub(in crate::model) fn resolve(
         let what = format!("tie {} (`{}` to `{}`)", index + 1, tie.first, tie.second);
         let refused = |error: Error| entry.refused(error.within(&what));
         check_no_contact(mesh, contacts, surfaces).map_err(refused)?;
-        let of_tie = rows(scene, mesh, (index, tie), surfaces, notes).map_err(refused)?;
-        for row in &of_tie.rows {
-            if let Some(other) = tie_of.insert(row.slave, index) {
-                return Err(refused(Error::input(format!(
-                    "node {} follows in tie {} already; a node may follow in one tie: take it out \
-                     of a surface, or let the other surface follow (`slave`)",
-                    mesh.node_label(row.slave),
-                    other + 1,
-                ))));
+        let mut of_tie = rows(scene, mesh, (index, tie), surfaces, notes).map_err(refused)?;
+        for row in std::mem::take(&mut of_tie.rows) {
+            match row_of.get(&row.slave) {
+                Some(&[tie, place]) => join(&mut out[tie].rows[place], &row),
+                None => {
+                    row_of.insert(row.slave, [index, of_tie.rows.len()]);
+                    of_tie.rows.push(row);
+                }
             }
         }
         out.push(of_tie);
     }
     Ok(out)
+}
+
+/// Adds the row of the same slave in another tie: `D = D_1 + D_2`, `D w_k = D_1 w_1k + D_2 w_2k`.
+fn join(row: &mut Pair, other: &Pair) {
+    let area = row.area + other.area;
+    for (_, weight) in &mut row.masters {
+        *weight *= row.area / area;
+    }
+    for &(node, weight) in &other.masters {
+        let share = weight * other.area / area;
+        match row.masters.iter_mut().find(|(known, _)| *known == node) {
+            Some((_, sum)) => *sum += share,
+            None => row.masters.push((node, share)),
+        }
+    }
+    row.area = area;
 }
 
 fn rows(
