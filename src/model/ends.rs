@@ -7,8 +7,10 @@
 
 mod solid;
 
+use super::pairs::ties::Tied;
 use super::{ContactSurface, Pair};
 use crate::mesh::{Facet, Mesh};
+use crate::scene::Scene;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Angle in degrees by which the two boundaries must diverge for an end to be a corner: the usual
@@ -23,17 +25,55 @@ struct End {
 }
 
 /// Finds [`ContactSurface::goes_on`] of each contact.
-pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
+pub(super) fn find(
+    scene: &Scene,
+    mesh: &Mesh,
+    (pairs, ties): (&[Pair], &[Tied]),
+    contacts: &mut [ContactSurface],
+) {
+    let beside = Beside::new(scene, mesh, (pairs, ties), contacts);
     match mesh.is_solid() {
-        true => solid::find(mesh, pairs, contacts),
-        false => find_in_plane(mesh, pairs, contacts),
+        true => solid::find(mesh, pairs, contacts, &beside),
+        false => find_in_plane(mesh, pairs, contacts, &beside),
     }
     for contact in contacts.iter_mut().filter(|contact| contact.is_partial) {
         contact.goes_on.clear();
     }
 }
 
-fn find_in_plane(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
+/// What may follow a contact beyond its end: another contact, or a tie.
+struct Beside {
+    /// Facets of the surfaces of all contacts and ties.
+    facets: BTreeSet<Facet>,
+    /// Nodes of pairs and of ties, and nodes whose supports carry what would press there.
+    nodes: BTreeSet<usize>,
+}
+
+impl Beside {
+    fn new(
+        scene: &Scene,
+        mesh: &Mesh,
+        (pairs, ties): (&[Pair], &[Tied]),
+        contacts: &[ContactSurface],
+    ) -> Self {
+        let of_contacts = contacts.iter().flat_map(|contact| &contact.names);
+        let of_ties = scene.tie.iter().flat_map(|tie| [&tie.first, &tie.second]);
+        let surfaces = of_contacts.chain(of_ties);
+        let surfaces = surfaces.filter_map(|name| mesh.surfaces.get(name));
+        let held = contacts
+            .iter()
+            .flat_map(|contact| contact.held.iter().copied());
+        let rows = pairs.iter().chain(ties.iter().flat_map(|tie| &tie.rows));
+        Beside {
+            facets: surfaces
+                .flat_map(|surface| surface.facets.iter().copied())
+                .collect(),
+            nodes: rows.flat_map(Pair::nodes).chain(held).collect(),
+        }
+    }
+}
+
+fn find_in_plane(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface], beside: &Beside) {
     let ends = ends(contacts);
     if ends.is_empty() {
         return;
@@ -43,19 +83,13 @@ fn find_in_plane(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
         .flat_map(|end| pairs[end.last].nodes())
         .collect();
     let boundary = Boundary::at(mesh, &nodes);
-    let candidates: BTreeSet<Facet> = contacts
-        .iter()
-        .flat_map(|contact| &contact.names)
-        .filter_map(|name| mesh.surfaces.get(name))
-        .flat_map(|surface| surface.facets.iter().copied())
-        .collect();
-    let may_touch = may_touch(pairs, contacts);
     for end in ends {
         let inner = end.inner.map(|k| &pairs[k]);
         let slave = boundary.beyond(pairs[end.last].slave, inner.map(|pair| pair.slave));
         let Some(slave) = slave else { continue };
-        let follows =
-            |side: &Beyond| candidates.contains(&side.facet) && may_touch.contains(&side.next);
+        let follows = |side: &Beyond| {
+            beside.facets.contains(&side.facet) && beside.nodes.contains(&side.next)
+        };
         let (mut followed, mut turn) = (follows(&slave), slave.turn);
         if let Some(faced) = pairs[end.last].faced() {
             let inner = inner.and_then(Pair::faced);
@@ -81,14 +115,6 @@ fn find_in_plane(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
             contacts[end.contact].goes_on.push(end.last);
         }
     }
-}
-
-/// Nodes of pairs, and nodes whose supports carry what would press there.
-fn may_touch(pairs: &[Pair], contacts: &[ContactSurface]) -> BTreeSet<usize> {
-    let held = contacts
-        .iter()
-        .flat_map(|contact| contact.held.iter().copied());
-    pairs.iter().flat_map(Pair::nodes).chain(held).collect()
 }
 
 /// Ends of all contacts except on the axis of revolution. At a plane of symmetry the boundary turns

@@ -245,7 +245,7 @@ impl Model {
             &mut warnings,
         )?;
         let loads = loads::renumber(loads, &freedoms);
-        ends::find(&mesh, &pairs, &mut contacts);
+        ends::find(scene, &mesh, (&pairs, &ties), &mut contacts);
         let yield_by_depth = yield_depth::resolve(scene, &mesh, &materials, &contacts)?;
         if matches!(origin, Origin::Scene) {
             warnings.extend(mesh::generate::contact_size::warning(scene));

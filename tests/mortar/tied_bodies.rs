@@ -192,6 +192,31 @@ fn a_surface_may_be_tied_in_parts() {
     }
 }
 
+/// A surface that is tied on one part and touches on the rest: the contact ends at the tie, which
+/// is no end beyond which the bodies could touch. A uniform pressure goes through both.
+#[test]
+fn a_contact_ends_at_a_tie() {
+    let mut whole = apart(0.0);
+    tied(&mut whole, "upper.bottom", "lower.top", SlaveSide::First);
+    let mesh = whole.build().unwrap().mesh.clone();
+    let facets = &mesh.surfaces["upper.bottom"].facets;
+    for cut in 1..facets.len() {
+        let mut builder = apart(0.0);
+        for (name, part) in [("tied", &facets[..cut]), ("touching", &facets[cut..])] {
+            let part = part.iter().map(|facet| (facet.element, facet.local));
+            builder.surface(name, part).unwrap();
+        }
+        tied(&mut builder, "tied", "lower.top", SlaveSide::First);
+        touching(&mut builder, "lower.top", "touching", SlaveSide::Second);
+        let results = run(&builder);
+        let u = &results.states[0].fields.as_ref().unwrap().displacement;
+        for node in mesh.set_nodes("upper.top").unwrap() {
+            let down = u[2 * node + 1];
+            assert!((down + 2e-3).abs() < 1e-11, "{cut}: {down}");
+        }
+    }
+}
+
 /// Nodes that nothing pushes and nothing holds bear no force, also where one surface follows the
 /// other: what it would bear is handed on, not written twice.
 #[test]

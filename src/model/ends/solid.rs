@@ -1,7 +1,7 @@
 //! Ends of the contact surfaces of a solid beyond which both bodies go on: edges of faces that no
 //! other contact surface shares.
 
-use super::FEATURE_ANGLE;
+use super::{Beside, FEATURE_ANGLE};
 use crate::mesh::{Facet, Mesh};
 use crate::model::{ContactSurface, Pair};
 use crate::space::{Vector, along, difference, direction, dot};
@@ -11,14 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 type EdgeEnds = [usize; 2];
 
 /// Finds [`ContactSurface::goes_on`] of each contact.
-pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface]) {
-    let candidates: BTreeSet<Facet> = contacts
-        .iter()
-        .flat_map(|contact| &contact.names)
-        .filter_map(|name| mesh.surfaces.get(name))
-        .flat_map(|surface| surface.facets.iter().copied())
-        .collect();
-    let paired = super::may_touch(pairs, contacts);
+pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface], beside: &Beside) {
     let outer: Vec<Vec<EdgeEnds>> = contacts.iter().map(outer_edges).collect();
     let at_edges = outer.iter().flatten().flatten();
     let nodes: BTreeSet<usize> = at_edges.flat_map(|&k| pairs[k].nodes()).collect();
@@ -27,19 +20,19 @@ pub(super) fn find(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface])
         let mut goes_on = BTreeSet::new();
         for edge in edges {
             let slaves = edge.map(|k| pairs[k].slave);
-            let Some(slave) = boundary.beyond(slaves, &candidates, &paired) else {
+            let Some(slave) = boundary.beyond(slaves, beside) else {
                 continue;
             };
             let [a, b] = edge.map(|k| &pairs[k]);
             let (mut is_followed, mut turn) = (slave.is_followed, slave.turn);
             if let (Some(a), Some(b)) = (a.faced(), b.faced()) {
-                let Some(master) = boundary.beyond([a, b], &candidates, &paired) else {
+                let Some(master) = boundary.beyond([a, b], beside) else {
                     continue;
                 };
                 is_followed &= master.is_followed;
                 turn += master.turn;
             } else {
-                turn += boundary.end_among([a, b], &candidates);
+                turn += boundary.end_among([a, b], &beside.facets);
             }
             if !is_followed && turn < FEATURE_ANGLE {
                 goes_on.extend(edge);
@@ -112,18 +105,14 @@ impl<'m> EdgeBoundary<'m> {
 
     /// Continuation of the boundary beyond the edge of a paired face; `None` if the edge does not
     /// have two boundary facets.
-    fn beyond(
-        &self,
-        [a, b]: EdgeEnds,
-        candidates: &BTreeSet<Facet>,
-        paired: &BTreeSet<usize>,
-    ) -> Option<BeyondEdge> {
+    fn beyond(&self, [a, b]: EdgeEnds, beside: &Beside) -> Option<BeyondEdge> {
         let [one, two] = self.at.get(&[a.min(b), a.max(b)])?[..] else {
             return None;
         };
         let is_paired = |facet: Facet| {
             let corners = corners_of(self.mesh, facet);
-            candidates.contains(&facet) && corners.iter().all(|node| paired.contains(node))
+            let all_are = corners.iter().all(|node| beside.nodes.contains(node));
+            beside.facets.contains(&facet) && all_are
         };
         let (inside, outside) = if is_paired(one) {
             (one, two)
