@@ -107,10 +107,16 @@ impl<'t> Fields<'t> {
             return Ok(default);
         }
         let text = std::str::from_utf8(word).unwrap_or("?");
-        // FORTRAN writes exponents of double precision with a D.
+        // FORTRAN writes exponents of double precision with a D, or without a letter if they have
+        // three digits, and reads such numbers.
         let parsed = match text.parse::<f64>() {
             Ok(value) => Some(value),
-            Err(_) => text.replace(['d', 'D'], "e").parse().ok(),
+            Err(_) => (text.replace(['d', 'D'], "e").parse().ok()).or_else(|| {
+                let sign = text.get(1..)?.rfind(['+', '-'])? + 1;
+                let (digits, power) = text.split_at(sign);
+                let is_number = digits.ends_with(|c: char| c.is_ascii_digit() || c == '.');
+                is_number.then(|| format!("{digits}e{power}").parse().ok())?
+            }),
         };
         parsed.filter(|value| value.is_finite()).ok_or_else(|| {
             let shown = shown(word);
@@ -166,11 +172,11 @@ impl<'t> Fields<'t> {
         true
     }
 
-    /// Requires that no value follows.
+    /// Requires that no value follows, apart from zeros, which cannot change anything.
     pub(super) fn end(&mut self) -> Result<()> {
         while !self.is_at_end() {
             let word = self.word();
-            if !word.is_empty() {
+            if !word.is_empty() && !is_zero(word) {
                 let shown = shown(word);
                 return Err(self.place.error(format!(
                     "`{shown}` is one value too many on the line; take it out"
@@ -199,6 +205,12 @@ pub(super) fn comma(bytes: &[u8]) -> Option<usize> {
     });
     // After a quote that is never closed, all commas count.
     if is_quoted { Some(first) } else { found }
+}
+
+/// Whether a word is a zero. Several digits without a point may be the end of a number with commas
+/// between its thousands.
+fn is_zero(word: &[u8]) -> bool {
+    plain_number(word) == Some((0.0, word.len())) && (word.len() == 1 || word.contains(&b'.'))
 }
 
 /// A word for messages, shortened.
@@ -326,6 +338,15 @@ mod tests {
         for word in ["a, b", "\"c", "d"] {
             assert_eq!(names.text("a name").unwrap(), word);
         }
+        let mut fields = Fields::new(b"1.5-2, -2.+101, 3, 0., 0", PLACE);
+        assert_eq!(fields.number("x").unwrap(), 0.015);
+        assert_eq!(fields.number("x").unwrap(), -2e101);
+        assert_eq!(fields.number("x").unwrap(), 3.0);
+        fields.end().unwrap();
+        for surplus in ["0., 0.5", "000", "1"] {
+            let end = Fields::new(surplus.as_bytes(), PLACE).end();
+            assert!(end.is_err(), "{surplus}");
+        }
         let mut fields = Fields::new(b"12, 1.5D+2 ,, -.5 , \"my set\",", PLACE);
         assert_eq!(fields.label("a number").unwrap(), 12);
         assert_eq!(fields.number("x").unwrap(), 150.0);
@@ -345,7 +366,9 @@ mod tests {
             let start = format!("a.inp, line 7: *NODE: {message}");
             assert!(error.starts_with(&start), "{error}");
         }
-        for line in ["nan", "inf", "1e999", "1,5e", "--1", "1e"] {
+        for line in [
+            "nan", "inf", "1e999", "1,5e", "--1", "1e", "1-", "+-1", "1--2", "1e-2-3",
+        ] {
             let mut fields = Fields::new(line.as_bytes(), PLACE);
             let first = fields.number("x");
             assert!(first.is_err() || fields.number("y").is_err(), "{line}");

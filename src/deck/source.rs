@@ -92,6 +92,18 @@ impl Open {
     }
 }
 
+/// The text with line feeds, if its lines end with carriage returns alone, as those of old
+/// Macintosh computers do.
+fn with_line_feeds(text: Cow<[u8]>) -> Cow<[u8]> {
+    if !text.contains(&b'\r') || text.contains(&b'\n') {
+        return text;
+    }
+    let mut text = text.into_owned();
+    let ends = text.iter_mut().filter(|byte| **byte == b'\r');
+    ends.for_each(|byte| *byte = b'\n');
+    Cow::Owned(text)
+}
+
 /// The lines of a deck. `*INCLUDE` is resolved here, so that readers never see it.
 pub(super) struct Source<'t> {
     texts: Vec<Cow<'t, [u8]>>,
@@ -106,6 +118,7 @@ pub(super) struct Source<'t> {
 
 impl<'t> Source<'t> {
     pub(super) fn new(text: Cow<'t, [u8]>, name: &str, folder: Option<&Path>) -> Self {
+        let text = with_line_feeds(text);
         Source {
             open: vec![Open::new(0, &text)],
             texts: vec![text],
@@ -265,7 +278,7 @@ impl<'t> Source<'t> {
         let text = files::read("read the included file", &path, None)
             .map_err(|error| error.within(format!("{place}: *INCLUDE")))?;
         self.open.push(Open::new(self.texts.len() as u32, &text));
-        self.texts.push(Cow::Owned(text));
+        self.texts.push(with_line_feeds(Cow::Owned(text)));
         self.files.0.push(name);
         Ok(())
     }

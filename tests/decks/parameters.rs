@@ -124,6 +124,7 @@ fn parameters_that_change_nothing_are_read_over() {
         ("*ELASTIC", ", DEPENDENCIES=0, MODULI=LONG TERM"),
         ("*DENSITY", ", DEPENDENCIES=0"),
         ("MATERIAL=STEEL\n1.", ", STACK DIRECTION=3\n1."),
+        ("MATERIAL=STEEL\n1.", ", REF NODE=7, LAYUP=L, SYMMETRIC\n1."),
     ] {
         let new = match old.split_once('\n') {
             Some((line, _)) => format!("{line}{more}"),
@@ -142,6 +143,13 @@ fn other_forms_mean_the_same() {
         "*AMPLITUDE, NAME=A\n0., 0., 1., 1.",
         "*AMPLITUDE, NAME=A, DEFINITION=EQUALLY SPACED, FIXED INTERVAL=1.\n0., 1.",
     );
+    same(
+        "NAME=A\n0., 0., 1., 1.",
+        "NAME=A, SHIFTX=-1., SHIFTY=0.5\n1., -0.5, 2., 0.5",
+    );
+    same("TOP, P, 10.", "TOP, P, 1.+1, 0., 0.0");
+    let of_macintosh = scene(&DECK.replace('\n', "\r")).unwrap();
+    assert_eq!(of_macintosh.0, scene(DECK).unwrap().0);
     let absolute = changed(&[
         (
             "NAME=A\n0., 0., 1., 1.",
@@ -185,6 +193,17 @@ fn parameters_that_would_change_results_are_refused() {
             ", DEPENDENCIES=1",
             "*DENSITY: DEPENDENCIES=1: materials depend on no",
         ),
+        (
+            "*SOLID SECTION, ELSET=BLOCKS",
+            ", NODAL THICKNESS",
+            "NODALTHICKNESS: the thickness of a plane model is one number",
+        ),
+        (
+            "*SOLID SECTION, ELSET=BLOCKS",
+            ", COMPOSITE",
+            "COMPOSITE: layers are elements of their own",
+        ),
+        ("TOP, P, 10.", ", 000", "`000` is one value too many"),
         (
             "*AMPLITUDE, NAME=A",
             ", DEFINITION=SMOOTH STEP",

@@ -73,8 +73,8 @@ fn damage_is_told_by_line_and_keyword() {
         ),
         (
             "2, 1., 0.\n",
-            "2, 1., 0., 0., 0.\n",
-            "line 5: *NODE: `0.` is one value too many",
+            "2, 1., 0., 0., 0.5\n",
+            "line 5: *NODE: `0.5` is one value too many",
         ),
         (
             "2, 1., 0.\n",

@@ -52,6 +52,9 @@ impl Draft<'_> {
     ) {
         for plane in planes {
             let key = plane.leader;
+            for &node in plane.nodes.iter().filter(|node| **node != key.0) {
+                self.displace_loose((node, key.1), &Terms::from([(key, 1.0)]), boundary);
+            }
             let follower = plane.nodes.iter().find(|node| self.geometry.uses(**node));
             if let Some(&follower) = follower.filter(|_| !boundary.contains_key(&key)) {
                 self.displace_loose(key, &Terms::from([((follower, key.1), 1.0)]), boundary);

@@ -18,6 +18,8 @@ impl Reader<'_> {
             "VALUE",
             "FIXEDINTERVAL",
             "BEGIN",
+            "SHIFTX",
+            "SHIFTY",
         ];
         keyword.allow(files, &known)?;
         let name = keyword.require(files, "NAME")?;
@@ -44,6 +46,8 @@ impl Reader<'_> {
         let is_absolute = keyword.choice(files, "VALUE", &["RELATIVE", "ABSOLUTE"])? == "ABSOLUTE";
         let times = ["STEP TIME", "TOTAL TIME"];
         let is_total = keyword.choice(files, "TIME", &times)? == "TOTAL TIME";
+        let shift = |key| keyword.number(files, key).map(Option::unwrap_or_default);
+        let [shift_time, shift_value] = [shift("SHIFTX")?, shift("SHIFTY")?];
         let mut rows: Vec<[f64; 2]> = Vec::new();
         while let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
@@ -67,6 +71,9 @@ impl Reader<'_> {
         if rows.is_empty() {
             let message = "lines with times and values should follow; give them";
             return Err(keyword.error(&self.source.files, message));
+        }
+        for row in &mut rows {
+            *row = [row[0] + shift_time, row[1] + shift_value];
         }
         let amplitude = self.deck.program.amplitudes.entry(name);
         *amplitude = Amplitude {

@@ -164,6 +164,11 @@ impl Reader<'_> {
             "CONTROLS",
             "OFFSET",
             "STACKDIRECTION",
+            "LAYUP",
+            "SYMMETRIC",
+            "REFNODE",
+            "COMPOSITE",
+            "NODALTHICKNESS",
         ];
         keyword.allow(files, &known)?;
         let elements = keyword.require(files, "ELSET")?.to_string();
@@ -179,6 +184,27 @@ impl Reader<'_> {
         if keyword.has("STACKDIRECTION") {
             let why = "STACK DIRECTION: sections are of one material, without layers";
             self.ignore(keyword, keyword.place, why);
+        }
+        for key in ["LAYUP", "SYMMETRIC", "REFNODE"] {
+            if keyword.has(key) {
+                let why = format!("{key}: without effect on a section of one material");
+                self.ignore(keyword, keyword.place, &why);
+            }
+        }
+        for (key, why) in [
+            (
+                "COMPOSITE",
+                "layers are elements of their own, each with its material",
+            ),
+            (
+                "NODALTHICKNESS",
+                "the thickness of a plane model is one number on the next line",
+            ),
+        ] {
+            if keyword.has(key) {
+                self.refuse(keyword, keyword.place, &format!("{key}: {why}"));
+                return self.skip();
+            }
         }
         let mut thickness = None;
         if let Some(line) = self.source.next_data()? {
@@ -202,7 +228,12 @@ impl Reader<'_> {
     /// Reads the number of terms, then node, degree of freedom and coefficient of each term, line
     /// by line.
     pub(super) fn equation(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &[])?;
+        keyword.allow(&self.source.files, &["REMOVE"])?;
+        if keyword.has("REMOVE") {
+            let why = "REMOVE: equations are the same in all steps; take it out";
+            self.refuse(keyword, keyword.place, why);
+            return self.skip();
+        }
         while let Some(first) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, first);
             let n = row.label("the number of terms")?;
