@@ -35,7 +35,6 @@ pub(super) struct Follows {
     /// Coefficients `a_k` of `u_key = sum_k a_k u_k`.
     pub(super) of: Terms,
     pub(super) place: Place,
-    pub(super) keyword: &'static str,
 }
 
 /// The result of the reduction of all equations.
@@ -183,7 +182,6 @@ impl Matrix {
             key,
             of: others.map(|(other, c)| (*other, -c / pivot)).collect(),
             place: row.place,
-            keyword: row.keyword,
         }
     }
 }

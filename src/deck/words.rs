@@ -50,7 +50,8 @@ const LISTS: [(&str, &str); 5] = [
 ];
 
 /// Keys of a load, each with the keyword of the deck that gives it.
-const OF_LOADS: [(&str, &str); 4] = [
+const OF_LOADS: [(&str, &str); 5] = [
+    (".relative", "*BOUNDARY"),
     (".acceleration", "*DLOAD: GRAV"),
     (".rotation", "*DLOAD: CENTRIF"),
     (".force", "*CLOAD"),

@@ -1,13 +1,14 @@
-//! Linear equations of the scene, by which one displacement follows others.
+//! Linear equations of the scene, by which one displacement follows others, and prescribed
+//! differences of displacements.
 
 use super::freedoms::{Freedoms, Slot};
 use super::names::Entry;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
-use crate::scene::{Equation, Scene};
+use crate::scene::{EquationTerm, Scene};
 use crate::space::{Vector, dot, unit};
 
-/// A displacement that follows others: `u . e_direction = sum v_k . u_k`.
+/// A displacement that follows others: `u . e_direction = sum v_k . u_k + value`.
 #[derive(Debug, Clone)]
 pub(super) struct Following {
     /// Node whose displacement along `direction` follows.
@@ -15,8 +16,10 @@ pub(super) struct Following {
     pub direction: usize,
     /// Nodes on the right-hand side, each with its vector `v`.
     pub terms: Vec<(usize, Vector)>,
-    /// Number of the scene's equation to which this displacement belongs.
-    pub equation: usize,
+    /// The value that a load prescribes, with the number of the load.
+    pub moved: Option<(usize, f64)>,
+    /// The list of the scene in which the equation stands, and its number there.
+    of: (&'static str, usize),
 }
 
 /// Resolves the equations of a scene, with one entry for each following node.
@@ -25,10 +28,10 @@ pub(super) struct Following {
 /// Input errors: sets that do not exist, sets of different sizes.
 pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Vec<Following>> {
     let mut out = Vec::new();
-    for (index, equation) in scene.equation.iter().enumerate() {
-        let entry = Entry::of_list(scene, "equation", index);
-        let nodes = nodes_of_terms(&entry, mesh, index, equation)?;
-        let [first, rest @ ..] = equation.terms.as_slice() else {
+    for ((list, index), terms, moved) in all(scene) {
+        let entry = Entry::of_list(scene, list, index);
+        let nodes = nodes_of_terms(&entry, mesh, (list, index), &terms)?;
+        let [first, rest @ ..] = terms.as_slice() else {
             continue;
         };
         for (i, &node) in nodes[0].iter().enumerate() {
@@ -39,12 +42,13 @@ pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Vec<Following>> {
             });
             let (direction, terms) = (first.direction.axis(), terms.collect::<Vec<_>>());
             // A node that a whole set follows may itself belong to the set.
-            if terms[..] != [(node, unit(direction))] {
+            if moved.is_some() || terms[..] != [(node, unit(direction))] {
                 out.push(Following {
                     node,
                     direction,
                     terms,
-                    equation: index,
+                    moved: moved.map(|value| (index, value)),
+                    of: (list, index),
                 });
             }
         }
@@ -52,28 +56,55 @@ pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Vec<Following>> {
     Ok(out)
 }
 
+/// A list of the scene, and the number of an entry.
+type Numbered = (&'static str, usize);
+
+/// All equations with their terms, the one that follows first; of a prescribed difference the value
+/// too.
+fn all(scene: &Scene) -> impl Iterator<Item = (Numbered, Vec<EquationTerm>, Option<f64>)> {
+    let equations = scene.equation.iter().enumerate();
+    let equations =
+        equations.map(|(index, equation)| (("equation", index), equation.terms.clone(), None));
+    let loads = scene.load.iter().enumerate();
+    let relative = loads.filter_map(|(index, load)| {
+        let relative = load.relative.as_ref()?;
+        let first = EquationTerm {
+            on: load.on.clone(),
+            direction: relative.direction,
+            coefficient: 1.0,
+        };
+        let rest = relative.terms.iter().map(|term| EquationTerm {
+            coefficient: -term.coefficient,
+            ..term.clone()
+        });
+        let terms = std::iter::once(first).chain(rest).collect();
+        Some((("load", index), terms, Some(relative.value)))
+    });
+    equations.chain(relative)
+}
+
 fn nodes_of_terms(
     entry: &Entry,
     mesh: &Mesh,
-    index: usize,
-    equation: &Equation,
+    (list, index): Numbered,
+    terms: &[EquationTerm],
 ) -> Result<Vec<Vec<usize>>> {
     let mut nodes: Vec<Vec<usize>> = Vec::new();
-    for (k, term) in equation.terms.iter().enumerate() {
+    for (k, term) in terms.iter().enumerate() {
         let of_term = entry.nodes(mesh, &term.on)?;
         if let Some(first) = nodes.first()
             && of_term.len() != 1
             && of_term.len() != first.len()
         {
             return Err(entry.refused(Error::input(format!(
-                "equation {}: term {} is on the {} nodes of `{}`, the first on {} of `{}`; give it \
+                "{list} {}: term {} is on the {} nodes of `{}`, the first on {} of `{}`; give it \
                  as many, or one",
                 index + 1,
                 k + 1,
                 of_term.len(),
                 term.on,
                 first.len(),
-                equation.terms[0].on
+                terms[0].on
             ))));
         }
         nodes.push(of_term);
@@ -97,11 +128,12 @@ impl Following {
             node, direction, ..
         } = *self;
         let refused = |why: &str| {
-            let entry = Entry::of_list(scene, "equation", self.equation);
+            let (list, index) = self.of;
+            let entry = Entry::of_list(scene, list, index);
             entry.refused(Error::input(format!(
-                "equation {}: the displacement of node {} along {} cannot follow others: {why}; \
+                "{list} {}: the displacement of node {} along {} cannot follow others: {why}; \
                  put another term first",
-                self.equation + 1,
+                index + 1,
                 mesh.node_label(node),
                 crate::scene::Direction::ALL[direction].name(),
             )))

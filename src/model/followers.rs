@@ -17,7 +17,7 @@
 //! solvers based on domain decomposition*, Springer 2001, section 1.2.
 
 use super::equations::Following;
-use super::freedoms::{Freedoms, Slot};
+use super::freedoms::{Freedoms, Prescribed, Slot};
 use super::pairs::Pair;
 use super::pairs::ties::Tied;
 use crate::error::{Error, Result};
@@ -41,6 +41,8 @@ pub(super) struct Followers {
     place: BTreeMap<Axis, usize>,
     /// Sum `sum v . q` of control points for each follower.
     terms: Vec<Vec<(usize, Vector)>>,
+    /// Prescribed values that are added to the sums of followers.
+    moved: BTreeMap<usize, u32>,
     /// Number of followers by ties, which come first.
     of_ties: usize,
 }
@@ -134,6 +136,11 @@ impl Freedoms {
             let terms = equation.terms.iter();
             let terms = terms.map(|&(node, v)| (node, v.map(|v| sense * v)));
             let k = followers.terms.len();
+            if let Some((load, value)) = equation.moved {
+                followers.moved.insert(k, self.prescribed.len() as u32);
+                let value = sense * value;
+                self.prescribed.push(Prescribed { load, value });
+            }
             followers.place.insert((equation.node, axis), k);
             followers.terms.push(self.basis.share_of(terms.collect()));
             self.slots[equation.node][axis] = Slot::Sum(k as u32);
@@ -227,24 +234,25 @@ impl Freedoms {
         for &k in followers.place.values() {
             expansion.expand(k)?;
         }
-        let expanded: Vec<Vec<(Axis, f64)>> = (expansion.of.into_iter())
+        let expanded: Vec<Sum> = (expansion.of.into_iter())
             .map(|of| match of {
-                Expanded::To(terms) => terms,
-                _ => Vec::new(),
+                Expanded::To(sum) => sum,
+                _ => Sum::default(),
             })
             .collect();
         let moved = self.place(mesh, followers, &expanded);
+        self.follower_values = expanded.iter().map(|sum| sum.moved.clone()).collect();
         let axes = |terms: Vec<(Axis, f64)>| {
             let terms = terms.into_iter();
             terms
                 .map(|((node, i), c)| (node as u32, i as u8, c))
                 .collect()
         };
-        self.followers = expanded.into_iter().map(axes).collect();
+        self.followers = expanded.into_iter().map(|sum| axes(sum.axes)).collect();
         Ok(moved)
     }
 
-    fn place(&self, mesh: &mut Mesh, followers: &Followers, expanded: &[Vec<(Axis, f64)>]) -> bool {
+    fn place(&self, mesh: &mut Mesh, followers: &Followers, expanded: &[Sum]) -> bool {
         let control = |node: usize| self.basis.at_control(node, |node| mesh.point(node));
         let mut step: BTreeMap<usize, Vector> = BTreeMap::new();
         let mut moved = false;
@@ -254,7 +262,7 @@ impl Freedoms {
             .filter(|of| *of.1 < followers.of_ties);
         for (&(node, i), &k) in of_ties {
             let (axis, x) = (self.local(node)[i], control(node));
-            let terms = expanded[k].iter();
+            let terms = expanded[k].axes.iter();
             let at: f64 = terms
                 .map(|&((n, l), c)| c * dot(self.local(n)[l], control(n)))
                 .sum();
@@ -295,6 +303,9 @@ impl Freedoms {
                         Slot::Fixed => {}
                         slot => of(slot, c),
                     }
+                }
+                for &(p, c) in &self.follower_values[k as usize] {
+                    of(Slot::Prescribed(p), c);
                 }
             }
             Slot::Fixed => {}
@@ -341,11 +352,19 @@ fn neighbours(mesh: &Mesh, tie: &Tied) -> BTreeMap<usize, Vec<(usize, f64)>> {
         .collect()
 }
 
+/// A sum of displacements along axes that follow nothing, and of prescribed values.
+#[derive(Debug, Clone, Default)]
+struct Sum {
+    axes: Vec<(Axis, f64)>,
+    /// Numbers of prescribed values, and coefficients.
+    moved: Vec<(u32, f64)>,
+}
+
 #[derive(Clone)]
 enum Expanded {
     No,
     InProgress,
-    To(Vec<(Axis, f64)>),
+    To(Sum),
 }
 
 /// Expands followers into axes that follow nothing.
@@ -371,7 +390,9 @@ impl FollowerExpansion<'_> {
             Expanded::No => self.of[k] = Expanded::InProgress,
         }
         let mut sums: BTreeMap<Axis, f64> = BTreeMap::new();
+        let mut moved: BTreeMap<u32, f64> = BTreeMap::new();
         let (freedoms, followers) = (self.freedoms, self.followers);
+        moved.extend(followers.moved.get(&k).map(|&p| (p, 1.0)));
         for &(node, v) in &followers.terms[k] {
             let axes = freedoms.local(node).into_iter().zip(freedoms.slots[node]);
             for (l, (axis, slot)) in axes.enumerate() {
@@ -382,9 +403,12 @@ impl FollowerExpansion<'_> {
                 match slot {
                     Slot::Sum(other) => {
                         self.expand(other as usize)?;
-                        if let Expanded::To(terms) = &self.of[other as usize] {
-                            for &(axis, c) in terms {
+                        if let Expanded::To(sum) = &self.of[other as usize] {
+                            for &(axis, c) in &sum.axes {
                                 *sums.entry(axis).or_default() += share * c;
+                            }
+                            for &(p, c) in &sum.moved {
+                                *moved.entry(p).or_default() += share * c;
                             }
                         }
                     }
@@ -392,7 +416,10 @@ impl FollowerExpansion<'_> {
                 }
             }
         }
-        self.of[k] = Expanded::To(sums.into_iter().collect());
+        self.of[k] = Expanded::To(Sum {
+            axes: sums.into_iter().collect(),
+            moved: moved.into_iter().collect(),
+        });
         Ok(())
     }
 }

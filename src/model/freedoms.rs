@@ -66,6 +66,8 @@ pub struct Freedoms {
     first_rigid: Option<usize>,
     /// Nodes, axes and coefficients of each sum.
     pub(super) followers: Vec<Vec<(u32, u8, f64)>>,
+    /// Numbers of prescribed values that are added to the sum of each follower, and coefficients.
+    pub(super) follower_values: Vec<Vec<(u32, f64)>>,
     /// How many of the followers belong to ties; those of equations come after them.
     pub(super) n_followers_of_ties: usize,
 }
@@ -128,6 +130,7 @@ impl Freedoms {
             springs: Vec::new(),
             first_rigid: rigid.first_node(),
             followers: Vec::new(),
+            follower_values: Vec::new(),
             n_followers_of_ties: 0,
         };
         for (node, normal) in normal_of.iter().enumerate() {

@@ -280,6 +280,9 @@ fn resolve_load(
         case.displace(displacement, scene, mesh).map_err(|error| {
             entry.refused(error.within(format!("load {} on `{}`", index + 1, load.on)))
         })?;
+    } else if let Some(relative) = &load.relative {
+        let moved = unit(relative.direction.axis()).map(|e| e * relative.value);
+        case.set_size(moved, Magnitude::Displacement);
     } else if let Some(plane) = load.plane_force {
         let mut force = [0.0; 3];
         force[plane.direction.axis()] = plane.total;

@@ -188,7 +188,8 @@ impl Conditions {
             out
         };
         let is_force = |l: &&crate::scene::Load| {
-            !(l.acts_on_volume() || l.displacement.is_some() || l.plane_force.is_some())
+            let moves = l.displacement.is_some() || l.relative.is_some();
+            !(l.acts_on_volume() || moves || l.plane_force.is_some())
         };
         let scene = &model.scene;
         let mut n_owners = vec![0; model.freedoms.n];
@@ -199,10 +200,11 @@ impl Conditions {
                 }
             }
         }
-        let terms = scene.equation.iter().flat_map(|equation| &equation.terms);
+        let relative = scene.load.iter().filter(|load| load.relative.is_some());
+        let in_equations = scene.equation_terms().map(|term| &term.on);
         Conditions {
             loaded: marked(&mut scene.load.iter().filter(is_force).map(|load| &load.on)),
-            in_equation: marked(&mut terms.map(|term| &term.on)),
+            in_equation: marked(&mut in_equations.chain(relative.map(|load| &load.on))),
             n_owners,
         }
     }

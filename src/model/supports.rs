@@ -88,13 +88,14 @@ impl Supports {
     pub(super) fn moved(scene: &Scene, mesh: &Mesh) -> Result<Moved> {
         let mut of_node: BTreeMap<usize, Vec<Vector>> = BTreeMap::new();
         for (index, load) in scene.load.iter().enumerate() {
-            let Some(displacement) = &load.displacement else {
+            let displacement = load.displacement.iter();
+            let given = displacement.flat_map(|d| d.components().into_iter().enumerate());
+            let given = given.filter_map(|(axis, field)| field.map(|_| axis));
+            let relative = load.relative.iter().map(|of| of.direction.axis());
+            let axes: Vec<Vector> = given.chain(relative).map(unit).collect();
+            if axes.is_empty() {
                 continue;
-            };
-            let given = displacement.components().into_iter().enumerate();
-            let axes: Vec<Vector> = given
-                .filter_map(|(axis, field)| field.map(|_| unit(axis)))
-                .collect();
+            }
             for node in Entry::of_list(scene, "load", index).nodes(mesh, &load.on)? {
                 of_node.entry(node).or_default().extend(&axes);
             }

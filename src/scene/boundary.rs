@@ -1,6 +1,6 @@
 //! Contact, supports and loads.
 
-use super::{Field, VectorField};
+use super::{Field, Relative, VectorField};
 use crate::space::{Components, Vector, unit};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, SeqAccess, Visitor};
@@ -198,6 +198,9 @@ pub struct Load {
     pub kirsch: Option<Kirsch>,
     /// Prescribed displacement: the given components, reached when this load's factor is 1.
     pub displacement: Option<Displacement>,
+    /// Prescribed difference between the displacement of the loaded set and other displacements.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub relative: Option<Relative>,
     /// Total force on a surface that stays plane: all its nodes share one displacement in
     /// `direction`.
     pub plane_force: Option<PlaneForce>,

@@ -16,6 +16,23 @@ pub struct Equation {
     pub terms: Vec<EquationTerm>,
 }
 
+/// A prescribed difference of displacements: `u_direction - sum_k coefficient_k u_k = value` for
+/// each node of the load's set, reached when the load's factor is 1. Without terms on other nodes
+/// it moves a node along a slope. What an [`Equation`] requires of its first term is required of
+/// the displacement along `direction`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Relative {
+    /// Direction of the displacement that follows.
+    pub direction: Direction,
+    /// Value of the difference.
+    pub value: f64,
+    /// The terms that are subtracted. Each is on a set of as many nodes as the load's set, matched
+    /// in ascending order, or on a single node.
+    #[serde(default)]
+    pub terms: Vec<EquationTerm>,
+}
+
 /// A term of a linear equation: coefficient times displacement.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -42,7 +42,7 @@ pub use boundary::{
     Support, Tie,
 };
 pub use catalogue::{Listed, Published, materials};
-pub use equation::{Equation, EquationTerm};
+pub use equation::{Equation, EquationTerm, Relative};
 pub use field::{Field, NodalField, VectorField};
 pub use geometry::{
     Block, BrickPart, CurvedBodies, CylinderOnHalfPlane, Disc, DiscInPlate, Extrusion, Formulation,
@@ -194,7 +194,7 @@ impl Scene {
     pub(crate) fn set_names(&self) -> impl Iterator<Item = &str> {
         let contacts = self.contact.iter().flat_map(|c| [&c.first, &c.second]);
         let ties = self.tie.iter().flat_map(|tie| [&tie.first, &tie.second]);
-        let terms = self.equation.iter().flat_map(|equation| &equation.terms);
+        let terms = self.equation_terms();
         let targets = self.program.targets.iter();
         let of_contacts = self.contact.iter().filter_map(|c| c.nodes.as_ref());
         contacts
@@ -206,6 +206,13 @@ impl Scene {
             .chain(targets.filter_map(|target| Some(&target.displacement.as_ref()?.on)))
             .chain(&self.program.history)
             .map(String::as_str)
+    }
+
+    /// The terms of all equations, and those that prescribed differences subtract.
+    pub(crate) fn equation_terms(&self) -> impl Iterator<Item = &EquationTerm> {
+        let relative = self.load.iter().filter_map(|load| load.relative.as_ref());
+        let of_equations = self.equation.iter().flat_map(|equation| &equation.terms);
+        of_equations.chain(relative.flat_map(|relative| &relative.terms))
     }
 
     /// An otherwise empty scene of this kind: all of the model is meshed, and the program is the

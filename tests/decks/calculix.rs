@@ -18,7 +18,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 35] = [
+const CASES: [Case; 38] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     // Flow turns, and CalculiX takes each of its increments in one step of the implicit rule; with
@@ -53,6 +53,9 @@ const CASES: [Case; 35] = [
     case("rigid", FULL, PRINTED),
     case("rigid_moved", FULL, PRINTED),
     case("coupled", FULL, PRINTED),
+    case("periodic", FULL, PRINTED),
+    case("moved_along", FULL, PRINTED),
+    case("ball_joint", FULL, PRINTED),
     case("fixed", FULL, PRINTED),
     case("adjusted", FULL, PRINTED),
     // What presses on held nodes goes into their supports; CalculiX' springs give way there.

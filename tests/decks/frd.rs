@@ -38,7 +38,7 @@ const fn case(name: &'static str, bounds: [f64; 2], force: Option<f64>) -> Case 
 
 const SAME: [f64; 2] = [2e-6, ROUNDED];
 
-const CASES: [Case; 24] = [
+const CASES: [Case; 25] = [
     case("every_solid", SAME, Some(2e-6)),
     case("every_plane", SAME, Some(2e-6)),
     case("two_blocks", SAME, Some(2e-6)),
@@ -59,6 +59,7 @@ const CASES: [Case; 24] = [
     case("rigid", SAME, Some(2e-6)),
     case("rigid_moved", SAME, Some(2e-6)),
     case("coupled", SAME, Some(2e-6)),
+    case("ball_joint", SAME, Some(2e-6)),
     case("equations", SAME, Some(2e-6)),
     case("lever", SAME, Some(2e-6)),
     case("switched", SAME, Some(2e-6)),

@@ -49,7 +49,7 @@ const POINTS: &str = "slaves of ccx follow the points that they lie on, here the
                       faces: `decks::table` shows that equations of that kind give the values of \
                       ccx";
 
-const ROWS: [Row; 48] = [
+const ROWS: [Row; 51] = [
     row("Gmsh", "programs/gmsh_bar", ""),
     row("Gmsh", "programs/gmsh_plate", THICKNESS),
     row("FreeCAD", "programs/freecad_face_load", ""),
@@ -95,10 +95,13 @@ const ROWS: [Row; 48] = [
     row("EQUATION", "lever", ""),
     row("EQUATION", "held_plane", ""),
     row("RIGID BODY", "rigid", ""),
+    row("EQUATION", "periodic", ""),
     row("RIGID BODY", "rigid_moved", ""),
+    row("RIGID BODY", "ball_joint", ""),
     row("COUPLING", "coupled", ""),
     row("FIXED, absent nodes, OFFSET", "fixed", ""),
     row("TRANSFORM", "ring", ""),
+    row("TRANSFORM", "moved_along", ""),
     row("AMPLITUDE, OP, steps", "history", ""),
     row("PLASTIC", "plastic", STEPS),
     row("DENSITY, GRAV, CENTRIF", "weight", ""),

@@ -111,6 +111,84 @@ fn a_lever_couples_two_bars() {
     }
 }
 
+/// A prescribed difference: the right end of one bar moves by `d` more than twice that of the other,
+/// which a traction stretches. With `u_a = 2 u_b + d` the work of all forces gives
+/// `(4 k_a + k_b) u_b = F - 2 k_a d`, and the force that keeps up the difference is `k_a u_a`.
+#[test]
+fn a_prescribed_difference_of_two_bars() {
+    let plane = |bar: &str| {
+        let corner = format!("{bar}.bottom_right");
+        equation(&[
+            term(&format!("{bar}.right"), "x", 1.0),
+            term(&corner, "x", -1.0),
+        ])
+    };
+    let d = 1e-3;
+    let apart = format!(
+        "{{ name = \"apart\", on = \"a.bottom_right\", relative = {{ direction = \"x\", value = {d:?}, \
+         terms = [{}] }}, history = [[0.0, 0.0], [0.5, 3.0], [1.0, 1.0]] }}",
+        term("b.bottom_right", "x", 2.0)
+    );
+    let pull = r#"{ on = "b.right", traction = [10.0, 0.0] }"#;
+    let equations = [plane("a"), plane("b")].join(", ");
+    let scene = bars(&equations, &format!("{pull}, {apart}"));
+    let (model, results) = run_on_model(&scene);
+    let k = |e: f64| e * 2.0 / 4.0;
+    let [ka, kb] = [k(E), k(E / 4.0)];
+    let ub = (20.0 - 2.0 * ka * d) / (4.0 * ka + kb);
+    let ua = 2.0 * ub + d;
+    for y in [0.0, 1.0, 2.0] {
+        close(at(&model, &results, [4.0, y])[0], ua, 1e-12);
+        close(at(&model, &results, [4.0, 5.0 + y])[0], ub, 1e-12);
+    }
+    let fields = results.states[0].fields.as_ref().unwrap();
+    let along_x = |set: &str| -> f64 {
+        let nodes = model.mesh.set_nodes(set).unwrap();
+        nodes.into_iter().map(|node| fields.force[2 * node]).sum()
+    };
+    close(along_x("a.right"), ka * ua, 1e-12);
+    close(along_x("b.right"), kb * ub, 1e-12);
+    close(along_x("a.left"), -ka * ua, 1e-12);
+    for (bad, words) in [
+        (
+            apart.replace("\"a.bottom_right\"", "\"a.left\""),
+            "cannot follow others",
+        ),
+        (apart.replace("b.bottom_right", "nowhere"), "nowhere"),
+        (
+            apart.replace("direction = \"x\", value", "direction = \"z\", value"),
+            "no direction",
+        ),
+        (
+            apart.replace("value = 0.001", "value = nan"),
+            "load.1.relative.value",
+        ),
+    ] {
+        let error = model_of(&equations, &format!("{pull}, {bad}")).unwrap_err();
+        assert!(error.message().contains(words), "{bad}: {error}");
+    }
+}
+
+/// A node that moves along a slope and is drawn off it by a given distance: `u . n = d`.
+#[test]
+fn a_node_is_moved_along_a_slope() {
+    let (sin, cos) = 30f64.to_radians().sin_cos();
+    let off = |d: f64| {
+        format!(
+            "{{ on = \"a.bottom_right\", relative = {{ direction = \"y\", value = {:?}, terms = [{}] }} }}",
+            d / cos,
+            term("a.bottom_right", "x", sin / cos)
+        )
+    };
+    let pull = r#"{ on = "a.top", traction = [3.0, -10.0] }"#;
+    for d in [0.0, 2e-3] {
+        let (model, results) = run_on_model(&bars("", &format!("{pull}, {}", off(d))));
+        let [x, y] = at(&model, &results, [4.0, 0.0]);
+        let found = cos * y - sin * x;
+        assert!((found - d).abs() < 1e-14, "{found} for {d}");
+    }
+}
+
 /// A roller at an angle is `sin u_x - cos u_y = 0`.
 #[test]
 fn an_equation_at_one_node_is_a_roller_at_an_angle() {

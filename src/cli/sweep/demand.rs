@@ -26,7 +26,8 @@ fn size(load: &Load) -> f64 {
         let numbers = components.filter_map(|of| of.uniform());
         numbers.fold(0.0, |most: f64, u| most.max(u.abs()))
     });
-    let sizes = [force, plane, pressure.map(f64::abs), moved];
+    let relative = load.relative.as_ref().map(|relative| relative.value.abs());
+    let sizes = [force, plane, pressure.map(f64::abs), moved, relative];
     sizes.into_iter().flatten().fold(0.0, f64::max)
 }
 

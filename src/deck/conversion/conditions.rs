@@ -4,7 +4,6 @@
 //! set have the same history. Other conditions are grouped by their history, on sets made for the
 //! purpose.
 
-use super::super::bodies::unsupported;
 use super::super::data::{Condition, Kind, Target};
 use super::super::facets::Face;
 use super::super::history::{Key, Map};
@@ -231,24 +230,20 @@ impl Draft<'_> {
             .copied()
             .collect();
         let mut by_direction: BTreeMap<[u64; 3], (Vector, BTreeSet<u32>, Place)> = BTreeMap::new();
-        for key in turned {
+        let is_moved = |key: &Key| !boundary[key].series.is_zero() && self.geometry.uses(key.0);
+        let moved: BTreeSet<u32> = turned.iter().filter(|k| is_moved(k)).map(|k| k.0).collect();
+        for &node in &moved {
+            let own = axes[&node];
+            let of_axis = |axis: u8| Some((own[axis as usize], boundary.remove(&(node, axis))?));
+            let known = (0..3).filter_map(of_axis).collect();
+            self.move_along(node, known, boundary);
+        }
+        for key in turned.into_iter().filter(|key| !moved.contains(&key.0)) {
             let Some(entry) = boundary.remove(&key) else {
                 continue;
             };
             if !self.geometry.uses(key.0) {
                 continue;
-            }
-            if !entry.series.is_zero() {
-                let node = self.deck.node_name(key.0 as usize);
-                let message = format!(
-                    "node {node} is moved along an axis of a *TRANSFORM: displacements are given \
-                     along x, y, z"
-                );
-                return Err(unsupported(self.deck.error(
-                    entry.place,
-                    "BOUNDARY",
-                    message,
-                )));
             }
             let direction = axes[&key.0][key.1 as usize];
             let bits = direction.map(|x| (x + 0.0).to_bits());

@@ -1,5 +1,6 @@
 //! Conversion of a deck into a scene on the deck's mesh.
 
+mod along_axes;
 mod conditions;
 mod contact;
 mod contact_changes;

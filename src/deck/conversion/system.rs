@@ -11,7 +11,7 @@ use super::super::sets::What;
 use super::super::source::Place;
 use super::Draft;
 use crate::error::Result;
-use crate::scene::{self, Direction, EquationTerm};
+use crate::scene::{self, Direction, EquationTerm, Load, Relative};
 use crate::space::Vector;
 use std::collections::BTreeMap;
 
@@ -223,21 +223,10 @@ impl Draft<'_> {
             boundary.insert(follows.key, Entry::new(series, follows.place));
             return Ok(());
         }
-        let is_loose = |key: &&Key| !self.geometry.uses(key.0);
-        if let Some(key) = follows.of.keys().find(is_loose) {
-            let node = self.deck.node_name(key.0 as usize);
-            let message = format!(
-                "node {node}, which belongs to no element, is moved, and what follows it turns \
-                 freely: hold its rotation too, or move nodes of elements"
-            );
-            return Err(unsupported(self.deck.error(
-                follows.place,
-                follows.keyword,
-                message,
-            )));
-        }
-        let one = (follows.key, -1.0);
-        let all = std::iter::once(one).chain(follows.of.iter().map(|(key, c)| (*key, *c)));
+        let (loose, of): (Terms, Terms) =
+            (follows.of.iter()).partition(|(key, _)| !self.geometry.uses(key.0));
+        let moved = series_of(&loose, known);
+        let all = std::iter::once((follows.key, -1.0)).chain(of);
         let mut terms = Vec::new();
         for ((node, axis), coefficient) in all {
             let own = axes.get(&node).unwrap_or(&GLOBAL)[axis as usize];
@@ -256,14 +245,37 @@ impl Draft<'_> {
                 coefficient,
             }));
         }
-        let key = format!("equation.{}", self.equations.len());
-        self.places.insert(key, self.deck.files.show(follows.place));
-        self.equations.push(scene::Equation { terms });
+        self.relate(terms, moved, follows.place);
         Ok(())
     }
 
+    /// Adds the equation that a sum of terms and a value over time is zero. If the value is not, it
+    /// is a load.
+    pub(super) fn relate(&mut self, mut terms: Vec<EquationTerm>, moved: Series, place: Place) {
+        if moved.is_zero() {
+            let key = format!("equation.{}", self.equations.len());
+            self.places.insert(key, self.deck.files.show(place));
+            self.equations.push(scene::Equation { terms });
+            return;
+        }
+        let first = terms.remove(0);
+        for term in &mut terms {
+            term.coefficient /= -first.coefficient;
+        }
+        let load = Load {
+            on: first.on,
+            relative: Some(Relative {
+                direction: first.direction,
+                value: -moved.largest() / first.coefficient,
+                terms,
+            }),
+            ..Load::default()
+        };
+        self.add_load("relative", load, moved, place);
+    }
+
     /// The name of a set with this node only.
-    fn set_of_node(&mut self, node: u32) -> String {
+    pub(super) fn set_of_node(&mut self, node: u32) -> String {
         let known = self.sets_of_nodes.get(&node);
         if let Some(name) = known {
             return name.clone();

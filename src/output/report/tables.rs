@@ -213,6 +213,12 @@ fn describe(model: &Model, load: &Load, labels: &Labels) -> String {
             })
             .collect();
         format!("displacement {}", parts.join(", "))
+    } else if let Some(relative) = &load.relative {
+        let along = axis(model, relative.direction);
+        format!(
+            "displacement along {along}, {} more than of what it follows",
+            stated(&relative.value.into(), labels.length())
+        )
     } else if let Some(plane) = load.plane_force {
         format!(
             "force {} along {}, the surface held plane",

@@ -3,7 +3,8 @@
 use super::Checks;
 use crate::number::exact;
 use crate::scene::{
-    Contact, Direction, Equation, Field, History, Load, Rotation, Scene, Support, Tie, VectorField,
+    Contact, Direction, Equation, EquationTerm, Field, History, Load, Relative, Rotation, Scene,
+    Support, Tie, VectorField,
 };
 use crate::space::{Components, Space};
 use std::collections::BTreeSet;
@@ -178,16 +179,25 @@ impl Checks {
         );
         for (k, term) in equation.terms.iter().enumerate() {
             let key = format!("{key}.terms.{k}");
-            self.set_name(&format!("{key}.on"), &term.on);
-            self.is_in(&format!("{key}.direction"), term.direction, space);
+            self.term(&key, term, space);
             self.require(
-                term.coefficient.is_finite() && (k > 0 || term.coefficient != 0.0),
+                k > 0 || term.coefficient != 0.0,
                 format!("{key}.coefficient"),
-                format!(
-                    "is {}; that of the first term, which follows the others, is not zero",
-                    exact(term.coefficient)
-                ),
+                "is 0; that of the first term, which follows the others, is not",
             );
+        }
+    }
+
+    fn term(&mut self, key: &str, term: &EquationTerm, space: Space) {
+        self.set_name(&format!("{key}.on"), &term.on);
+        self.is_in(&format!("{key}.direction"), term.direction, space);
+    }
+
+    /// Checks a prescribed difference of displacements.
+    fn relative(&mut self, key: &str, relative: &Relative, space: Space) {
+        self.is_in(&format!("{key}.direction"), relative.direction, space);
+        for (k, term) in relative.terms.iter().enumerate() {
+            self.term(&format!("{key}.terms.{k}"), term, space);
         }
     }
 
@@ -202,6 +212,7 @@ impl Checks {
                 ("traction", load.traction.is_some()),
                 ("kirsch", load.kirsch.is_some()),
                 ("displacement", load.displacement.is_some()),
+                ("relative", load.relative.is_some()),
                 ("plane_force", load.plane_force.is_some()),
                 ("acceleration", load.acceleration.is_some()),
                 ("rotation", load.rotation.is_some()),
@@ -222,6 +233,9 @@ impl Checks {
             if displacement.z.is_some() {
                 self.is_in(&key, Direction::Z, kind);
             }
+        }
+        if let Some(relative) = &load.relative {
+            self.relative(&format!("{key}.relative"), relative, kind);
         }
         if let Some(rotation) = load.rotation {
             self.rotation(&format!("{key}.rotation"), &rotation, kind);

@@ -186,6 +186,15 @@ impl Checks {
                 format!("`{name}` is rigid and takes no part in equations"),
             );
         }
+        for (index, load) in scene.load.iter().enumerate() {
+            let relative = load.relative.iter();
+            let mut terms = relative.flat_map(|relative| &relative.terms);
+            self.require(
+                terms.all(|term| term.on != name),
+                format!("load.{index}.relative"),
+                format!("`{name}` is rigid and takes no part in equations"),
+            );
+        }
         let mut first: Option<&Load> = None;
         for (index, load) in scene.load.iter().enumerate().filter(|(_, l)| l.on == name) {
             let key = format!("load.{index}");
