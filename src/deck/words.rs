@@ -61,19 +61,68 @@ const OF_LOADS: [(&str, &str); 5] = [
 /// Rewords an error about the scene of a deck as one about the deck; errors of other scenes are
 /// returned unchanged.
 pub(crate) fn of_deck(scene: &Scene, error: Error) -> Error {
-    if !scene.requests.is_of_deck() {
-        return error;
+    match scene.requests.is_of_deck() {
+        true => error.reworded(|text| text_of_deck(scene, text)),
+        false => error,
     }
-    error.reworded(|text| {
-        let mut text = reworded(text);
-        for (number, load) in scene.load.iter().enumerate() {
-            if let Some(place) = scene.places.of(&format!("load.{number}")) {
-                let name = format!("load `{}`", load.name);
-                text = text.replace(&name, &format!("the load of {place}"));
+}
+
+/// Rewords a text about the scene of a deck as one about the deck; texts about other scenes are
+/// returned unchanged.
+pub(crate) fn text_of_deck(scene: &Scene, text: &str) -> String {
+    if !scene.requests.is_of_deck() {
+        return text.to_string();
+    }
+    let mut text = reworded(text);
+    let lists = [
+        ("contact", scene.contact.len()),
+        ("tie", scene.tie.len()),
+        ("equation", scene.equation.len()),
+        ("support", scene.support.len()),
+        ("load", scene.load.len()),
+    ];
+    for (list, keyword) in LISTS {
+        let list = list.trim_end_matches('.');
+        let n = lists
+            .iter()
+            .find(|(name, _)| *name == list)
+            .map_or(0, |(_, n)| *n);
+        for number in 0..n {
+            if let Some(place) = scene.places.of(&format!("{list}.{number}")) {
+                let thing = if list == "load" { list } else { keyword };
+                // The place may stand in front of the text already.
+                let shown = match text.contains(place) {
+                    true => thing.to_string(),
+                    false => format!("the {thing} of {place}"),
+                };
+                text = numbered(&text, &format!("{list} {}", number + 1), &shown);
             }
         }
-        text
-    })
+    }
+    for (number, load) in scene.load.iter().enumerate() {
+        if let Some(place) = scene.places.of(&format!("load.{number}")) {
+            let name = format!("load `{}`", load.name);
+            text = text.replace(&name, &format!("the load of {place}"));
+        }
+    }
+    text
+}
+
+/// Replaces an entry given by its number, such as `contact 1` in front of its surfaces, a colon or
+/// `on`, by its place.
+fn numbered(text: &str, entry: &str, shown: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once(entry) {
+        out.push_str(before);
+        let is_word = before.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+        let is_entry = [" (`", ":", " on `"]
+            .iter()
+            .any(|end| after.starts_with(end));
+        out.push_str(if is_entry && !is_word { shown } else { entry });
+        rest = after;
+    }
+    out + rest
 }
 
 /// Rewords a message so that it contains no keys of a scene.

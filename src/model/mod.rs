@@ -147,7 +147,11 @@ impl Model {
     /// if a body can move freely and the loads do work on that motion.
     pub fn new(scene: &Scene) -> Result<Self> {
         let made = build_mesh(scene).and_then(|mesh| Self::resolve(scene, mesh, Origin::Scene));
-        made.map_err(|error| words::of_deck(scene, error))
+        let mut model = made.map_err(|error| words::of_deck(scene, error))?;
+        for text in &mut model.warnings {
+            *text = words::text_of_deck(scene, text);
+        }
+        Ok(model)
     }
 
     /// Builds the model of a scene on a given mesh (the scene's `mesh` entry is ignored).

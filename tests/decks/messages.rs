@@ -151,7 +151,7 @@ fn messages_of_a_deck_have_no_keys_of_scenes() {
         ),
         (
             &[("*CONTACT PAIR", "*TIE, NAME=T\nFACE, FLOOR\n*CONTACT PAIR")],
-            "tie 1",
+            "*TIE (`",
         ),
         (&[("*BOUNDARY\n", "*BOUNDARY\nALL, 1, 3\n")], "deck.inp"),
         (&[("1, 1, 2, 3, 4, 5", "1, 2, 1, 3, 4, 5")], "element 1"),
@@ -172,6 +172,28 @@ fn messages_of_a_deck_have_no_keys_of_scenes() {
         }
         assert!(text.contains("deck.inp") || text.contains("body"), "{text}");
     }
+}
+
+/// Warnings are in the words of the deck, too: contacts and ties by their lines, not by numbers.
+#[test]
+fn warnings_of_a_deck_have_no_numbers_of_entries() {
+    let work = tempfile::tempdir().unwrap();
+    let path = work.path().join("deck.inp");
+    // Surfaces that a support takes apart never touch.
+    let text = DECK.replacen("2, P2, 50.", "2, P2, -50.", 1);
+    let text = text.replacen(
+        "BASE, 3, 3\n",
+        "BASE, 3, 3\n15, 3, 3\n16, 3, 3\n17, 3, 3\n18, 3, 3\n",
+        1,
+    );
+    std::fs::write(&path, text).unwrap();
+    let model = Model::new(&deck::load(&path).unwrap()).unwrap();
+    let mut analysis = Analysis::new(model, Backend::Dense).unwrap();
+    let results = analysis.run(&mut Silent).unwrap();
+    let told = results.warnings.join("\n");
+    assert!(told.contains("the *CONTACT PAIR of "), "{told}");
+    assert!(told.contains("is open in every state"), "{told}");
+    assert!(!told.contains("contact 1"), "{told}");
 }
 
 /// Messages about elements and sets name the types and the lines of the deck.

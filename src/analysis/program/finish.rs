@@ -6,6 +6,7 @@ use crate::analysis::check::effects::effects;
 use crate::analysis::figures::deformation::softened;
 use crate::analysis::figures::quality;
 use crate::analysis::structure::starting::end_state;
+use crate::deck::words;
 use crate::model::Model;
 use crate::number::significant;
 use crate::results::{PairState, Quality, Results, Sizes, State, Status, Tolerances};
@@ -74,6 +75,7 @@ impl Run<'_, '_> {
     }
 
     fn tell(&mut self, results: &mut Results, text: String) {
+        let text = words::text_of_deck(&self.solver.structure.model.scene, &text);
         self.observer.warning(&text);
         results.warnings.push(text);
     }
