@@ -309,6 +309,9 @@ fn plane_elements_beside_solids_carry_the_sets_of_faces() {
         let results = of_scene("solid", &mesh, [bottom, top]);
         assert_eq!(sunk(&results), of_deck);
     }
+    // Lines of a solid are no faces: a scene finds their nodes.
+    let mesh = brinell::mesh::inp::read(&mesh).unwrap();
+    assert_eq!(mesh.node_sets["Line1"], [0, 1]);
     let plate = held.replace("ELSET=block", "ELSET=top");
     let plate = write("plate.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{plate}"));
     let why = run_with(&plate, &[]).unwrap_err().to_string();

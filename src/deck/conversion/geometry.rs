@@ -73,6 +73,12 @@ impl Geometry {
     }
 }
 
+fn sorted(mut nodes: Vec<u32>) -> Vec<u32> {
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
 impl Deck {
     /// Whether the given faces include both sides of a face between two elements.
     fn looks_both_ways(&self, faces: &[Face]) -> bool {
@@ -130,8 +136,16 @@ impl Deck {
             }
         }
         for (name, _) in self.sets.elements.iter() {
-            let faces = self.faces_of_boundary(&self.boundary_of(&Target::Set(name.to_string())));
+            let boundary = self.boundary_of(&Target::Set(name.to_string()));
+            let faces = self.faces_of_boundary(&boundary);
             let is_free = self.sets.surfaces.get(name).is_none();
+            // Curves of a solid are no faces: their set is one of nodes.
+            if faces.is_empty() && is_free && !out.node_sets.contains_key(name) {
+                let nodes = out.used(self.nodes_of_boundary(&boundary));
+                if !nodes.is_empty() {
+                    out.node_sets.insert(name.to_string(), sorted(nodes));
+                }
+            }
             if is_free && !faces.is_empty() {
                 let own = match out.node_sets.contains_key(name) {
                     true => format!("{name}_surface"),
