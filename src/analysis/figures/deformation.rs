@@ -9,12 +9,14 @@
 //! Small strain theory leaves the second term out. Of a stretch `|H|` it leaves out the share
 //! `|H|/2`; to a rotation `|H|` it adds the spurious strain `|H|^2/2`. Between two nodes of an
 //! element `|H|` is at least the change of their difference divided by their distance. (G. A.
-//! Holzapfel, *Nonlinear Solid Mechanics* (2000), section 2.5.)
+//! Holzapfel, *Nonlinear Solid Mechanics* (2000), section 2.5.) The strain and the rotation that are
+//! stated are those of the `H` that fits the corners of an element best.
 
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::results::Results;
-use crate::space::{Vector, difference, length};
+use crate::space::{Vector, along, difference, length};
+use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -25,6 +27,10 @@ const LARGE: f64 = 0.1;
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct Deformation {
     largest: f64,
+    /// Largest strain (component or shear strain of the tensor) and rotation, in radians, of the
+    /// mean gradient of an element.
+    strain: f64,
+    rotation: f64,
     /// Name of the state in which the gradient occurs; `body` is the body in which it occurs.
     state: String,
     body: String,
@@ -49,17 +55,18 @@ impl Deformation {
             (largest, e)
         };
         let more = |a: (f64, usize), b: (f64, usize)| if b.0 > a.0 { b } else { a };
-        let (largest, element) = (0..mesh.n_elements())
-            .into_par_iter()
-            .with_min_len(1 << 12)
-            .map(of_element)
-            .reduce(|| (0.0, 0), more);
+        let elements = || (0..mesh.n_elements()).into_par_iter().with_min_len(1 << 12);
+        let (largest, element) = elements().map(of_element).reduce(|| (0.0, 0), more);
+        let both = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].max(b[1])];
+        let [strain, rotation] = elements()
+            .map(|e| strain_and_rotation(mesh, e, displacements))
+            .reduce(|| [0.0; 2], both);
+        self.strain = self.strain.max(strain);
+        self.rotation = self.rotation.max(rotation);
         if largest > self.largest {
-            *self = Deformation {
-                largest,
-                state: state.to_string(),
-                body: mesh.bodies[mesh.element_body[element] as usize].clone(),
-            };
+            self.largest = largest;
+            self.state = state.to_string();
+            self.body = mesh.bodies[mesh.element_body[element] as usize].clone();
         }
     }
 
@@ -69,6 +76,7 @@ impl Deformation {
             largest,
             state,
             body,
+            ..
         } = self;
         (*largest > LARGE).then(|| {
             format!(
@@ -86,14 +94,17 @@ impl Deformation {
     pub(in crate::analysis) fn taken_small(&self, place: &str) -> (String, bool) {
         let is_small = self.largest <= LARGE;
         let text = format!(
-            "{place}: *STEP: NLGEOM: displacements are taken for small{}: neighbouring nodes move \
-             against each other by {:.2} % of their distance at most (state `{}`, body {}), of \
-             which half is left out of the strains there{}",
+            "{place}: *STEP: NLGEOM: displacements are taken for small{}: strains reach {:.2} %, \
+             rotations {:.2} degrees; neighbouring nodes move against each other by {:.2} % of \
+             their distance at most (state `{}`, body {}), of which half is left out of the \
+             strains there{}",
             if is_small {
                 ", and are"
             } else {
                 ", and are not"
             },
+            100.0 * self.strain,
+            self.rotation.to_degrees(),
             100.0 * self.largest,
             self.state,
             self.body,
@@ -104,6 +115,38 @@ impl Deformation {
         );
         (text, is_small)
     }
+}
+
+/// Largest component of the strain of an element, and its rotation: the parts of the gradient `H`
+/// with the least squares of `u - H x` at the corners, both measured from their means.
+fn strain_and_rotation(mesh: &Mesh, element: usize, displacements: &[Vector]) -> [f64; 2] {
+    let corners = &mesh.nodes(element)[..mesh.shapes[element].n_corners()];
+    let share = 1.0 / corners.len() as f64;
+    let mean = |of: &dyn Fn(usize) -> Vector| {
+        let each = corners.iter().map(|&node| of(node as usize));
+        each.fold([0.0; 3], |sum, x| along(sum, share, x))
+    };
+    let (x0, u0) = (
+        mean(&|node| mesh.point(node)),
+        mean(&|node| displacements[node]),
+    );
+    let (mut moments, mut products) = (Matrix3::zeros(), Matrix3::zeros());
+    for &node in corners {
+        let x = Vector3::from(difference(mesh.point(node as usize), x0));
+        let u = Vector3::from(difference(displacements[node as usize], u0));
+        moments += x * x.transpose();
+        products += u * x.transpose();
+    }
+    if mesh.dimension == 2 {
+        moments[(2, 2)] = 1.0;
+    }
+    let Some(inverse) = moments.try_inverse() else {
+        return [0.0; 2];
+    };
+    let gradient = products * inverse;
+    let strain = 0.5 * (gradient + gradient.transpose());
+    let turn = 0.5 * (gradient - gradient.transpose());
+    [strain.amax(), turn.norm() / 2.0f64.sqrt()]
 }
 
 /// Warning for a deck that asks for large displacements when material flows at a stress that is not
@@ -155,4 +198,36 @@ pub(in crate::analysis) fn softened(
              displacements; small displacements leave that out"
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Shape;
+
+    /// A bar of two elements that turns by 0.01 and is stretched by 0.02 in its first element.
+    #[test]
+    fn strains_and_rotations_are_told_apart() {
+        let mut mesh = Mesh {
+            dimension: 2,
+            bodies: vec!["bar".to_string()],
+            coordinates: vec![0.0, 0.0, 3.0, 0.0, 6.0, 0.0, 0.0, 2.0, 3.0, 2.0, 6.0, 2.0],
+            ..Mesh::default()
+        };
+        mesh.push_element(Shape::Quad4, 0, &[0, 1, 4, 3]);
+        mesh.push_element(Shape::Quad4, 0, &[1, 2, 5, 4]);
+        let moved = |node: usize| {
+            let [x, y, _] = mesh.point(node);
+            [0.02 * x.min(3.0) - 0.01 * y, 0.01 * x, 0.0]
+        };
+        let displacements: Vec<Vector> = (0..6).map(moved).collect();
+        let mut deformation = Deformation::default();
+        deformation.take(&mesh, "pulled", &displacements);
+        assert!((deformation.strain - 0.02).abs() < 1e-15);
+        assert!((deformation.rotation - 0.01).abs() < 1e-15);
+        // A diagonal of the first element, whose ends move apart by (0.08, 0.03).
+        let diagonal = 0.08f64.hypot(0.03) / 13.0f64.sqrt();
+        assert!((deformation.largest - diagonal).abs() < 1e-15);
+        assert!(deformation.taken_small("a.inp, line 3").1);
+    }
 }
