@@ -234,10 +234,10 @@ impl Freedoms {
         for &k in followers.place.values() {
             expansion.expand(k)?;
         }
-        let expanded: Vec<Sum> = (expansion.of.into_iter())
+        let expanded: Vec<FollowedSum> = (expansion.of.into_iter())
             .map(|of| match of {
                 Expanded::To(sum) => sum,
-                _ => Sum::default(),
+                _ => FollowedSum::default(),
             })
             .collect();
         let moved = self.place(mesh, followers, &expanded);
@@ -252,7 +252,7 @@ impl Freedoms {
         Ok(moved)
     }
 
-    fn place(&self, mesh: &mut Mesh, followers: &Followers, expanded: &[Sum]) -> bool {
+    fn place(&self, mesh: &mut Mesh, followers: &Followers, expanded: &[FollowedSum]) -> bool {
         let control = |node: usize| self.basis.at_control(node, |node| mesh.point(node));
         let mut step: BTreeMap<usize, Vector> = BTreeMap::new();
         let mut moved = false;
@@ -354,7 +354,7 @@ fn neighbours(mesh: &Mesh, tie: &Tied) -> BTreeMap<usize, Vec<(usize, f64)>> {
 
 /// A sum of displacements along axes that follow nothing, and of prescribed values.
 #[derive(Debug, Clone, Default)]
-struct Sum {
+struct FollowedSum {
     axes: Vec<(Axis, f64)>,
     /// Numbers of prescribed values, and coefficients.
     moved: Vec<(u32, f64)>,
@@ -364,7 +364,7 @@ struct Sum {
 enum Expanded {
     No,
     InProgress,
-    To(Sum),
+    To(FollowedSum),
 }
 
 /// Expands followers into axes that follow nothing.
@@ -416,7 +416,7 @@ impl FollowerExpansion<'_> {
                 }
             }
         }
-        self.of[k] = Expanded::To(Sum {
+        self.of[k] = Expanded::To(FollowedSum {
             axes: sums.into_iter().collect(),
             moved: moved.into_iter().collect(),
         });

@@ -11,7 +11,7 @@ const ROUND_OFF: f64 = 1e-12;
 
 /// The condition `v . u = sum_k b_k d_k` on a node's displacement `u`, with values `d_k` over time.
 #[derive(Clone)]
-struct Condition {
+struct KnownAlong {
     direction: Vector,
     shares: Vec<f64>,
 }
@@ -26,8 +26,8 @@ impl Draft<'_> {
         boundary: &mut Map,
     ) {
         let n = known.len();
-        let mut rows: Vec<Condition> = (known.iter().enumerate())
-            .map(|(k, (direction, _))| Condition {
+        let mut rows: Vec<KnownAlong> = (known.iter().enumerate())
+            .map(|(k, (direction, _))| KnownAlong {
                 direction: *direction,
                 shares: (0..n).map(|of| f64::from(u8::from(of == k))).collect(),
             })
