@@ -111,8 +111,8 @@ fn a_lever_couples_two_bars() {
     }
 }
 
-/// A prescribed difference: the right end of one bar moves by `d` more than twice that of the other,
-/// which a traction stretches. With `u_a = 2 u_b + d` the work of all forces gives
+/// A prescribed difference: the right end of one bar moves by `d` more than twice that of the
+/// other, which a traction stretches. With `u_a = 2 u_b + d` the work of all forces gives
 /// `(4 k_a + k_b) u_b = F - 2 k_a d`, and the force that keeps up the difference is `k_a u_a`.
 #[test]
 fn a_prescribed_difference_of_two_bars() {
@@ -125,8 +125,8 @@ fn a_prescribed_difference_of_two_bars() {
     };
     let d = 1e-3;
     let apart = format!(
-        "{{ name = \"apart\", on = \"a.bottom_right\", relative = {{ direction = \"x\", value = {d:?}, \
-         terms = [{}] }}, history = [[0.0, 0.0], [0.5, 3.0], [1.0, 1.0]] }}",
+        "{{ name = \"apart\", on = \"a.bottom_right\", relative = {{ direction = \"x\", \
+         value = {d:?}, terms = [{}] }}, history = [[0.0, 0.0], [0.5, 3.0], [1.0, 1.0]] }}",
         term("b.bottom_right", "x", 2.0)
     );
     let pull = r#"{ on = "b.right", traction = [10.0, 0.0] }"#;
@@ -175,7 +175,8 @@ fn a_node_is_moved_along_a_slope() {
     let (sin, cos) = 30f64.to_radians().sin_cos();
     let off = |d: f64| {
         format!(
-            "{{ on = \"a.bottom_right\", relative = {{ direction = \"y\", value = {:?}, terms = [{}] }} }}",
+            "{{ on = \"a.bottom_right\", relative = {{ direction = \"y\", value = {:?}, \
+             terms = [{}] }} }}",
             d / cos,
             term("a.bottom_right", "x", sin / cos)
         )

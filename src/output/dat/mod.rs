@@ -4,9 +4,9 @@
 //! The time of a state is the time of the deck; for a scene it is the load factor. Forces are those
 //! that act from outside: loads and reactions. In a plane model they act on the thickness of the
 //! deck. In an axisymmetric model they act on the whole circle, but in the tables that a deck asks
-//! for they act on a slice of 2 degrees, as those of CalculiX do. Values of elements are those at the
-//! integration points, in the order of CalculiX ([`points`]); if a run did not keep them, the means
-//! of elements are written as integration point 0. Shear strains are those of the tensor.
+//! for they act on a slice of 2 degrees, as those of CalculiX do. Values of elements are those at
+//! the integration points, in the order of CalculiX ([`points`]); if a run did not keep them, the
+//! means of elements are written as integration point 0. Shear strains are those of the tensor.
 
 mod loose;
 mod points;
