@@ -123,6 +123,9 @@ const NO_WORK: f64 = 1e-9;
 /// known no more accurately than that, and a load through it does about that much work.
 const NO_WORK_FOUND: f64 = 10.0 * FREE;
 
+/// A motion that was pinned, with the node and the number of the axis that are held.
+type Pinned = (Mode, usize, usize);
+
 /// Finds the floating bodies, and the contact rows on the freedoms that pins leave free.
 pub(super) fn resolve(
     space: Space,
@@ -134,93 +137,44 @@ pub(super) fn resolve(
 ) -> Result<(FloatingBodies, ContactRows)> {
     let motions = Motions::new(space, mesh, freedoms.basis.clone());
     let mut floating = FloatingBodies::default();
-    let supports_only = motions.free(freedoms, &[]);
     let mut is_floating = vec![false; motions.names.len()];
-    for mode in &supports_only {
+    for mode in &motions.free(freedoms, &[]) {
         for group in motions.moved(mode) {
             is_floating[group] = true;
         }
     }
-    let forces = motions.forces(loads);
-    let contact: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
-    let mut pinned: Vec<(Mode, usize, usize)> = Vec::new();
-    for _ in 0..motions.per_group() * motions.names.len() {
-        let free = motions.free(freedoms, pairs);
-        if free.is_empty() {
-            break;
-        }
-        // Motions that have no body in common stay free when one of them is pinned, so all of them
-        // are pinned at once.
-        let mut moved = vec![false; motions.names.len()];
-        for mode in &free {
-            let groups = motions.moved(mode);
-            if groups.iter().any(|&group| moved[group]) {
-                continue;
-            }
-            groups.iter().for_each(|&group| moved[group] = true);
-            let motion = motions.describe(mode);
-            for (load, work) in motions.work(mode, &forces) {
-                let size = motions.size(mode, &forces, load) * mode.largest();
-                if work.abs() > NO_WORK_FOUND * size {
-                    return Err(Error::new(
-                        ErrorKind::Unheld,
-                        format!(
-                            "{motion}: neither supports nor contact hold this motion, and load \
-                             `{}` drives it; add a support or a contact",
-                            loads[load].name
-                        ),
-                    ));
-                }
-            }
-            let freedom = motions.largest(mode, freedoms, &contact).ok_or_else(|| {
-                Error::new(
-                    ErrorKind::Unheld,
-                    format!("{motion}: nothing holds this motion"),
-                )
-            })?;
-            let (node, local) = freedoms.owners[freedom];
-            let node = node as usize;
-            pinned.push((mode.clone(), node, local as usize));
-            warnings.push(format!(
-                "{motion}: nothing holds this motion and no load drives it; it is held at node {}",
-                mesh.node_label(node)
-            ));
-            floating.pins.push(Pin { motion, node });
-            freedoms.pin(freedom);
-        }
+    let pinned = pin(&motions, freedoms, pairs, loads, &mut floating.pins)?;
+    for Pin { motion, node } in &floating.pins {
+        let node = mesh.node_label(*node);
+        warnings.push(format!(
+            "{motion}: nothing holds this motion and no load drives it; it is held at node {node}"
+        ));
     }
     freedoms.add_springs(pairs, contacts);
     let rows = ContactRows::of(mesh, freedoms, pairs)?;
     let owner = |&freedom: &usize| motions.group_of_node[freedoms.owners[freedom].0 as usize];
     let group_of_contact: Vec<usize> = rows.freedoms.iter().map(owner).collect();
-    floating.of_contact = group_of_contact
-        .iter()
-        .map(|&group| is_floating[group])
-        .collect();
-    floating.bodies = motions
-        .names
-        .iter()
-        .zip(&is_floating)
-        .filter(|(_, floats)| **floats)
+    let floats = |&group: &usize| is_floating[group];
+    floating.of_contact = group_of_contact.iter().map(floats).collect();
+    let bodies = motions.names.iter().zip(&is_floating);
+    let bodies = bodies.filter(|(_, floats)| **floats);
+    floating.bodies = bodies
         .flat_map(|(names, _)| names.iter().cloned())
         .collect();
     let modes = motions.free(freedoms, &[]);
     let part = motions.parts(&modes);
     floating.part_of_contact = group_of_contact.iter().map(|&group| part[group]).collect();
     let owned = motions::owned(freedoms, mesh.n_nodes());
-    floating.motions = modes
-        .iter()
-        .filter_map(|mode| {
-            let group = *motions.moved(mode).first()?;
-            Some(RigidMotion {
-                part: part[group],
-                values: motions.on_freedoms(mode, freedoms, &owned),
-                in_far_boundary: Vec::new(),
-            })
+    let motion_of = |mode: &Mode| {
+        let group = *motions.moved(mode).first()?;
+        Some(RigidMotion {
+            part: part[group],
+            values: motions.on_freedoms(mode, freedoms, &owned),
+            in_far_boundary: Vec::new(),
         })
-        .collect();
+    };
+    floating.motions = modes.iter().filter_map(motion_of).collect();
     let part_of_node: Vec<usize> = motions.group_of_node.iter().map(|&g| part[g]).collect();
-    let work = |j: usize| motions.work(&modes[j], &forces);
     let pins: Vec<(usize, usize)> = pinned.iter().map(|&(_, node, at)| (node, at)).collect();
     let stopped = pinned.iter().filter_map(|(mode, ..)| {
         let groups = motions.moved(mode);
@@ -241,6 +195,60 @@ pub(super) fn resolve(
         stopped: stopped.collect(),
         pins: &pins,
     };
+    let forces = motions.forces(loads);
+    let work = |j: usize| motions.work(&modes[j], &forces);
     far.measure(&mut floating.motions, loads, work);
     Ok((floating, rows))
+}
+
+/// Pins a freedom of each rigid motion that neither supports nor contact hold.
+///
+/// # Errors
+/// `Unheld`, naming the body, the motion, and the load that does work on it.
+fn pin(
+    motions: &Motions,
+    freedoms: &mut Freedoms,
+    pairs: &[Pair],
+    loads: &[LoadCase],
+    pins: &mut Vec<Pin>,
+) -> Result<Vec<Pinned>> {
+    let forces = motions.forces(loads);
+    let contact: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
+    let mut pinned = Vec::new();
+    for _ in 0..motions.per_group() * motions.names.len() {
+        let free = motions.free(freedoms, pairs);
+        if free.is_empty() {
+            break;
+        }
+        // Motions that have no body in common stay free when one of them is pinned, so all of them
+        // are pinned at once.
+        let mut moved = vec![false; motions.names.len()];
+        for mode in &free {
+            let groups = motions.moved(mode);
+            if groups.iter().any(|&group| moved[group]) {
+                continue;
+            }
+            groups.iter().for_each(|&group| moved[group] = true);
+            let motion = motions.describe(mode);
+            let unheld = |why: String| Error::new(ErrorKind::Unheld, format!("{motion}: {why}"));
+            for (load, work) in motions.work(mode, &forces) {
+                let size = motions.size(mode, &forces, load) * mode.largest();
+                if work.abs() > NO_WORK_FOUND * size {
+                    return Err(unheld(format!(
+                        "neither supports nor contact hold this motion, and load `{}` drives it; \
+                         add a support or a contact",
+                        loads[load].name
+                    )));
+                }
+            }
+            let freedom = motions.largest(mode, freedoms, &contact);
+            let freedom = freedom.ok_or_else(|| unheld("nothing holds this motion".to_string()))?;
+            let (node, local) = freedoms.owners[freedom];
+            pinned.push((mode.clone(), node as usize, local as usize));
+            let node = node as usize;
+            pins.push(Pin { motion, node });
+            freedoms.pin(freedom);
+        }
+    }
+    Ok(pinned)
 }

@@ -210,72 +210,13 @@ fn resolve_load(
         free_strain: Vec::new(),
         opens: Vec::new(),
     };
-    let surface = |key: &str| {
-        mesh.surfaces.get(&load.on).ok_or_else(|| {
-            entry.refused(Error::input(format!(
-                "load {} on `{}`: `{key}` needs a surface, this is a node set",
-                index + 1,
-                load.on
-            )))
-        })
-    };
     if let Some(gap) = &load.gap {
         case.opens = opened(load, (scene, contacts), mesh, gap).map_err(|e| entry.refused(e))?;
         case.measures = Magnitude::Gap;
         let sizes = case.opens.iter().map(|(_, opening)| opening.largest());
         case.magnitude = sizes.fold(0.0, f64::max);
     } else if let Some(force) = load.force {
-        let force = force.vector();
-        case.set_size(force, Magnitude::Force);
-        let share = force.map(|f| f / symmetry);
-        match mesh.surfaces.get(&load.on) {
-            Some(surface) => {
-                let area = area(scene.kind, mesh, surface);
-                case.nodal = integrate(scene.kind, mesh, surface, |_| share.map(|f| f / area));
-            }
-            None => {
-                let n = case.nodes.len() as f64;
-                case.nodal = case
-                    .nodes
-                    .iter()
-                    .map(|&i| (i, share.map(|f| f / n)))
-                    .collect();
-            }
-        }
-    } else if let Some(pressure) = &load.pressure {
-        let tractions = Tractions::new(scene, mesh, &entry, load);
-        let surface = surface("pressure")?;
-        let (nodal, largest) = tractions.of_pressure(pressure, surface)?;
-        case.nodal = nodal;
-        case.set_size(total(&case.nodal), Magnitude::Stress);
-        case.magnitude = largest;
-    } else if let Some(traction) = &load.traction {
-        let tractions = Tractions::new(scene, mesh, &entry, load);
-        let surface = surface("traction")?;
-        let (nodal, largest) = tractions.of_vector(traction, surface)?;
-        case.nodal = nodal;
-        match traction.uniform() {
-            Some(uniform) => case.set_size(uniform, Magnitude::Stress),
-            None => {
-                case.set_size(total(&case.nodal), Magnitude::Stress);
-                case.magnitude = largest;
-            }
-        }
-    } else if let Some(k) = load.kirsch {
-        let field = KirschField {
-            stress_x: k.stress_x,
-            stress_y: k.stress_y,
-            radius: k.radius,
-        };
-        case.nodal = integrate(scene.kind, mesh, surface("kirsch")?, |point| {
-            let (x, n) = (point.position, point.normal);
-            let [sxx, syy, sxy] = field.stress(x[0], x[1]);
-            [sxx * n[0] + sxy * n[1], sxy * n[0] + syy * n[1], 0.0]
-        });
-        case.set_size([k.stress_x, k.stress_y, 0.0], Magnitude::Stress);
-        if k.stress_y == 0.0 || k.stress_x == 0.0 {
-            case.magnitude = (k.stress_x + k.stress_y).abs();
-        }
+        case.push(force.vector(), load, scene, mesh);
     } else if let Some(displacement) = &load.displacement {
         case.displace(displacement, scene, mesh).map_err(|error| {
             entry.refused(error.within(format!("load {} on `{}`", index + 1, load.on)))
@@ -290,11 +231,7 @@ fn resolve_load(
         // The nodes share one freedom: the whole force may act on any of them.
         case.nodal = vec![(case.nodes[0], force.map(|f| f / symmetry))];
     } else {
-        return Err(entry.refused(Error::input(format!(
-            "load {} on `{}`: no kind of load is given",
-            index + 1,
-            load.on
-        ))));
+        case.press((index, load), &entry, scene, mesh)?;
     }
     Ok(case)
 }
@@ -307,6 +244,82 @@ pub(super) fn name(index: usize, load: &scene::Load) -> String {
 }
 
 impl LoadCase {
+    /// Distributes a total force over a surface like a uniform traction, over a node set equally.
+    fn push(&mut self, force: Vector, load: &scene::Load, scene: &Scene, mesh: &Mesh) {
+        self.set_size(force, Magnitude::Force);
+        let share = force.map(|f| f / scene.symmetry as f64);
+        self.nodal = match mesh.surfaces.get(&load.on) {
+            Some(surface) => {
+                let area = area(scene.kind, mesh, surface);
+                integrate(scene.kind, mesh, surface, |_| share.map(|f| f / area))
+            }
+            None => {
+                let n = self.nodes.len() as f64;
+                let nodes = self.nodes.iter();
+                nodes.map(|&i| (i, share.map(|f| f / n))).collect()
+            }
+        };
+    }
+
+    /// Integrates what acts on each point of a surface: a pressure, a traction, or the tractions of
+    /// a plate with a hole.
+    fn press(
+        &mut self,
+        (index, load): (usize, &scene::Load),
+        entry: &Entry,
+        scene: &Scene,
+        mesh: &Mesh,
+    ) -> Result<()> {
+        let surface = |key: &str| {
+            mesh.surfaces.get(&load.on).ok_or_else(|| {
+                entry.refused(Error::input(format!(
+                    "load {} on `{}`: `{key}` needs a surface, this is a node set",
+                    index + 1,
+                    load.on
+                )))
+            })
+        };
+        let tractions = Tractions::new(scene, mesh, entry, load);
+        if let Some(pressure) = &load.pressure {
+            let (nodal, largest) = tractions.of_pressure(pressure, surface("pressure")?)?;
+            self.nodal = nodal;
+            self.set_size(total(&self.nodal), Magnitude::Stress);
+            self.magnitude = largest;
+        } else if let Some(traction) = &load.traction {
+            let (nodal, largest) = tractions.of_vector(traction, surface("traction")?)?;
+            self.nodal = nodal;
+            match traction.uniform() {
+                Some(uniform) => self.set_size(uniform, Magnitude::Stress),
+                None => {
+                    self.set_size(total(&self.nodal), Magnitude::Stress);
+                    self.magnitude = largest;
+                }
+            }
+        } else if let Some(k) = load.kirsch {
+            let field = KirschField {
+                stress_x: k.stress_x,
+                stress_y: k.stress_y,
+                radius: k.radius,
+            };
+            self.nodal = integrate(scene.kind, mesh, surface("kirsch")?, |point| {
+                let (x, n) = (point.position, point.normal);
+                let [sxx, syy, sxy] = field.stress(x[0], x[1]);
+                [sxx * n[0] + sxy * n[1], sxy * n[0] + syy * n[1], 0.0]
+            });
+            self.set_size([k.stress_x, k.stress_y, 0.0], Magnitude::Stress);
+            if k.stress_y == 0.0 || k.stress_x == 0.0 {
+                self.magnitude = (k.stress_x + k.stress_y).abs();
+            }
+        } else {
+            return Err(entry.refused(Error::input(format!(
+                "load {} on `{}`: no kind of load is given",
+                index + 1,
+                load.on
+            ))));
+        }
+        Ok(())
+    }
+
     /// Sets magnitude (the largest at any node) and direction (the mean) of a prescribed
     /// displacement.
     fn displace(&mut self, given: &Displacement, scene: &Scene, mesh: &Mesh) -> Result<()> {

@@ -11,24 +11,20 @@ mod matching;
 pub(super) mod mortar;
 mod only;
 mod repeated;
+mod resolver;
 mod rigid;
 mod sides;
 pub(super) mod stated;
 pub(super) mod ties;
 
-use super::given::Given;
 use super::mirror::Mirror;
-use super::names::Entry;
-use super::rigid::RigidBodies;
-use super::supports::Supports;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{self, PAIRING};
 use crate::mesh::{Curve, Mesh, Surface};
-use crate::number::exact;
-use crate::scene::{Contact, Scene, SlaveSide};
+use crate::scene::Contact;
 use crate::space::{Space, Vector, difference, direction, dot, length};
 use covered::{Covered, Pieces, extent};
-use repeated::Repeated;
+pub(super) use resolver::resolve;
 use stated::Stated;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -209,168 +205,6 @@ impl ContactInput<'_> {
             self.contact.second
         )))
     }
-}
-
-pub(super) fn resolve(
-    scene: &Scene,
-    mesh: &Mesh,
-    (given, rigid): (&Given, &RigidBodies),
-    notes: &mut Vec<String>,
-) -> Result<(Vec<Pair>, Vec<ContactSurface>)> {
-    let mut pairs: Vec<Pair> = Vec::new();
-    let mut contacts = Vec::new();
-    let mut slave_of: BTreeMap<usize, usize> = BTreeMap::new();
-    let mut repeated = Repeated::default();
-    let supports = Supports::resolve(scene, mesh)?;
-    let moved = Supports::moved(scene, mesh)?;
-    for (index, contact) in scene.contact.iter().enumerate() {
-        let is_held = |pair: &Pair| contact.held && supports.hold_along(pair.slave, pair.normal);
-        let is_moved = |pair: &Pair| moved.towards(pair.slave, pair.normal);
-        let start = pairs.len();
-        let entry = Entry::of_list(scene, "contact", index);
-        let what = format!(
-            "contact {} (`{}` on `{}`)",
-            index + 1,
-            contact.first,
-            contact.second
-        );
-        let stated = Stated::of(contact, scene, mesh);
-        let stated = stated.map_err(|error| entry.refused(error.within(&what)))?;
-        let mut entries = ContactInput {
-            index,
-            contact: contact.clone(),
-            stated: &stated,
-            surfaces: [
-                entry.surface(mesh, "first", &contact.first)?,
-                entry.surface(mesh, "second", &contact.second)?,
-            ],
-            mesh,
-            space: scene.kind,
-            is_of_deck: scene.requests.is_of_deck(),
-        };
-        let only = only::nodes(contact, (&entry, mesh), entries.surfaces)?;
-        if let Some(only) = &only {
-            entries.contact.slave = only.side;
-        }
-        let is_rigid = [&contact.first, &contact.second].map(|name| rigid.named(name));
-        let given = given.pairs.get(&index).map(Vec::as_slice);
-        let find = |entries: &ContactInput, notes: &mut Vec<String>| {
-            let mut found = match is_rigid {
-                [Some(body), _] => rigid::pairs(entries, 1, body)?,
-                [_, Some(body)] => rigid::pairs(entries, 0, body)?,
-                _ => {
-                    if given.is_none() && entries.contact.normal.is_none() {
-                        entries.check_sides()?;
-                    }
-                    let found = match matching::pairs(entries, given)? {
-                        Some(found) => found,
-                        None => mortar::pairs(entries, notes)?,
-                    };
-                    if given.is_none() {
-                        entries.check_overlap(found.slave, &found.pairs)?;
-                    }
-                    found
-                }
-            };
-            if let Some(only) = &only {
-                only.retain(&mut found, mesh)?;
-            }
-            let is_same =
-                |other: usize| held::are_same(mesh, entries.surfaces, &scene.contact[other]);
-            repeated.take_from(&mut found, &pairs, is_same);
-            let shared = |pair: &Pair| Some((pair.slave, *slave_of.get(&pair.slave)?));
-            let shared: Vec<(usize, usize)> = found.pairs.iter().filter_map(shared).collect();
-            Ok((found, shared))
-        };
-        let refused = |error: Error| entry.refused(error.within(&what));
-        entries.check_normal().map_err(refused)?;
-        let mut own_notes = Vec::new();
-        let (mut found, mut shared) = find(&entries, &mut own_notes).map_err(refused)?;
-        // Nodes that two contacts share may be slaves in only one of them. Faces that both contacts
-        // have on the same surfaces would be held twice.
-        let is_twice = |(_, other): &(usize, usize)| {
-            held::are_same(mesh, entries.surfaces, &scene.contact[*other])
-        };
-        let may_swap = entries.contact.slave == SlaveSide::Auto && !shared.iter().any(is_twice);
-        if may_swap && !shared.is_empty() {
-            entries.contact.slave = [SlaveSide::Second, SlaveSide::First][found.slave];
-            let mut other_notes = Vec::new();
-            match find(&entries, &mut other_notes) {
-                Ok((other, none)) if none.is_empty() => {
-                    (found, shared, own_notes) = (other, none, other_notes);
-                }
-                _ => {}
-            }
-        }
-        // A slave whose support carries what presses on it needs no pair; it is better as a master.
-        // A slave whose displacement is prescribed or follows others cannot be one.
-        let n_held = |found: &Found| {
-            let pairs = found.pairs.iter();
-            pairs.filter(|pair| is_held(pair) || is_moved(pair)).count()
-        };
-        if n_held(&found) > 0 && contact.slave == SlaveSide::Auto && only.is_none() {
-            entries.contact.slave = [SlaveSide::Second, SlaveSide::First][found.slave];
-            let mut other_notes = Vec::new();
-            match find(&entries, &mut other_notes) {
-                Ok((other, none)) if none.is_empty() && n_held(&other) < n_held(&found) => {
-                    (found, shared, own_notes) = (other, none, other_notes);
-                }
-                _ => {}
-            }
-        }
-        notes.append(&mut own_notes);
-        held::leave_to_supports(&mut found, is_held, (mesh, &what), notes).map_err(refused)?;
-        if let Some(&(node, other)) = shared.first() {
-            return Err(entry.refused(Error::input(format!(
-                "node {} is the slave of two contacts, {} and {} (`{}` on `{}`); a node may be \
-                 that of one: take it out of a surface, or let the other surface have the slaves \
-                 (`slave = \"{}\"`)",
-                mesh.node_label(node),
-                other + 1,
-                index + 1,
-                contact.first,
-                contact.second,
-                ["second", "first"][found.slave],
-            ))));
-        }
-        if found.pairs.is_empty() {
-            notes.push(format!(
-                "{what}: earlier contacts have all of its pairs of nodes"
-            ));
-        }
-        repeated
-            .share_areas(
-                &found.repeated,
-                &mut pairs,
-                (mesh, entries.surfaces),
-                (contact, &scene.contact),
-            )
-            .map_err(refused)?;
-        slave_of.extend(found.pairs.iter().map(|pair| (pair.slave, index)));
-        for pair in &mut found.pairs {
-            pair.take_off_round_off(mesh);
-        }
-        if contact.overlap {
-            let deepest = found.pairs.iter_mut().map(Pair::overlap_interferes);
-            let deepest = deepest.fold(0.0, f64::max);
-            if deepest > 0.0 {
-                let when = match scene.program.interference_until {
-                    Some(until) => format!("over load factors from 0 to {}", exact(until)),
-                    None => "before the load program".to_string(),
-                };
-                notes.push(format!(
-                    "{what}: the surfaces overlap by up to {deepest:.4e} in the mesh: an \
-                     interference, applied {when}"
-                ));
-            }
-        }
-        pairs.append(&mut found.pairs);
-        let mut surface = surface_of(&entries, &found, &mut pairs, start);
-        surface.is_rigid = is_rigid.iter().any(Option::is_some);
-        repeated.add(&pairs, start);
-        contacts.push(surface);
-    }
-    Ok((pairs, contacts))
 }
 
 /// Pairs found for a contact, with the choice of the slave surface.

@@ -92,8 +92,30 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
         zone_elements: choice.elements.len(),
         degree: model.mesh.degree(),
     };
-    let plastic = !choice.elements.is_empty();
+    let of_contact = seconds::of_contact(&contact);
+    let factorisation = seconds::of_factorisation(&prediction, backend) + of_contact;
+    let run = seconds::of_run(model, &sizes, &prediction, factorisation);
     let mut notes = model.warnings.clone();
+    notes.extend(notes_on_program(model));
+    notes.extend(faster_solver(model, backend));
+    notes.extend(notes_on_time(&contact, of_contact, run));
+    Ok(Check {
+        effects: effects(model, !choice.elements.is_empty(), start.as_ref()),
+        sizes,
+        prediction,
+        available_bytes: memory::available(),
+        contact,
+        predicted_seconds: factorisation,
+        predicted_run_seconds: run,
+        blas: backend.arithmetic(),
+        error_estimate: String::new(),
+        notes,
+    })
+}
+
+/// Notes on parts of the program that the prediction leaves out.
+fn notes_on_program(model: &Model) -> Vec<String> {
+    let mut notes = Vec::new();
     if model.scene.accuracy.is_some() {
         notes.push(
             "the scene demands an accuracy: a run chooses its meshes itself, the figures here are \
@@ -107,21 +129,26 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
             "the program has at most {cycles} cycles: memory is that of all, time that of one"
         ));
     }
-    let of_contact = seconds::of_contact(&contact);
-    let factorisation = seconds::of_factorisation(&prediction, backend) + of_contact;
-    let run = seconds::of_run(model, &sizes, &prediction, factorisation);
-    if backend == Backend::Cholmod
+    notes
+}
+
+/// A note on a solver that takes less time for the model.
+fn faster_solver(model: &Model, backend: Backend) -> Option<String> {
+    let is_faster = backend == Backend::Cholmod
         && Backend::Faer.is_built_in()
         && model.mesh.is_solid()
-        && sizes.freedoms >= FASTER_BY_FAER
-        && Backend::Cholmod.threads() == Some(1)
-    {
-        notes.push(
-            "on one thread the solver faer takes about a tenth less for such solids: --solver faer \
-             (on two CHOLMOD does: OPENBLAS_NUM_THREADS)"
-                .to_string(),
-        );
-    }
+        && model.freedoms.n >= FASTER_BY_FAER
+        && Backend::Cholmod.threads() == Some(1);
+    is_faster.then(|| {
+        "on one thread the solver faer takes about a tenth less for such solids: --solver faer \
+         (on two CHOLMOD does: OPENBLAS_NUM_THREADS)"
+            .to_string()
+    })
+}
+
+/// Notes on contact and on runs that take long, in seconds.
+fn notes_on_time(contact: &ContactCost, of_contact: f64, run: f64) -> Vec<String> {
+    let mut notes = Vec::new();
     if of_contact > LONG {
         notes.push(format!(
             "{} pairs are joined by bodies: the dense matrices of their contact take about \
@@ -140,18 +167,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
             (run / 60.0).ceil()
         ));
     }
-    Ok(Check {
-        effects: effects(model, plastic, start.as_ref()),
-        sizes,
-        prediction,
-        available_bytes: memory::available(),
-        contact,
-        predicted_seconds: factorisation,
-        predicted_run_seconds: run,
-        blas: backend.arithmetic(),
-        error_estimate: String::new(),
-        notes,
-    })
+    notes
 }
 
 fn effect(name: &str, on: bool, why: String) -> Effect {
@@ -337,6 +353,80 @@ fn loads_found(model: &Model) -> Effect {
     effect(LOADS_FOUND, !words.is_empty(), why)
 }
 
+fn contact(model: &Model) -> Effect {
+    let (n, surfaces) = (model.pairs.len(), model.contacts.len());
+    let why = match (n, surfaces, model.freedoms.springs.len()) {
+        (0, ..) => "the scene names no contact".to_string(),
+        (_, 1, 0) => format!("{n} pairs of nodes may touch"),
+        (_, _, 0) => format!("{n} pairs of nodes on {surfaces} pairs of surfaces may touch"),
+        (_, _, soft) => format!("{n} pairs of nodes may touch, {soft} of them softly"),
+    };
+    effect("contact", n > 0, why)
+}
+
+fn plasticity(model: &Model, yields: bool) -> Effect {
+    let bodies = model.mesh.bodies.iter().zip(&model.may_yield);
+    let able: Vec<&str> = (bodies.filter(|(_, may)| **may))
+        .map(|(name, _)| name.as_str())
+        .collect();
+    let names = able.join(", ");
+    let why = match (able.is_empty(), yields) {
+        (true, _) => "no body may yield (no yield stress, or plastic = false)".to_string(),
+        (false, true) => format!("{names} may yield and the loads reach yield"),
+        (false, false) => format!("{names} could yield but stays elastic under these loads"),
+    };
+    effect_asked_for("plasticity", !able.is_empty(), yields, why)
+}
+
+fn ties(model: &Model) -> Effect {
+    let (tied, scene) = (model.freedoms.n_tied(), &model.scene);
+    let relative = scene.load.iter().filter(|load| load.relative.is_some());
+    let why = match tied {
+        0 => "the scene ties no surfaces and has no equations".to_string(),
+        _ => format!(
+            "{tied} displacements follow others: surfaces tied {}, equations {}",
+            scene.tie.len(),
+            scene.equation.len() + relative.count()
+        ),
+    };
+    effect("ties", tied > 0, why)
+}
+
+fn interference(model: &Model) -> Effect {
+    let stated = model.pairs.iter().any(|p| p.interference != 0.0);
+    let changed: Vec<&str> = (model.loads.iter())
+        .filter(|load| load.measures == Magnitude::Gap && load.acts())
+        .map(|load| load.name.as_str())
+        .collect();
+    let why = match (stated, model.scene.program.interference_until) {
+        (true, Some(_)) => "a contact states an interference, applied with the load".to_string(),
+        (true, None) => "a contact states an interference, applied before the load".to_string(),
+        (false, _) if changed.is_empty() => "no contact states one".to_string(),
+        (false, _) => format!("{} changes gaps", changed.join(", ")),
+    };
+    effect("interference", stated || !changed.is_empty(), why)
+}
+
+fn preload(model: &Model) -> Effect {
+    let acts = |load: &LoadCase| {
+        load.measures != Magnitude::Strain && load.acts() && load.factor(0.0, 1.0) != 0.0
+    };
+    let (on, why) = match model.loads.iter().any(acts) {
+        true => (true, "a load acts at load factor 0"),
+        false => (false, "no load acts at load factor 0"),
+    };
+    effect("preload", on, why.to_string())
+}
+
+fn floating_bodies(model: &Model) -> Effect {
+    let floating = &model.floating.bodies;
+    let why = match floating.is_empty() {
+        true => "supports hold every body".to_string(),
+        false => format!("{} held by contact alone", floating.join(", ")),
+    };
+    effect("floating bodies", !floating.is_empty(), why)
+}
+
 /// The list of all effects, each on or off with the reason. `yields` tells whether the loads reach
 /// (or may reach) yield.
 pub(in crate::analysis) fn effects(
@@ -344,65 +434,10 @@ pub(in crate::analysis) fn effects(
     yields: bool,
     start: Option<&EndState>,
 ) -> Vec<Effect> {
-    let bodies = &model.mesh.bodies;
-    let able: Vec<&str> = bodies
-        .iter()
-        .zip(&model.may_yield)
-        .filter(|(_, may)| **may)
-        .map(|(name, _)| name.as_str())
-        .collect();
-    let contact = match model.pairs.len() {
-        0 => effect("contact", false, "the scene names no contact".into()),
-        n => effect(
-            "contact",
-            true,
-            match (model.contacts.len(), model.freedoms.springs.len()) {
-                (1, 0) => format!("{n} pairs of nodes may touch"),
-                (surfaces, 0) => {
-                    format!("{n} pairs of nodes on {surfaces} pairs of surfaces may touch")
-                }
-                (_, soft) => format!("{n} pairs of nodes may touch, {soft} of them softly"),
-            },
-        ),
-    };
-    let tied = model.freedoms.n_tied();
-    let plasticity = if able.is_empty() {
-        effect(
-            "plasticity",
-            false,
-            "no body may yield (no yield stress, or plastic = false)".into(),
-        )
-    } else if yields {
-        effect(
-            "plasticity",
-            true,
-            format!("{} may yield and the loads reach yield", able.join(", ")),
-        )
-    } else {
-        effect_asked_for(
-            "plasticity",
-            true,
-            false,
-            format!(
-                "{} could yield but stays elastic under these loads",
-                able.join(", ")
-            ),
-        )
-    };
-    let interference = model.pairs.iter().any(|p| p.interference != 0.0);
-    let changed: Vec<&str> = (model.loads.iter())
-        .filter(|load| load.measures == Magnitude::Gap && load.acts())
-        .map(|load| load.name.as_str())
-        .collect();
-    let floating = &model.floating.bodies;
-    let loaded = |load: &LoadCase| {
-        load.measures != Magnitude::Strain && load.acts() && load.factor(0.0, 1.0) != 0.0
-    };
-    let preload = model.loads.iter().any(loaded);
-    let on_off = |on: bool, yes: String, no: &str| if on { yes } else { no.to_string() };
+    let not_modelled = |name, why: &str| effect(name, false, format!("not modelled: {why}"));
     vec![
-        contact,
-        plasticity,
+        contact(model),
+        plasticity(model, yields),
         kinematic_hardening(model, yields),
         yield_by_depth(model, yields),
         volume_forces(model),
@@ -410,61 +445,14 @@ pub(in crate::analysis) fn effects(
         over_temperature(model),
         initial_state(model),
         earlier_run(model, start),
-        effect(
-            "ties",
-            tied > 0,
-            on_off(
-                tied > 0,
-                format!(
-                    "{tied} displacements follow others: surfaces tied {}, equations {}",
-                    model.scene.tie.len(),
-                    model.scene.equation.len()
-                ),
-                "the scene ties no surfaces and has no equations",
-            ),
-        ),
-        effect(
-            "interference",
-            interference || !changed.is_empty(),
-            match (interference, changed.is_empty()) {
-                (true, _) => match model.scene.program.interference_until {
-                    Some(_) => "a contact states an interference, applied with the load".into(),
-                    None => "a contact states an interference, applied before the load".into(),
-                },
-                (false, true) => "no contact states one".into(),
-                (false, false) => format!("{} changes gaps", changed.join(", ")),
-            },
-        ),
+        ties(model),
+        interference(model),
         prescribed_displacements(model),
         cycles(model),
         loads_found(model),
-        effect(
-            "preload",
-            preload,
-            on_off(
-                preload,
-                "a load acts at load factor 0".into(),
-                "no load acts at load factor 0",
-            ),
-        ),
-        effect(
-            "floating bodies",
-            !floating.is_empty(),
-            on_off(
-                !floating.is_empty(),
-                format!("{} held by contact alone", floating.join(", ")),
-                "supports hold every body",
-            ),
-        ),
-        effect(
-            "friction",
-            false,
-            "not modelled: contact forces are normal".into(),
-        ),
-        effect(
-            "large displacements",
-            false,
-            "not modelled: small strains, contact pairs fixed".into(),
-        ),
+        preload(model),
+        floating_bodies(model),
+        not_modelled("friction", "contact forces are normal"),
+        not_modelled("large displacements", "small strains, contact pairs fixed"),
     ]
 }

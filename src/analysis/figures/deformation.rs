@@ -9,8 +9,8 @@
 //! Small strain theory leaves the second term out. Of a stretch `|H|` it leaves out the share
 //! `|H|/2`; to a rotation `|H|` it adds the spurious strain `|H|^2/2`. Between two nodes of an
 //! element `|H|` is at least the change of their difference divided by their distance. (G. A.
-//! Holzapfel, *Nonlinear Solid Mechanics* (2000), section 2.5.) The strain and the rotation that are
-//! stated are those of the `H` that fits the corners of an element best.
+//! Holzapfel, *Nonlinear Solid Mechanics* (2000), section 2.5.) The strain and the rotation that
+//! are stated are those of the `H` that fits the corners of an element best.
 
 use crate::mesh::Mesh;
 use crate::model::Model;
