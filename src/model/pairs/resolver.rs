@@ -71,22 +71,22 @@ pub(in crate::model) fn resolve(
             rigid: names.map(|name| rigid.named(name)),
         };
         contacts.push(resolver.add(&mut one).map_err(|error| match error {
-            Unresolved::InContact(error) => refused(error),
-            Unresolved::AtEntry(error) => entry.refused(error),
+            ContactRefusal::InContact(error) => refused(error),
+            ContactRefusal::AtEntry(error) => entry.refused(error),
         })?);
     }
     Ok((resolver.pairs, contacts))
 }
 
 /// An error of a contact, and whether the message already says which contact it is.
-enum Unresolved {
+enum ContactRefusal {
     InContact(Error),
     AtEntry(Error),
 }
 
-impl From<Error> for Unresolved {
+impl From<Error> for ContactRefusal {
     fn from(error: Error) -> Self {
-        Unresolved::InContact(error)
+        ContactRefusal::InContact(error)
     }
 }
 
@@ -116,7 +116,7 @@ struct OneContact<'c> {
 }
 
 /// Pairs of a contact for a choice of the slave.
-struct Attempt {
+struct SlaveChoice {
     found: Found,
     /// Slaves that are those of another contact, with its number.
     shared: Vec<(usize, usize)>,
@@ -130,19 +130,21 @@ fn is_held(supports: &Supports, contact: &Contact, pair: &Pair) -> bool {
 
 impl Resolver<'_, '_> {
     /// Finds the pairs of a contact and adds them.
-    fn add(&mut self, one: &mut OneContact) -> std::result::Result<ContactSurface, Unresolved> {
+    fn add(&mut self, one: &mut OneContact) -> std::result::Result<ContactSurface, ContactRefusal> {
         one.input.check_normal()?;
         let mut attempt = self.attempt(one)?;
         self.try_other_slave(one, &mut attempt);
         self.notes.append(&mut attempt.notes);
-        let Attempt {
+        let SlaveChoice {
             mut found, shared, ..
         } = attempt;
         let supports = &self.supports;
         let is_held = |pair: &Pair| is_held(supports, one.contact, pair);
         held::leave_to_supports(&mut found, is_held, (self.mesh, &one.what), self.notes)?;
         if let Some(&shared) = shared.first() {
-            return Err(Unresolved::AtEntry(self.slave_of_two(one, &found, shared)));
+            return Err(ContactRefusal::AtEntry(
+                self.slave_of_two(one, &found, shared),
+            ));
         }
         if found.pairs.is_empty() {
             let what = &one.what;
@@ -173,7 +175,7 @@ impl Resolver<'_, '_> {
     }
 
     /// Finds the pairs of a contact for the choice of the slave in its input.
-    fn attempt(&self, one: &OneContact) -> Result<Attempt> {
+    fn attempt(&self, one: &OneContact) -> Result<SlaveChoice> {
         let (input, mut notes) = (&one.input, Vec::new());
         let mut found = match one.rigid {
             [Some(body), _] => rigid::pairs(input, 1, body)?,
@@ -198,7 +200,7 @@ impl Resolver<'_, '_> {
         let is_same = |other: usize| self.are_same(input, other);
         self.repeated.take_from(&mut found, &self.pairs, is_same);
         let shared = |pair: &Pair| Some((pair.slave, *self.slave_of.get(&pair.slave)?));
-        Ok(Attempt {
+        Ok(SlaveChoice {
             shared: found.pairs.iter().filter_map(shared).collect(),
             found,
             notes,
@@ -206,7 +208,7 @@ impl Resolver<'_, '_> {
     }
 
     /// Makes the other surface the slave if the scene leaves the choice open and that is better.
-    fn try_other_slave(&self, one: &mut OneContact, attempt: &mut Attempt) {
+    fn try_other_slave(&self, one: &mut OneContact, attempt: &mut SlaveChoice) {
         if one.input.contact.slave != SlaveSide::Auto {
             return;
         }
@@ -236,7 +238,7 @@ impl Resolver<'_, '_> {
     fn swap(
         &self,
         one: &mut OneContact,
-        attempt: &mut Attempt,
+        attempt: &mut SlaveChoice,
         is_better: impl Fn(&Found) -> bool,
     ) {
         one.input.contact.slave = [SlaveSide::Second, SlaveSide::First][attempt.found.slave];
