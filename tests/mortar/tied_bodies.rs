@@ -6,7 +6,7 @@ use crate::mortar::tie::{aim, tied};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::State;
-use brinell::scene::{Direction, Kind, SlaveSide, Tie};
+use brinell::scene::{Contact, Direction, Kind, SlaveSide, Tie};
 
 /// A tube of two rings that are meshed apart.
 fn tube(
@@ -155,6 +155,14 @@ fn apart(gap: f64) -> ModelBuilder {
     builder
 }
 
+fn refused(builder: &ModelBuilder, expected: &[&str]) {
+    let error = builder.build().map(|_| ()).unwrap_err();
+    assert_eq!(error.kind(), brinell::ErrorKind::Input);
+    for expected in expected {
+        assert!(error.to_string().contains(expected), "{error}\n{expected}");
+    }
+}
+
 fn same(a: &State, b: &State) {
     let [a, b] = [a, b].map(|state| &state.fields.as_ref().unwrap().displacement);
     let size = a.iter().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -217,6 +225,46 @@ fn a_contact_ends_at_a_tie() {
     }
 }
 
+/// Only the chosen nodes touch, on surfaces that do not match: the whole load goes through them.
+#[test]
+fn only_some_nodes_touch() {
+    let chosen = |nodes: &[usize], slave: SlaveSide| {
+        let mut builder = apart(0.0);
+        // What the supports of the lower body hold sideways is held here.
+        held(&mut builder, "upper.left", Direction::X);
+        builder.node_set("chosen", nodes).unwrap();
+        builder.contact(Contact {
+            first: "lower.top".into(),
+            second: "upper.bottom".into(),
+            slave,
+            nodes: Some("chosen".into()),
+            ..Contact::default()
+        });
+        builder
+    };
+    let bottom: Vec<usize> = (apart(0.0).set_nodes("upper.bottom").iter())
+        .map(|(node, _)| *node)
+        .collect();
+    assert_eq!(bottom.len(), 5);
+    for nodes in [&bottom[2..3], &bottom[1..4], &[bottom[0], bottom[4]][..]] {
+        let builder = chosen(nodes, SlaveSide::Auto);
+        let model = builder.build().unwrap();
+        let slaves: Vec<usize> = model.pairs.iter().map(|pair| pair.slave).collect();
+        assert_eq!(slaves.len(), nodes.len());
+        assert!(slaves.iter().all(|node| nodes.contains(node)));
+        let force = run(&builder).states[0].contact_force;
+        assert!((force - 1.0).abs() < 1e-12, "{force}");
+    }
+    refused(
+        &chosen(&bottom[2..3], SlaveSide::First),
+        &["is not on `lower.top`"],
+    );
+    refused(
+        &chosen(&[0], SlaveSide::Auto),
+        &["nodes = \"chosen\"", "node 0"],
+    );
+}
+
 /// Nodes that nothing pushes and nothing holds bear no force, also where one surface follows the
 /// other: what it would bear is handed on, not written twice.
 #[test]
@@ -245,13 +293,6 @@ fn the_forces_of_a_tie_are_in_balance() {
 
 #[test]
 fn what_cannot_be_tied_is_named() {
-    let refused = |builder: &ModelBuilder, expected: &[&str]| {
-        let error = builder.build().map(|_| ()).unwrap_err();
-        assert_eq!(error.kind(), brinell::ErrorKind::Input);
-        for expected in expected {
-            assert!(error.to_string().contains(expected), "{error}\n{expected}");
-        }
-    };
     let tie = |builder: &mut ModelBuilder, slave| {
         tied(builder, "upper.bottom", "lower.top", slave);
     };

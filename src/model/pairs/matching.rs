@@ -7,9 +7,55 @@ use crate::error::{Error, Result};
 use crate::mesh::surface::{PAIRING, facing, longest_facet, nodes, normals};
 use crate::mesh::{Mesh, Surface};
 use crate::model::given::{NodePair, Partner, partners};
-use crate::scene::SlaveSide;
+use crate::scene::{Contact, SlaveSide};
 use crate::space::{Vector, difference, direction, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Finds the master node that each slave node faces along its normal.
+fn faced(
+    mesh: &Mesh,
+    [masters, slaves]: [&[usize]; 2],
+    normals: &[Vector],
+    tolerance: f64,
+) -> Vec<Option<Partner>> {
+    let near = Balls::new(masters.iter().map(|&n| (mesh.point(n), 0.0)).collect());
+    let partner = |(&node, &normal): (&usize, &Vector)| {
+        let x = mesh.point(node);
+        let places = near.near(x, normal, tolerance);
+        let nodes: Vec<usize> = places.iter().map(|&k| masters[k]).collect();
+        let at = facing(mesh, x, normal, &nodes, tolerance)?;
+        Some(Partner {
+            first: places[at],
+            normal,
+            gap: None,
+        })
+    };
+    slaves.iter().zip(normals).map(partner).collect()
+}
+
+/// Refuses pairs of a node with itself, and pairs that overlap though the contact does not say so.
+fn check(mesh: &Mesh, contact: &Contact, pairs: &[Pair], facet_length: f64) -> Result<()> {
+    let may_overlap = contact.overlap || contact.gap.is_some();
+    for pair in pairs {
+        let faced = pair.masters[0].0;
+        if faced == pair.slave {
+            return Err(Error::input(format!(
+                "node {} is on both surfaces; the bodies must not share nodes where they touch",
+                mesh.node_label(faced)
+            )));
+        }
+        if pair.gap < -1e-9 * facet_length && !may_overlap {
+            return Err(Error::input(format!(
+                "nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or say \
+                 `overlap = true` where that is an interference",
+                mesh.node_label(faced),
+                mesh.node_label(pair.slave),
+                -pair.gap
+            )));
+        }
+    }
+    Ok(())
+}
 
 /// Finds the pairs of a contact whose nodes face each other or are given; `None` if they do not.
 ///
@@ -37,21 +83,7 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
             let nodes = [&*master_nodes, &*slave_nodes];
             partners(given, mesh, names, nodes, &normal)?
         }
-        None => {
-            let near = Balls::new(master_nodes.iter().map(|&n| (mesh.point(n), 0.0)).collect());
-            let faced = |(&node, &normal): (&usize, &Vector)| {
-                let x = mesh.point(node);
-                let places = near.near(x, normal, tolerance);
-                let nodes: Vec<usize> = places.iter().map(|&k| master_nodes[k]).collect();
-                let at = facing(mesh, x, normal, &nodes, tolerance)?;
-                Some(Partner {
-                    first: places[at],
-                    normal,
-                    gap: None,
-                })
-            };
-            slave_nodes.iter().zip(&normal).map(faced).collect()
-        }
+        None => faced(mesh, [&master_nodes, &slave_nodes], &normal, tolerance),
     };
 
     // Beyond the end of the shorter surface there is nothing to press on, but given pairs are kept
@@ -109,25 +141,7 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
             "no pair of nodes is given; name some, or leave them out to have the surfaces paired",
         ));
     }
-    for pair in &pairs {
-        let faced = pair.masters[0].0;
-        if faced == pair.slave {
-            return Err(Error::input(format!(
-                "node {} is on both surfaces; the bodies must not share nodes where they touch",
-                mesh.node_label(faced)
-            )));
-        }
-        let may_overlap = contact.overlap || contact.gap.is_some();
-        if pair.gap < -1e-9 * facet_length && !may_overlap {
-            return Err(Error::input(format!(
-                "nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or say \
-                 `overlap = true` where that is an interference",
-                mesh.node_label(faced),
-                mesh.node_label(pair.slave),
-                -pair.gap
-            )));
-        }
-    }
+    check(mesh, contact, &pairs, facet_length)?;
     Ok(Some(Found {
         pairs,
         slave,
