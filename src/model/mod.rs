@@ -12,6 +12,7 @@ mod depth;
 mod ends;
 mod equations;
 mod far_boundary;
+mod fitness;
 mod followers;
 mod frame;
 mod freedoms;
@@ -58,10 +59,8 @@ use crate::deck::words;
 use crate::error::{Error, Result};
 use crate::material::Material;
 use crate::mesh::{self, Mesh};
-use crate::number::significant;
 use crate::results::EndState;
 use crate::scene::{Plastic, Scene};
-use crate::shape::Integration;
 use crate::space::Vector;
 pub(crate) use far_boundary::volumes_of_nodes;
 use given::Given;
@@ -69,7 +68,6 @@ pub(crate) use mirror::Mirror;
 use names::Entry;
 use rayon::prelude::*;
 pub(crate) use recipe::Recipe;
-use rigid::RigidBodies;
 use std::ops::Deref;
 
 /// A model ready to be assembled.
@@ -187,25 +185,21 @@ impl Model {
             Origin::Scene => &none,
             Origin::Arrays(given) => given,
         };
-        mesh.name_parts(scene.set_names());
-        mesh.integration = integration(scene, &mesh);
-        mesh::validate(&mesh).map_err(|error| match (&origin, &scene.mesh.file) {
-            (Origin::Scene, Some(file)) => error.within(file.display()),
-            _ => error,
-        })?;
         let kind = scene.kind;
-        check_dimension(scene, &mesh)?;
-        check_places(scene, &mesh)?;
-        let rigid = RigidBodies::add(scene, &mut mesh)?;
+        let file = match origin {
+            Origin::Scene => scene.mesh.file.as_deref(),
+            Origin::Arrays(_) => None,
+        };
+        let rigid = fitness::prepare(scene, &mut mesh, file)?;
         let mut warnings = scene.warnings.clone();
         warnings.extend(std::mem::take(&mut mesh.notes));
         warnings.extend(scene.beyond_rows());
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
         warnings.extend(plausible::of_materials(scene));
-        warn_of_locking(&mesh, &may_yield, &mut warnings);
+        fitness::warn_of_locking(&mesh, &may_yield, &mut warnings);
         warnings.extend(mesh::warning_of_folds(&mesh));
         if kind.is_axisymmetric() {
-            check_radii(&mesh)?;
+            fitness::check_radii(&mesh)?;
         }
         let (mut pairs, mut contacts) =
             pairs::resolve(scene, &mesh, (given, &rigid), &mut warnings)?;
@@ -221,17 +215,7 @@ impl Model {
             &normals,
             (&ties, &equations, &rigid),
         )?;
-        let before = mesh.coordinates.clone();
-        if freedoms.settle(&mut mesh, &followers)?
-            && let Err(error) = mesh::validate(&mesh)
-        {
-            mesh.coordinates = before;
-            warnings.push(format!(
-                "tied nodes stay where they are, and bodies that turn together strain a little: \
-                 moved onto what they follow, {}",
-                error.message()
-            ));
-        }
+        warnings.extend(settle(&mut mesh, &mut freedoms, &followers)?);
         freedoms.basis.restate(&mut pairs, &contacts);
         let stated = (&mut pairs[..], &contacts[..]);
         pairs::stated::at_control_points(scene, &mesh, &freedoms.basis, stated)?;
@@ -411,84 +395,26 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
     Ok((materials, may_yield))
 }
 
-/// Integration of each body; empty if all bodies have reduced integration.
-fn integration(scene: &Scene, mesh: &Mesh) -> Vec<Integration> {
-    let of = |name: &String| scene.bodies.get(name).map(|body| body.integration);
-    let of_bodies = mesh.bodies.iter().map(|name| of(name).unwrap_or_default());
-    let all: Vec<Integration> = of_bodies.collect();
-    match all.contains(&Integration::Full) {
-        true => all,
-        false => Vec::new(),
+/// Moves tied nodes onto what they follow, unless that would damage the mesh: then they stay where
+/// they are, which the returned warning says.
+///
+/// # Errors
+/// Ties and equations that form a circle.
+fn settle(
+    mesh: &mut Mesh,
+    freedoms: &mut Freedoms,
+    followers: &followers::Followers,
+) -> Result<Option<String>> {
+    let before = mesh.coordinates.clone();
+    if !freedoms.settle(mesh, followers)? {
+        return Ok(None);
     }
-}
-
-fn warn_of_locking(mesh: &Mesh, may_yield: &[bool], warnings: &mut Vec<String>) {
-    let locks = (0..mesh.n_elements())
-        .filter(|&e| {
-            mesh.shapes[e].has_constant_strain() && may_yield[mesh.element_body[e] as usize]
-        })
-        .count();
-    if locks > 0 {
-        warnings.push(format!(
-            "{locks} {} elements belong to bodies that may yield: they lock in isochoric plastic \
-             flow, limit loads come out too high; use {}",
-            if mesh.is_solid() { "tet4" } else { "tri3" },
-            if mesh.is_solid() {
-                "hex8, hex20 or tet10"
-            } else {
-                "quad4, quad8 or tri6"
-            },
-        ));
-    }
-}
-
-/// Refuses a plane mesh in a solid scene, or the reverse.
-fn check_dimension(scene: &Scene, mesh: &Mesh) -> Result<()> {
-    if mesh.dimension == scene.kind.dimension() {
-        return Ok(());
-    }
-    let (is, take) = match mesh.is_solid() {
-        true => ("three-dimensional", "\"solid\""),
-        false => (
-            "plane",
-            "\"plane_strain\", \"plane_stress\" or \"axisymmetric\"",
-        ),
-    };
-    let error = Error::input(format!(
-        "the mesh is {is}, kind = \"{}\" is not: take {take}, or another mesh",
-        scene.kind.name()
-    ));
-    Err(scene.places.in_front("kind", error))
-}
-
-/// Refuses a reference for a point that lies in no element.
-fn check_places(scene: &Scene, mesh: &Mesh) -> Result<()> {
-    for (index, entry) in scene.reference.iter().enumerate() {
-        let Some(place) = entry.place() else { continue };
-        let Some(near) = mesh.nearest_node(entry.body.as_deref(), place) else {
-            continue;
-        };
-        if near.distance > near.edge {
-            let [away, edge] = [near.distance, near.edge].map(|size| significant(size, 4));
-            let (node, at) = (mesh.node_label(near.node), mesh.place(near.node));
-            let key = format!("reference.{index}.at");
-            let error = Error::input(format!(
-                "{key}: the nearest node, {node} at {at}, is {away} away, more than an element is \
-                 long there ({edge}): give a place of the mesh"
-            ));
-            return Err(scene.places.in_front(&key, error));
-        }
-    }
-    Ok(())
-}
-
-fn check_radii(mesh: &Mesh) -> Result<()> {
-    match (0..mesh.n_nodes()).find(|&node| mesh.point(node)[0] < 0.0) {
-        Some(node) => Err(Error::input(format!(
-            "node {} lies at negative radius {}: an axisymmetric model needs x = r >= 0",
-            mesh.node_label(node),
-            mesh.point(node)[0]
-        ))),
-        None => Ok(()),
-    }
+    Ok(mesh::validate(mesh).err().map(|error| {
+        mesh.coordinates = before;
+        format!(
+            "tied nodes stay where they are, and bodies that turn together strain a little: moved \
+             onto what they follow, {}",
+            error.message()
+        )
+    }))
 }
