@@ -1,15 +1,28 @@
-//! Displacements that a deck prescribes along axes of a `*TRANSFORM`.
+//! Displacements along axes of a `*TRANSFORM` that a deck prescribes, or lets follow others.
 
 use super::super::history::{Entry, Map};
+use super::super::linear::Terms;
 use super::super::series::Series;
+use super::super::source::Place;
 use super::Draft;
 use crate::scene::{Direction, EquationTerm};
 use crate::space::{Vector, along};
+use std::collections::BTreeMap;
 
 /// Largest component of a unit vector that counts as round-off, after the sums of an elimination.
 const ROUND_OFF: f64 = 1e-12;
 
-/// The condition `v . u = sum_k b_k d_k` on a node's displacement `u`, with values `d_k` over time.
+/// What the displacement of a node along one of its axes is: a sum of other displacements, and a
+/// value over time.
+pub(super) struct AlongAxis {
+    pub(super) axis: Vector,
+    pub(super) of: Terms,
+    pub(super) moved: Series,
+    pub(super) place: Place,
+}
+
+/// The condition `v . u = sum_k b_k d_k` on a node's displacement `u`, with what it is along its
+/// axes, `d_k`.
 #[derive(Clone)]
 struct KnownAlong {
     direction: Vector,
@@ -18,51 +31,29 @@ struct KnownAlong {
 
 impl Draft<'_> {
     /// Prescribes the displacement of a node along some of its own axes, by Gaussian elimination:
-    /// a component along x, y or z is either known then, or follows the others.
+    /// a component along x, y or z is either known then, or follows others.
     pub(super) fn move_along(
         &mut self,
         node: u32,
-        known: Vec<(Vector, Entry)>,
+        known: &[AlongAxis],
+        axes: &BTreeMap<u32, [Vector; 3]>,
         boundary: &mut Map,
     ) {
-        let n = known.len();
-        let mut rows: Vec<KnownAlong> = (known.iter().enumerate())
-            .map(|(k, (direction, _))| KnownAlong {
-                direction: *direction,
-                shares: (0..n).map(|of| f64::from(u8::from(of == k))).collect(),
-            })
-            .collect();
-        let mut pivots: Vec<usize> = Vec::new();
-        for k in 0..n {
-            let size = |axis: &usize| rows[k].direction[*axis].abs();
-            let free = (0..3).filter(|axis| !pivots.contains(axis));
-            let Some(pivot) = free.max_by(|a, b| size(a).total_cmp(&size(b)).then(b.cmp(a))) else {
-                return;
-            };
-            let scale = 1.0 / rows[k].direction[pivot];
-            rows[k].direction = rows[k].direction.map(|x| scale * x);
-            rows[k].shares.iter_mut().for_each(|b| *b *= scale);
-            let own = rows[k].clone();
-            for (_, row) in rows.iter_mut().enumerate().filter(|(other, _)| *other != k) {
-                let factor = row.direction[pivot];
-                row.direction = along(row.direction, -factor, own.direction);
-                row.direction[pivot] = 0.0;
-                for (b, own) in row.shares.iter_mut().zip(&own.shares) {
-                    *b -= factor * own;
-                }
-            }
-            pivots.push(pivot);
-        }
-        for ((row, pivot), (_, entry)) in rows.into_iter().zip(pivots).zip(&known) {
+        for (row, pivot, place) in eliminated(known) {
             let mut moved = Series::starting(0.0);
-            for ((_, entry), share) in known.iter().zip(&row.shares) {
-                moved.add(&entry.series, *share);
+            let mut of = Terms::new();
+            for (known, share) in known.iter().zip(&row.shares) {
+                moved.add(&known.moved, *share);
+                for (key, c) in &known.of {
+                    *of.entry(*key).or_default() += share * c;
+                }
             }
             let free =
                 (0..3).filter(|&axis| axis != pivot && row.direction[axis].abs() > ROUND_OFF);
-            let free: Vec<usize> = free.collect();
-            if free.is_empty() {
-                boundary.insert((node, pivot as u8), Entry::new(moved, entry.place));
+            let own: Vec<usize> = std::iter::once(pivot).chain(free).collect();
+            of.retain(|_, c| *c != 0.0);
+            if own.len() == 1 && of.is_empty() {
+                boundary.insert((node, pivot as u8), Entry::new(moved, place));
                 continue;
             }
             let on = self.set_of_node(node);
@@ -71,8 +62,46 @@ impl Draft<'_> {
                 direction: Direction::ALL[axis],
                 coefficient: -row.direction[axis],
             };
-            let terms = std::iter::once(pivot).chain(free).map(term).collect();
-            self.relate(terms, moved, entry.place);
+            let mut terms: Vec<EquationTerm> = own.into_iter().map(term).collect();
+            for (key, c) in of {
+                terms.extend(self.components_of(key, c, axes));
+            }
+            self.relate(terms, moved, place);
         }
     }
+}
+
+/// The conditions on the components of a displacement, each with its pivot and its place.
+fn eliminated(known: &[AlongAxis]) -> Vec<(KnownAlong, usize, Place)> {
+    let n = known.len();
+    let mut rows: Vec<KnownAlong> = (known.iter().enumerate())
+        .map(|(k, known)| KnownAlong {
+            direction: known.axis,
+            shares: (0..n).map(|of| f64::from(u8::from(of == k))).collect(),
+        })
+        .collect();
+    let mut pivots: Vec<usize> = Vec::new();
+    for k in 0..n {
+        let size = |axis: &usize| rows[k].direction[*axis].abs();
+        let free = (0..3).filter(|axis| !pivots.contains(axis));
+        let Some(pivot) = free.max_by(|a, b| size(a).total_cmp(&size(b)).then(b.cmp(a))) else {
+            break;
+        };
+        let scale = 1.0 / rows[k].direction[pivot];
+        rows[k].direction = rows[k].direction.map(|x| scale * x);
+        rows[k].shares.iter_mut().for_each(|b| *b *= scale);
+        let own = rows[k].clone();
+        for (_, row) in rows.iter_mut().enumerate().filter(|(other, _)| *other != k) {
+            let factor = row.direction[pivot];
+            row.direction = along(row.direction, -factor, own.direction);
+            row.direction[pivot] = 0.0;
+            for (b, own) in row.shares.iter_mut().zip(&own.shares) {
+                *b -= factor * own;
+            }
+        }
+        pivots.push(pivot);
+    }
+    let rows = rows.into_iter().zip(pivots).zip(known);
+    rows.map(|((row, pivot), known)| (row, pivot, known.place))
+        .collect()
 }

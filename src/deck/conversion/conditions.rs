@@ -7,9 +7,11 @@
 use super::super::data::{Condition, Kind, Target};
 use super::super::facets::Face;
 use super::super::history::{Key, Map};
+use super::super::linear::Terms;
 use super::super::series::Series;
 use super::super::source::Place;
 use super::Draft;
+use super::along_axes::AlongAxis;
 use crate::error::Result;
 use crate::scene::{Displacement, Load, Support};
 use crate::space::Vector;
@@ -233,10 +235,8 @@ impl Draft<'_> {
         let is_moved = |key: &Key| !boundary[key].series.is_zero() && self.geometry.uses(key.0);
         let moved: BTreeSet<u32> = turned.iter().filter(|k| is_moved(k)).map(|k| k.0).collect();
         for &node in &moved {
-            let own = axes[&node];
-            let of_axis = |axis: u8| Some((own[axis as usize], boundary.remove(&(node, axis))?));
-            let known = (0..3).filter_map(of_axis).collect();
-            self.move_along(node, known, boundary);
+            let known: Vec<AlongAxis> = take_known(node, &axes[&node], boundary).collect();
+            self.move_along(node, &known, &axes, boundary);
         }
         for key in turned.into_iter().filter(|key| !moved.contains(&key.0)) {
             let Some(entry) = boundary.remove(&key) else {
@@ -281,6 +281,24 @@ impl Draft<'_> {
         }
         Ok(())
     }
+}
+
+/// What is prescribed along the axes of a node, which is taken from the map.
+pub(super) fn take_known<'m>(
+    node: u32,
+    axes: &[Vector; 3],
+    boundary: &'m mut Map,
+) -> impl Iterator<Item = AlongAxis> + use<'m> {
+    let axes = *axes;
+    (0..3u8).filter_map(move |axis| {
+        let entry = boundary.remove(&(node, axis))?;
+        Some(AlongAxis {
+            axis: axes[axis as usize],
+            of: Terms::new(),
+            moved: entry.series,
+            place: entry.place,
+        })
+    })
 }
 
 /// The name of a set that is made for a line of the deck.

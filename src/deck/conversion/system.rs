@@ -10,6 +10,8 @@ use super::super::series::Series;
 use super::super::sets::What;
 use super::super::source::Place;
 use super::Draft;
+use super::along_axes::AlongAxis;
+use super::conditions::take_known;
 use crate::error::Result;
 use crate::scene::{self, Direction, EquationTerm, Load, Relative};
 use crate::space::Vector;
@@ -69,8 +71,27 @@ impl Draft<'_> {
         self.move_forces(&reduced, &of_rows, boundary, forces)?;
         self.check_known(&reduced.known, boundary)?;
         let known = boundary.clone();
+        // A displacement along an axis of its node is combined with all others of the node.
+        let is_known = |follows: &Follows| follows.of.keys().all(|key| known.contains_key(key));
+        let mut turned: BTreeMap<u32, Vec<&Follows>> = BTreeMap::new();
         for follows in &reduced.others {
-            self.follow(follows, &known, boundary, &axes)?;
+            match axes.contains_key(&follows.key.0) && !is_known(follows) {
+                true => turned.entry(follows.key.0).or_default().push(follows),
+                false => self.follow(follows, &known, boundary, &axes)?,
+            }
+        }
+        for (node, of_node) in turned {
+            let mut along: Vec<AlongAxis> = take_known(node, &axes[&node], boundary).collect();
+            for follows in of_node {
+                let (of, moved) = self.apart_from_loose(follows, &known);
+                along.push(AlongAxis {
+                    axis: axes[&node][follows.key.1 as usize],
+                    of,
+                    moved,
+                    place: follows.place,
+                });
+            }
+            self.move_along(node, &along, &axes, boundary);
         }
         let is_loose = |key: &Key| !self.geometry.uses(key.0);
         boundary.retain(|key, _| !(is_loose(key) && of_rows.contains(key)));
@@ -223,30 +244,44 @@ impl Draft<'_> {
             boundary.insert(follows.key, Entry::new(series, follows.place));
             return Ok(());
         }
-        let (loose, of): (Terms, Terms) =
-            (follows.of.iter()).partition(|(key, _)| !self.geometry.uses(key.0));
-        let moved = series_of(&loose, known);
+        let (of, moved) = self.apart_from_loose(follows, known);
         let all = std::iter::once((follows.key, -1.0)).chain(of);
         let mut terms = Vec::new();
-        for ((node, axis), coefficient) in all {
-            let own = axes.get(&node).unwrap_or(&GLOBAL)[axis as usize];
-            let mut parts: Vec<(usize, f64)> = own
-                .map(|x| coefficient * x)
-                .into_iter()
-                .enumerate()
-                .collect();
-            parts.retain(|(_, c)| c.abs() > ROUND_OFF * coefficient.abs());
-            // The largest term comes first, because the first displacement follows the others.
-            parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-            let on = self.set_of_node(node);
-            terms.extend(parts.into_iter().map(|(axis, coefficient)| EquationTerm {
-                on: on.clone(),
-                direction: Direction::ALL[axis],
-                coefficient,
-            }));
+        for (key, coefficient) in all {
+            terms.extend(self.components_of(key, coefficient, axes));
         }
         self.relate(terms, moved, follows.place);
         Ok(())
+    }
+
+    /// The displacements of nodes with elements that a displacement follows, and the part that
+    /// nodes without elements prescribe.
+    fn apart_from_loose(&self, follows: &Follows, known: &Map) -> (Terms, Series) {
+        let (loose, of): (Terms, Terms) =
+            (follows.of.iter()).partition(|(key, _)| !self.geometry.uses(key.0));
+        (of, series_of(&loose, known))
+    }
+
+    /// The terms along x, y and z of a displacement along an axis of its node; the largest comes
+    /// first.
+    pub(super) fn components_of(
+        &mut self,
+        (node, axis): Key,
+        coefficient: f64,
+        axes: &BTreeMap<u32, [Vector; 3]>,
+    ) -> Vec<EquationTerm> {
+        let own = axes.get(&node).unwrap_or(&GLOBAL)[axis as usize];
+        let parts = own.map(|x| coefficient * x).into_iter().enumerate();
+        let mut parts: Vec<(usize, f64)> = parts.collect();
+        parts.retain(|(_, c)| c.abs() > ROUND_OFF * coefficient.abs());
+        parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        let on = self.set_of_node(node);
+        let term = |(axis, coefficient): (usize, f64)| EquationTerm {
+            on: on.clone(),
+            direction: Direction::ALL[axis],
+            coefficient,
+        };
+        parts.into_iter().map(term).collect()
     }
 
     /// Adds the equation that a sum of terms and a value over time is zero. If the value is not, it
