@@ -20,6 +20,14 @@ fn corners(nodes: &[u32], shape: Shape, local: usize) -> FaceCorners {
     out
 }
 
+/// How many corners and nodes of a face are among given ones.
+struct NodesGiven {
+    corners: usize,
+    n_corners: usize,
+    nodes: usize,
+    n_nodes: usize,
+}
+
 impl Deck {
     /// The faces of the given elements that belong to no other element of the deck.
     pub(super) fn free_faces_of(&self, elements: &[u32]) -> Vec<Face> {
@@ -34,20 +42,25 @@ impl Deck {
     /// The faces all of whose corners are among the given nodes and that belong to a single
     /// element.
     pub(super) fn free_faces_among(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
-        self.free_faces(nodes, |given, all| given == all)
+        self.free_faces(nodes, |given| given.corners == given.n_corners)
     }
 
-    /// The faces any of whose corners is among the given nodes and that belong to a single element.
+    /// The faces all of whose nodes, those between corners too, are among the given nodes and that
+    /// belong to a single element.
+    pub(super) fn whole_free_faces_among(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
+        self.free_faces(nodes, |given| given.nodes == given.n_nodes)
+    }
+
+    /// The faces any of whose nodes is among the given nodes and that belong to a single element.
     pub(super) fn free_faces_at(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
-        self.free_faces(nodes, |given, _| given > 0)
+        self.free_faces(nodes, |given| given.nodes > 0)
     }
 
-    /// The faces that belong to a single element, chosen by how many of their corners are among the
-    /// given nodes, and how many they have.
+    /// The faces that belong to a single element, chosen by how many of their nodes are given.
     fn free_faces(
         &self,
         nodes: impl IntoIterator<Item = u32>,
-        is_chosen: impl Fn(usize, usize) -> bool,
+        is_chosen: impl Fn(NodesGiven) -> bool,
     ) -> Vec<Face> {
         let mut marked = vec![false; self.n_nodes()];
         nodes
@@ -59,9 +72,19 @@ impl Deck {
             let shape = self.elements.types[element].shape;
             for local in 0..shape.n_facets() {
                 let corners = corners(nodes, shape, local);
-                let own = corners.iter().filter(|node| **node != u32::MAX);
-                let given = own.clone().filter(|node| marked[**node as usize]);
-                if is_chosen(given.count(), own.count()) {
+                let facet = shape.facet(local);
+                let n_corners = shape.facet_reference(local).n_corners;
+                let n_given = |own: &[usize]| {
+                    let given = own.iter().filter(|&&k| marked[nodes[k] as usize]);
+                    given.count()
+                };
+                let given = NodesGiven {
+                    corners: n_given(&facet[..n_corners]),
+                    n_corners,
+                    nodes: n_given(facet),
+                    n_nodes: facet.len(),
+                };
+                if is_chosen(given) {
                     let new = ((element as u32, local as u8), 0);
                     found.entry(corners).or_insert(new).1 += 1;
                 }

@@ -52,7 +52,7 @@ impl Deck {
         }
         nodes.sort_unstable();
         nodes.dedup();
-        let of_faces = self.nodes_of(&self.free_faces_among(nodes.iter().copied()));
+        let of_faces = self.nodes_of(&self.whole_free_faces_among(nodes.iter().copied()));
         let is_in = |of: &[u32], node: &u32| of.binary_search(node).is_ok();
         if nodes.iter().all(|node| is_in(&of_faces, node)) {
             return Ok(None);

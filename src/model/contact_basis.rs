@@ -66,6 +66,9 @@ impl ContactBasis {
                 surface.map(|s| middles(mesh, s)).unwrap_or_default()
             });
             let pairs = &pairs[contact.range.clone()];
+            if contact.is_partial {
+                continue;
+            }
             if pairs.iter().any(|pair| pair.faced().is_none()) {
                 basis.ends.extend(slaves);
                 continue;
@@ -88,7 +91,16 @@ impl ContactBasis {
                 basis.ends.insert(faced, opposite);
             }
         }
-        Ok(basis)
+        let single = contacts.iter().filter(|contact| contact.is_partial);
+        let mut single = single.flat_map(|contact| &pairs[contact.range.clone()]);
+        match single.find(|pair| basis.ends(pair.slave).is_some()) {
+            None => Ok(basis),
+            Some(pair) => Err(Error::input(format!(
+                "node {}, the middle of an edge, touches alone, and the edge is in another contact \
+                 or tied: take it out of one of them",
+                mesh.node_label(pair.slave)
+            ))),
+        }
     }
 
     /// Whether all control points coincide with nodes.
@@ -108,6 +120,11 @@ impl ContactBasis {
     /// All middle nodes with the ends of their edges.
     pub fn edges(&self) -> impl Iterator<Item = (usize, [usize; 2])> + '_ {
         self.ends.iter().map(|(&node, &ends)| (node, ends))
+    }
+
+    /// Weight of a node's own control point in the displacement of the node.
+    pub(super) fn own_weight(&self, node: usize) -> f64 {
+        if self.ends(node).is_some() { OWN } else { 1.0 }
     }
 
     /// Calls `of` with each control point, and its weight, in the displacement of a node.
@@ -196,7 +213,8 @@ impl ContactBasis {
         }
         for contact in contacts {
             let pairs = &mut pairs[contact.range.clone()];
-            if contact.is_rigid || pairs.iter().all(|pair| pair.faced().is_some()) {
+            let are_nodes = || pairs.iter().all(|pair| pair.faced().is_some());
+            if contact.is_rigid || !contact.is_partial && are_nodes() {
                 self.restate_nodes(pairs);
                 continue;
             }

@@ -138,9 +138,6 @@ impl Following {
                 crate::scene::Direction::ALL[direction].name(),
             )))
         };
-        if freedoms.basis.ends(node).is_some() {
-            return Err(refused("it is the middle of an edge in contact or tied"));
-        }
         let axis = freedoms.local_axis(node, direction);
         let axis = axis.ok_or_else(|| refused("a contact normal or a turned support is there"))?;
         if self

@@ -98,10 +98,15 @@ impl Freedoms {
         }
         for tie in ties {
             let neighbours = neighbours(mesh, tie);
+            let near = |row: &Pair| neighbours.get(&row.slave).map_or(&[][..], Vec::as_slice);
             for row in &tie.rows {
                 for i in (0..self.per_node).filter(|&i| !is_free[&row.slave][i]) {
-                    let near = neighbours.get(&row.slave).map_or(&[][..], Vec::as_slice);
-                    self.hand_on(mesh, tie, (row, i), near, &mut followers)?;
+                    self.hand_on(mesh, tie, (row, i), near(row), &mut followers)?;
+                }
+            }
+            for row in &tie.elsewhere {
+                for i in 0..self.per_node {
+                    self.hand_on(mesh, tie, (row, i), near(row), &mut followers)?;
                 }
             }
         }
@@ -142,11 +147,43 @@ impl Freedoms {
                 self.prescribed.push(Prescribed { load, value });
             }
             followers.place.insert((equation.node, axis), k);
-            followers.terms.push(self.basis.share_of(terms.collect()));
+            let direction = self.local(equation.node)[axis];
+            let terms = self.at_control_point(equation.node, direction, terms.collect());
+            if let Some(&p) = followers.moved.get(&k) {
+                self.prescribed[p as usize].value /= self.basis.own_weight(equation.node);
+            }
+            followers.terms.push(terms);
             self.slots[equation.node][axis] = Slot::Sum(k as u32);
         }
         self.n_followers_of_ties = followers.of_ties;
         Ok(())
+    }
+
+    /// Converts the sum that the displacement of a node along a direction is to control points. The
+    /// middle of an edge moves by `w q + sum w_e q_e`, so its own control point moves by the sum
+    /// less `w_e q_e` of the edge's ends, over `w`.
+    fn at_control_point(
+        &self,
+        node: usize,
+        direction: Vector,
+        mut terms: Vec<(usize, Vector)>,
+    ) -> Vec<(usize, Vector)> {
+        if self.basis.ends(node).is_none() {
+            return self.basis.share_of(terms);
+        }
+        terms = self.basis.share_of(terms);
+        let mut own = 1.0;
+        self.basis.each_control(node, |control, weight| {
+            if control == node {
+                own = weight;
+            } else {
+                terms.push((control, direction.map(|x| -weight * x)));
+            }
+        });
+        terms
+            .into_iter()
+            .map(|(control, v)| (control, v.map(|x| x / own)))
+            .collect()
     }
 
     /// Terms `scale v . sum w_k u_k` of the masters on control points.

@@ -10,6 +10,7 @@ mod held;
 mod matching;
 pub(super) mod mortar;
 mod only;
+mod pointwise;
 mod repeated;
 mod resolver;
 mod rigid;
@@ -117,7 +118,7 @@ pub struct ContactSurface {
     pub goes_on: Vec<usize>,
     /// Whether only chosen nodes of the slave surface may touch, so that the contact may end
     /// anywhere.
-    pub(super) is_partial: bool,
+    pub(crate) is_partial: bool,
     /// Pairs at the corners of each piece of a face of the slave surface, in order; in a solid
     /// model only.
     pub faces: Vec<Vec<usize>>,

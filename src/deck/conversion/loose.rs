@@ -47,7 +47,6 @@ impl Draft<'_> {
         &mut self,
         planes: &[HeldPlane],
         reduced: &Reduced,
-        of_rows: &[Key],
         boundary: &Map,
     ) {
         for plane in planes {
@@ -62,7 +61,7 @@ impl Draft<'_> {
                 self.displace_loose(key, &Terms::from([(key, 1.0)]), boundary);
             }
         }
-        for key in of_rows.iter().filter(|key| boundary.contains_key(key)) {
+        for key in boundary.keys() {
             self.displace_loose(*key, &Terms::from([(*key, 1.0)]), boundary);
         }
         for follows in &reduced.loose {

@@ -67,7 +67,7 @@ impl Draft<'_> {
             .flat_map(|row| row.terms.keys().copied())
             .collect();
         let reduced = self.reduced(rows, boundary);
-        self.displacements_of_loose(&simple, &reduced, &of_rows, boundary);
+        self.displacements_of_loose(&simple, &reduced, boundary);
         self.move_forces(&reduced, &of_rows, boundary, forces)?;
         self.check_known(&reduced.known, boundary)?;
         let known = boundary.clone();

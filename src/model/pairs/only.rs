@@ -1,6 +1,5 @@
 //! Contacts in which only some nodes of the slave surface may touch.
 
-use super::{Found, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Surface};
 use crate::model::names::Entry;
@@ -9,10 +8,10 @@ use std::collections::BTreeSet;
 
 /// The nodes of a slave surface that may touch.
 pub(super) struct Only {
-    nodes: BTreeSet<usize>,
+    pub(super) nodes: BTreeSet<usize>,
     /// The surface to which all of them belong.
     pub(super) side: SlaveSide,
-    name: String,
+    pub(super) name: String,
 }
 
 /// Returns the nodes to which a contact is restricted; `None` if all may touch.
@@ -56,25 +55,4 @@ pub(super) fn nodes(
         ),
         None => format!("nodes = \"{name}\": neither surface has them"),
     })))
-}
-
-impl Only {
-    /// Removes the pairs of all other nodes.
-    ///
-    /// # Errors
-    /// `Input` if no pair is left.
-    pub(super) fn retain(&self, found: &mut Found, mesh: &Mesh) -> Result<()> {
-        found
-            .pairs
-            .retain(|pair: &Pair| self.nodes.contains(&pair.slave));
-        if let (true, Some(&node)) = (found.pairs.is_empty(), self.nodes.first()) {
-            return Err(Error::input(format!(
-                "no node of `{}` faces the other surface, neither does node {} at {}",
-                self.name,
-                mesh.node_label(node),
-                mesh.place(node)
-            )));
-        }
-        Ok(())
-    }
 }

@@ -5,7 +5,8 @@ use super::only::Only;
 use super::repeated::Repeated;
 use super::stated::Stated;
 use super::{
-    ContactInput, ContactSurface, Found, Pair, held, matching, mortar, only, rigid, surface_of,
+    ContactInput, ContactSurface, Found, Pair, held, matching, mortar, only, pointwise, rigid,
+    surface_of,
 };
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
@@ -177,9 +178,10 @@ impl Resolver<'_, '_> {
     /// Finds the pairs of a contact for the choice of the slave in its input.
     fn attempt(&self, one: &OneContact) -> Result<SlaveChoice> {
         let (input, mut notes) = (&one.input, Vec::new());
-        let mut found = match one.rigid {
-            [Some(body), _] => rigid::pairs(input, 1, body)?,
-            [_, Some(body)] => rigid::pairs(input, 0, body)?,
+        let mut found = match (one.rigid, &one.only) {
+            ([Some(body), _], _) => rigid::pairs(input, 1, body)?,
+            ([_, Some(body)], _) => rigid::pairs(input, 0, body)?,
+            (_, Some(only)) => pointwise::pairs(input, only)?,
             _ => {
                 if one.given.is_none() && input.contact.normal.is_none() {
                     input.check_sides()?;
@@ -195,7 +197,7 @@ impl Resolver<'_, '_> {
             }
         };
         if let Some(only) = &one.only {
-            only.retain(&mut found, self.mesh)?;
+            found.pairs.retain(|pair| only.nodes.contains(&pair.slave));
         }
         let is_same = |other: usize| self.are_same(input, other);
         self.repeated.take_from(&mut found, &self.pairs, is_same);

@@ -6,7 +6,12 @@ use crate::error::{Error, Result};
 use crate::mesh::{Facet, Mesh, Surface};
 use crate::model::names::Entry;
 use crate::scene::{Contact, Scene, Tie};
+use crate::space::dot;
 use std::collections::{BTreeMap, BTreeSet};
+
+/// Cosine of the angle between the normals of a node in two ties above which both are on one face,
+/// 30 degrees: the usual feature angle for telling edges of a body from facets of a curved surface.
+const ONE_FACE: f64 = 0.866;
 
 /// A tie of the scene with its rows.
 #[derive(Debug, Clone)]
@@ -18,9 +23,13 @@ pub(in crate::model) struct Tied {
     /// Rows by which each slave node follows others; the area of a row is the integral of the dual
     /// function.
     pub rows: Vec<Pair>,
+    /// Rows of nodes that follow in an earlier tie, around a corner: their part of this tie is
+    /// handed on to their neighbours.
+    pub elsewhere: Vec<Pair>,
 }
 
-/// Resolves the ties of a scene. A node of two ties has one row, that of a tie of both surfaces.
+/// Resolves the ties of a scene. A node of two ties has one row: on one face that of a tie of both
+/// surfaces, around a corner that of the first.
 ///
 /// # Errors
 /// Input errors: surfaces that do not exist or do not lie on one another, a surface tied to a
@@ -45,7 +54,24 @@ pub(in crate::model) fn resolve(
         let mut of_tie = rows(scene, mesh, (index, tie), surfaces, notes).map_err(refused)?;
         for row in std::mem::take(&mut of_tie.rows) {
             match row_of.get(&row.slave) {
-                Some(&[tie, place]) => join(&mut out[tie].rows[place], &row),
+                Some(&[tie, place]) => {
+                    let known = &mut out[tie].rows[place];
+                    let is_one_face = dot(known.normal, row.normal) > ONE_FACE;
+                    let is_cut = mesh.degree() > 1 && share_a_facet(&scene.tie, mesh, [tie, index]);
+                    if is_one_face && is_cut && *known != row {
+                        return Err(refused(Error::input(format!(
+                            "node {} follows in tie {} already, on the same quadratic facet: a \
+                             facet may be tied to one surface; join the surfaces that it is tied \
+                             to, or let the other surface follow (`slave`)",
+                            mesh.node_label(row.slave),
+                            tie + 1
+                        ))));
+                    }
+                    match is_one_face {
+                        true => join(known, &row),
+                        false => of_tie.elsewhere.push(row),
+                    }
+                }
                 None => {
                     row_of.insert(row.slave, [index, of_tie.rows.len()]);
                     of_tie.rows.push(row);
@@ -55,6 +81,18 @@ pub(in crate::model) fn resolve(
         out.push(of_tie);
     }
     Ok(out)
+}
+
+/// Whether two ties have a facet of a slave surface in common.
+fn share_a_facet(ties: &[Tie], mesh: &Mesh, two: [usize; 2]) -> bool {
+    let facets = two.map(|index| {
+        let names = [&ties[index].first, &ties[index].second];
+        let surfaces = names.into_iter().filter_map(|name| mesh.surfaces.get(name));
+        surfaces
+            .flat_map(|s| s.facets.iter().copied())
+            .collect::<BTreeSet<Facet>>()
+    });
+    !facets[0].is_disjoint(&facets[1])
 }
 
 /// Adds the row of the same slave in another tie: `D = D_1 + D_2`, `D w_k = D_1 w_1k + D_2 w_2k`.
@@ -111,6 +149,7 @@ fn rows(
         what: format!("tie {}", index + 1),
         slaves: names[found.slave].clone(),
         rows: found.pairs,
+        elsewhere: Vec::new(),
     })
 }
 
