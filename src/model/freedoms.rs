@@ -101,9 +101,14 @@ impl Freedoms {
                 .get(pair.contact)
                 .is_some_and(|contact| contact.held);
             let faced = faced.filter(|n| !may_hold || !supports.hold_along(*n, pair.normal));
-            for node in faced.into_iter().chain([pair.slave]) {
+            if let Some(node) = faced {
                 normal_of[node] = Some(pair.normal);
             }
+        }
+        // A node may be the slave of one contact and the master of another with the opposite
+        // normal: contact rows count on the slave's.
+        for pair in pairs.iter() {
+            normal_of[pair.slave] = Some(pair.normal);
         }
         // Other masters do not need the normal as an axis. Where nothing holds them, such an axis
         // keeps contact rows short.

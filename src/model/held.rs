@@ -24,7 +24,7 @@ pub struct FloatingBodies {
     /// Basis of the rigid motions that supports and pins leave free.
     pub motions: Vec<RigidMotion>,
     /// Part of the model to which each contact freedom belongs; a part is a set of bodies that
-    /// share nodes or free motions.
+    /// share nodes or free motions, or that ties or equations join.
     pub part_of_contact: Vec<usize>,
 }
 
@@ -162,7 +162,7 @@ pub(super) fn resolve(
         .flat_map(|(names, _)| names.iter().cloned())
         .collect();
     let modes = motions.free(freedoms, &[]);
-    let part = motions.parts(&modes);
+    let part = motions.parts(&modes, freedoms);
     floating.part_of_contact = group_of_contact.iter().map(|&group| part[group]).collect();
     let owned = motions::owned(freedoms, mesh.n_nodes());
     let motion_of = |mode: &Mode| {

@@ -240,10 +240,18 @@ impl<'a> Motions<'a> {
         groups
     }
 
-    /// Number of the part to which each group belongs; groups that a free motion moves together
-    /// form one part.
-    pub(super) fn parts(&self, modes: &[Mode]) -> Vec<usize> {
+    /// Number of the part to which each group belongs; groups that a free motion moves together, or
+    /// that ties or equations join, form one part.
+    pub(super) fn parts(&self, modes: &[Mode], freedoms: &Freedoms) -> Vec<usize> {
         let mut classes = Classes::new(self.names.len());
+        for (node, &group) in self.group_of_node.iter().enumerate() {
+            for slot in freedoms.of_node(node) {
+                let Slot::Sum(k) = *slot else { continue };
+                for &(followed, ..) in freedoms.followed_axes(k) {
+                    classes.join(group, self.group_of_node[followed as usize]);
+                }
+            }
+        }
         for mode in modes {
             for pair in self.moved(mode).windows(2) {
                 classes.join(pair[0], pair[1]);

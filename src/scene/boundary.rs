@@ -30,8 +30,9 @@ pub struct Contact {
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
     /// Set of the only nodes that may touch: nodes of one of the surfaces, which becomes the slave.
-    /// Its other nodes pass through the other surface, and the contact may reach the end of the
-    /// set. By default all nodes may touch.
+    /// Each of them touches at the point of the other surface that is nearest to it. Other nodes
+    /// pass through that surface, and the contact may reach the end of the set. By default all
+    /// nodes may touch, in the mean over the facets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub nodes: Option<String>,
     /// Stiffness of soft contact, pressure over overlap: `g + p / stiffness >= 0` in place of

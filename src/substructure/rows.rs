@@ -62,7 +62,8 @@ impl Rows {
             masters.iter().any(softer)
         };
         let is_pair = |row: &RowEntries| match row.as_slice() {
-            [(i, _), (j, _)] => rows_at[*i] == 1 && rows_at[*j] == 1,
+            // A master that follows others may have another coefficient.
+            [(i, b), (j, c)] => [*b, *c] == [-1.0, 1.0] && rows_at[*i] == 1 && rows_at[*j] == 1,
             _ => false,
         };
         if n_contact == 2 * entries.len() && entries.iter().all(is_pair) {

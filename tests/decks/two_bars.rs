@@ -329,6 +329,73 @@ fn a_clearance_needs_its_pair() {
     );
 }
 
+/// Two blocks side by side, held at the bottom, each with another on top that is pressed by another
+/// pressure: tied to each other they behave as blocks that share the nodes.
+#[test]
+fn contacts_of_tied_bodies_know_of_each_other() {
+    let block = |first: usize, [x, y]: [f64; 2], corners: [usize; 4]| {
+        let at = [[x, y], [x + 1.0, y], [x + 1.0, y + 1.0], [x, y + 1.0]];
+        let nodes = corners.iter().zip(at).filter(|(label, _)| **label >= first);
+        let nodes: String = nodes
+            .map(|(n, [x, y])| format!("{n}, {x:?}, {y:?}\n"))
+            .collect();
+        let [a, b, c, d] = corners;
+        format!(
+            "*NODE, NSET=ALL\n{nodes}*ELEMENT, TYPE=CPE4, ELSET=E{first}\n\
+             {first}, {a},{b},{c},{d}\n"
+        )
+    };
+    let deck = |is_tied: bool, swapped: [bool; 2]| {
+        let right = if is_tied {
+            [11, 12, 13, 14]
+        } else {
+            [2, 12, 13, 3]
+        };
+        let mut text = block(1, [0.0, 0.0], [1, 2, 3, 4]) + &block(11, [1.0, 0.0], right);
+        text += &block(21, [0.0, 1.0], [21, 22, 23, 24]);
+        text += &block(31, [1.0, 1.0], [31, 32, 33, 34]);
+        text += "*MATERIAL, NAME=STEEL\n*ELASTIC\n1000., 0.3\n";
+        for (e, face, name) in [(1, 3, "A"), (11, 3, "B"), (21, 1, "C"), (31, 1, "D")] {
+            text += &format!("*SOLID SECTION, ELSET=E{e}, MATERIAL=STEEL\n");
+            text += &format!("*SURFACE, NAME={name}\n{e}, S{face}\n");
+        }
+        text +=
+            "*SURFACE, NAME=R\n1, S2\n*SURFACE, NAME=L\n11, S4\n*SURFACE INTERACTION, NAME=SI\n";
+        if is_tied {
+            text += "*TIE, NAME=T, POSITION TOLERANCE=0.01\nL, R\n";
+        }
+        for ([over, under], swapped) in [["C", "A"], ["D", "B"]].into_iter().zip(swapped) {
+            text += &match swapped {
+                true => pair(under, over),
+                false => pair(over, under),
+            };
+        }
+        let bottom = if is_tied {
+            "1,1,2\n2,1,2\n11,1,2\n12,1,2"
+        } else {
+            "1,1,2\n2,1,2\n12,1,2"
+        };
+        format!(
+            "{text}*BOUNDARY\n{bottom}\n24,1\n34,1\n21,1\n31,1\n*STEP\n*STATIC\n*DLOAD\n\
+             21,P3,10.\n31,P3,3.\n*NODE PRINT, NSET=ALL\nU\n*END STEP\n"
+        )
+    };
+    let one = computed(&deck(false, [false; 2])).unwrap();
+    // A corner that both contacts share is the slave of one and the master of the other.
+    let other = computed(&deck(false, [true; 2])).unwrap();
+    for label in [3, 4, 13, 21, 22, 23, 24, 31, 32, 33, 34] {
+        near(moved(&one, label)[0], moved(&other, label)[0]);
+    }
+    // A corner that follows in the tie is a master: it is no slave of the contact, too.
+    for swapped in [[false, true], [true, true]] {
+        let tied = computed(&deck(true, swapped)).unwrap();
+        assert!(tied.1.inaccurate.is_empty(), "{:?}", tied.1.inaccurate);
+        for label in [3, 4, 13, 21, 22, 23, 24, 31, 32, 33, 34] {
+            near(moved(&tied, label)[0], moved(&one, label)[0]);
+        }
+    }
+}
+
 /// A body whose only support is a contact that a step removes goes through it: told.
 #[test]
 fn a_body_that_loses_its_contact_is_named() {

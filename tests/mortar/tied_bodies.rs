@@ -208,14 +208,16 @@ fn a_contact_ends_at_a_tie() {
     tied(&mut whole, "upper.bottom", "lower.top", SlaveSide::First);
     let mesh = whole.build().unwrap().mesh.clone();
     let facets = &mesh.surfaces["upper.bottom"].facets;
-    for cut in 1..facets.len() {
+    for (cut, slave) in (1..facets.len()).flat_map(|cut| {
+        [SlaveSide::First, SlaveSide::Second, SlaveSide::Auto].map(|slave| (cut, slave))
+    }) {
         let mut builder = apart(0.0);
         for (name, part) in [("tied", &facets[..cut]), ("touching", &facets[cut..])] {
             let part = part.iter().map(|facet| (facet.element, facet.local));
             builder.surface(name, part).unwrap();
         }
         tied(&mut builder, "tied", "lower.top", SlaveSide::First);
-        touching(&mut builder, "lower.top", "touching", SlaveSide::Second);
+        touching(&mut builder, "lower.top", "touching", slave);
         let results = run(&builder);
         let u = &results.states[0].fields.as_ref().unwrap().displacement;
         for node in mesh.set_nodes("upper.top").unwrap() {

@@ -205,7 +205,8 @@ impl Content {
                 first.at,
                 format!(
                     "element {} is in no physical {what}: in Gmsh, put every {what} into a \
-                     Physical {group}; its name is the body's",
+                     Physical {group}; its name is the body's (files of version 2 that hold all \
+                     elements, Mesh.SaveAll, have no groups: save them as version 4.1)",
                     first.label
                 ),
             ));

@@ -1,9 +1,9 @@
 //! Contacts of single nodes: each chosen slave node against the point of the other surface that is
 //! nearest to it.
 //!
-//! With the point `X = sum_k N_k(xi) x_k` of a master facet at which `|x - X|` is least, the masters
-//! of a slave are the facet's nodes with the weights `N_k(xi)`, and the gap is the distance along
-//! the master's normal there.
+//! With the point `X = sum_k N_k(xi) x_k` of a master facet at which `|x - X|` is least, the
+//! masters of a slave are the facet's nodes with the weights `N_k(xi)`, and the gap is the distance
+//! along the master's normal there.
 
 use super::only::Only;
 use super::{ContactInput, Found, Pair};
@@ -214,8 +214,8 @@ fn within(place: Place, is_triangle: bool) -> Place {
 }
 
 /// Area that belongs to each node: the area of each facet in the shares of `int N_i^2`, which are
-/// positive where `int N_i` is not (E. Hinton, T. Rock, O. C. Zienkiewicz, *A note on mass lumping*,
-/// Earthquake Engng. Struct. Dyn. 4 (1976) 245).
+/// positive where `int N_i` is not (E. Hinton, T. Rock, O. C. Zienkiewicz, *A note on mass
+/// lumping*, Earthquake Engng. Struct. Dyn. 4 (1976) 245).
 fn lumped_areas(input: &ContactInput, facets: &[Facet]) -> BTreeMap<usize, f64> {
     let mesh = input.mesh;
     let mut areas: BTreeMap<usize, f64> = BTreeMap::new();
