@@ -18,7 +18,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 38] = [
+const CASES: [Case; 40] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     // Flow turns, and CalculiX takes each of its increments in one step of the implicit rule; with
@@ -56,6 +56,8 @@ const CASES: [Case; 38] = [
     case("periodic", FULL, PRINTED),
     case("moved_along", FULL, PRINTED),
     case("ball_joint", FULL, PRINTED),
+    case("cyclic", FULL, PRINTED),
+    case("two_axes", FULL, PRINTED),
     case("fixed", FULL, PRINTED),
     case("adjusted", FULL, PRINTED),
     // What presses on held nodes goes into their supports; CalculiX' springs give way there.

@@ -49,7 +49,7 @@ const POINTS: &str = "slaves of ccx follow the points that they lie on, here the
                       faces: `decks::table` shows that equations of that kind give the values of \
                       ccx";
 
-const ROWS: [Row; 51] = [
+const ROWS: [Row; 53] = [
     row("Gmsh", "programs/gmsh_bar", ""),
     row("Gmsh", "programs/gmsh_plate", THICKNESS),
     row("FreeCAD", "programs/freecad_face_load", ""),
@@ -102,6 +102,8 @@ const ROWS: [Row; 51] = [
     row("FIXED, absent nodes, OFFSET", "fixed", ""),
     row("TRANSFORM", "ring", ""),
     row("TRANSFORM", "moved_along", ""),
+    row("TRANSFORM", "cyclic", ""),
+    row("TRANSFORM", "two_axes", ""),
     row("AMPLITUDE, OP, steps", "history", ""),
     row("PLASTIC", "plastic", STEPS),
     row("DENSITY, GRAV, CENTRIF", "weight", ""),

@@ -190,6 +190,64 @@ fn single_nodes_press() {
     refused(&text, &["*DSLOAD", "N has no faces"]);
 }
 
+/// A node alone touches where it lies: the same as an equation with the functions of the face
+/// there, on linear and on quadratic elements, in the middle of faces that do not match.
+#[test]
+fn a_single_node_follows_the_point_under_it() {
+    let upper = "*NODE, NSET=ALL
+31,0.4,1.\n32,1.5,1.\n33,1.5,2.\n34,0.4,2.\n35,0.95,1.\n36,1.5,1.5\n37,0.95,2.\n38,0.4,1.5
+*NODE, NSET=ALL
+41,0.,0.\n42,2.,0.\n43,2.,1.\n44,0.,1.\n45,1.,0.\n46,2.,0.5\n47,1.,1.\n48,0.,0.5
+";
+    let linear = "*ELEMENT, TYPE=CPE4, ELSET=L\n41,41,42,43,44
+*ELEMENT, TYPE=CPE4, ELSET=U\n31,31,32,33,34\n";
+    let quadratic = "*ELEMENT, TYPE=CPE8, ELSET=L\n41,41,42,43,44,45,46,47,48
+*ELEMENT, TYPE=CPE8, ELSET=U\n31,31,32,33,34,35,36,37,38\n";
+    let rest = format!(
+        "*MATERIAL, NAME=STEEL\n*ELASTIC\n{E:?},0.3
+*SOLID SECTION, ELSET=L, MATERIAL=STEEL
+*SOLID SECTION, ELSET=U, MATERIAL=STEEL
+*SURFACE, NAME=M\n41,S3
+*SURFACE, NAME=N, TYPE=NODE\n31
+*SURFACE INTERACTION, NAME=SI
+"
+    );
+    // Functions of the upper side of the lower element at x = 0.4, from -1 to 1: s = -0.6.
+    let s: f64 = -0.6;
+    let on_line = [(44, 0.5 * (1.0 - s)), (43, 0.5 * (1.0 + s))];
+    let on_parabola = [
+        (44, 0.5 * s * (s - 1.0)),
+        (43, 0.5 * s * (s + 1.0)),
+        (47, 1.0 - s * s),
+    ];
+    for (elements, functions, held) in [
+        (linear, &on_line[..], ""),
+        (
+            quadratic,
+            &on_parabola[..],
+            "45,1,2\n37,1,1\n37,2,2,-0.01\n",
+        ),
+    ] {
+        let terms: String = functions
+            .iter()
+            .map(|(n, w)| format!("{n},2,{:?}\n", -w))
+            .collect();
+        let follows = format!("*EQUATION\n{}\n31,2,1.\n{terms}", functions.len() + 1);
+        let [touching, following] = [pair("N", "M"), follows].map(|how| {
+            computed(&format!(
+                "{upper}{elements}{rest}{how}*BOUNDARY\n41,1,2\n42,1,2\n*STEP\n*STATIC\n*BOUNDARY\n\
+                 33,1,1\n34,1,1\n33,2,2,-0.01\n34,2,2,-0.01\n{held}*END STEP\n"
+            ))
+            .unwrap()
+        });
+        assert_eq!(touching.0.pairs.len(), 1);
+        for label in [31, 32, 43, 44] {
+            near(moved(&touching, label)[0], moved(&following, label)[0]);
+        }
+        assert!(moved(&touching, 31)[0] < -1e-4);
+    }
+}
+
 /// An overlap is resolved over the first step whether or not the deck asks for it.
 #[test]
 fn an_overlap_is_resolved_as_abaqus_does() {

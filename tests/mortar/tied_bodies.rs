@@ -200,6 +200,57 @@ fn a_surface_may_be_tied_in_parts() {
     }
 }
 
+/// A block in the corner of an L, tied to both of its sides, whose meshes do not match: a uniform
+/// stress of two different tractions on the sides passes exactly.
+#[test]
+fn a_tie_around_a_corner_passes_a_uniform_stress() {
+    let text = r#"
+kind = "plane_strain"
+mesh.parts = [
+    { body = "floor", element = "quad4",
+        block = { x = [0.0, 3.0], y = [0.0, 1.0], elements = [5, 2] } },
+    { body = "wall", element = "quad4",
+        block = { x = [-1.0, 0.0], y = [1.0, 3.0], elements = [1, 3] } },
+    { body = "block", element = "quad4",
+        block = { x = [0.0, 3.0], y = [1.0, 3.0], elements = [3, 2] } },
+]
+tie = [
+    { first = "block.bottom", second = "floor.top", slave = "first" },
+    { first = "block.left", second = "wall.right", slave = "first" },
+]
+support = [{ on = "floor.bottom", fix = ["y"] }, { on = "wall.left", fix = ["x"] }]
+# The strains of the block between the origin of the displacements and these sides.
+load = [{ on = "wall.bottom", displacement = { y = -0.002 } },
+    { on = "floor.left", displacement = { x = -0.005 } },
+    { on = "block.right", pressure = 5.0 }, { on = "floor.right", pressure = 5.0 },
+    { on = "block.top", pressure = 2.0 }, { on = "wall.top", pressure = 2.0 }]
+[materials.steel]
+youngs_modulus = 1000.0
+poissons_ratio = 0.0
+[bodies.floor]
+material = "steel"
+[bodies.wall]
+material = "steel"
+[bodies.block]
+material = "steel"
+[program]
+targets = [{ load_factor = 1.0 }]
+"#;
+    let scene = brinell::scene::Scene::parse(text, "corner").unwrap();
+    let model = brinell::model::Model::new(&scene).unwrap();
+    let backend = brinell::linalg::Backend::default();
+    let mut analysis = brinell::analysis::Analysis::new(model.clone(), backend).unwrap();
+    let results = analysis.run(&mut brinell::progress::Silent).unwrap();
+    let fields = results.states[0].fields.as_ref().unwrap();
+    let of_block = (0..model.mesh.n_elements()).filter(|&e| model.mesh.element_body[e] == 2);
+    for e in of_block {
+        let [xx, yy, _, xy] = [0, 1, 2, 3].map(|k| fields.stress[4 * e + k]);
+        for (found, exact) in [(xx, -5.0), (yy, -2.0), (xy, 0.0)] {
+            assert!((found - exact).abs() < 1e-10, "{e}: {found} for {exact}");
+        }
+    }
+}
+
 /// A surface that is tied on one part and touches on the rest: the contact ends at the tie, which
 /// is no end beyond which the bodies could touch. A uniform pressure goes through both.
 #[test]
