@@ -1,8 +1,9 @@
 //! Assignment of elements to bodies: the connected parts of each section.
 
 use super::Deck;
-use super::data::Target;
+use super::data::{Member, Target};
 use super::sets::What;
+use super::source::Place;
 use crate::classes::Classes;
 use crate::error::{Error, Result};
 use crate::space::Space;
@@ -74,15 +75,28 @@ impl Deck {
     }
 
     /// The section of each element. In a deck without sections, the number of the first element set
-    /// that contains the element.
+    /// that contains the element. A set of `*ELEMENT` gives way to one of `*ELSET` with the same
+    /// elements: a mesher names parts of the geometry by the former, and its groups by the latter.
     fn section_of_elements(&self) -> Result<Vec<u32>> {
         let mut out = vec![NONE; self.n_elements()];
         if self.properties.sections.is_empty() {
-            for (number, (name, _)) in self.sets.elements.iter().enumerate() {
+            let mut groups: HashMap<Vec<u32>, u32> = HashMap::new();
+            let mut all = Vec::new();
+            for (number, (name, members)) in self.sets.elements.iter().enumerate() {
                 let set = Target::Set(name.to_string());
-                for element in self.indices(What::Elements, &set, (self.end, "ELSET"))? {
-                    let section = &mut out[element as usize];
-                    *section = (*section).min(number as u32);
+                let elements = self.indices(What::Elements, &set, (self.end, "ELSET"))?;
+                let is_row = |(member, _): &(Member, Place)| matches!(member, Member::Rows(..));
+                if !members.iter().all(is_row) {
+                    groups.entry(elements.clone()).or_insert(number as u32);
+                }
+                all.push(elements);
+            }
+            for (number, elements) in all.iter().enumerate() {
+                let number = groups.get(elements).copied().unwrap_or(number as u32);
+                for &element in elements {
+                    if out[element as usize] == NONE {
+                        out[element as usize] = number;
+                    }
                 }
             }
             return Ok(out);

@@ -1,5 +1,5 @@
-//! Slave surfaces that a deck gives by nodes (`TYPE=NODE`) which do not make up whole faces: a
-//! single node, a row, or the corners of faces alone.
+//! Slave surfaces that a deck gives by nodes (`TYPE=NODE`) which do not make up whole faces of one
+//! piece: a single node, a row, or the corners of faces alone.
 //!
 //! Their contact is that of the faces around them which face the master surface, in which no other
 //! node may touch.
@@ -9,8 +9,10 @@ use super::adjust::SurfacePieces;
 use super::data::{ContactPair, SurfacePart};
 use super::facets::Face;
 use super::sets::What;
+use crate::classes::Classes;
 use crate::error::Result;
 use crate::space::{Vector, along, cross, difference, direction, dot};
+use std::collections::{BTreeSet, HashMap};
 
 /// Cosine of the angle between the outward normals of two faces below which they face each other: a
 /// face that stands upright on the other does not, by any round-off.
@@ -38,7 +40,7 @@ impl Deck {
     }
 
     /// The nodes of a surface, if it is given by nodes on the boundary not all of which make up
-    /// whole faces.
+    /// whole faces, or which make up several pieces.
     fn loose_slaves(&self, name: &str) -> Result<Option<Vec<u32>>> {
         let mut nodes = Vec::new();
         for (part, place) in self.sets.surfaces.get(name).into_iter().flatten() {
@@ -52,16 +54,31 @@ impl Deck {
         }
         nodes.sort_unstable();
         nodes.dedup();
-        let of_faces = self.nodes_of(&self.whole_free_faces_among(nodes.iter().copied()));
+        let faces = self.whole_free_faces_among(nodes.iter().copied());
+        let of_faces = self.nodes_of(&faces);
         let is_in = |of: &[u32], node: &u32| of.binary_search(node).is_ok();
+        let in_pieces = self.n_pieces(&faces) > 1;
         if nodes.iter().all(|node| is_in(&of_faces, node)) {
-            return Ok(None);
+            return Ok(in_pieces.then_some(nodes));
         }
         // Nodes inside the body, which a set of all its nodes has too, touch nothing.
         let boundary = self.nodes_of(&self.free_faces_at(nodes.iter().copied()));
         nodes.retain(|node| is_in(&boundary, node));
         let are_all = nodes.iter().all(|node| is_in(&of_faces, node));
-        Ok((!are_all).then_some(nodes))
+        Ok((!are_all || in_pieces).then_some(nodes))
+    }
+
+    /// Number of pieces of a surface that share no node.
+    fn n_pieces(&self, faces: &[Face]) -> usize {
+        let mut classes = Classes::new(faces.len());
+        let mut face_at: HashMap<u32, usize> = HashMap::new();
+        for (number, face) in faces.iter().enumerate() {
+            for node in self.nodes_of(std::slice::from_ref(face)) {
+                classes.join(number, *face_at.entry(node).or_insert(number));
+            }
+        }
+        let firsts: BTreeSet<usize> = classes.firsts().into_iter().collect();
+        firsts.len()
     }
 
     /// Whether a surface is given by nodes that make up no face at all. Contacts alone may have it

@@ -309,9 +309,14 @@ fn plane_elements_beside_solids_carry_the_sets_of_faces() {
         let results = of_scene("solid", &mesh, [bottom, top]);
         assert_eq!(sunk(&results), of_deck);
     }
-    // Lines of a solid are no faces: a scene finds their nodes.
-    let mesh = brinell::mesh::inp::read(&mesh).unwrap();
-    assert_eq!(mesh.node_sets["Line1"], [0, 1]);
+    // Lines of a solid are no faces: a scene finds their nodes. A body has the name of its group,
+    // in whatever order the names are.
+    let named = write("named.inp", &FACES.replace("ELSET=block", "ELSET=zylinder"));
+    for (file, body) in [(&mesh, "block"), (&named, "zylinder")] {
+        let mesh = brinell::mesh::inp::read(file).unwrap();
+        assert_eq!(mesh.node_sets["Line1"], [0, 1]);
+        assert_eq!(mesh.bodies, [body]);
+    }
     let plate = held.replace("ELSET=block", "ELSET=top");
     let plate = write("plate.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{plate}"));
     let why = run_with(&plate, &[]).unwrap_err().to_string();

@@ -64,11 +64,9 @@ impl Draft<'_> {
     ) -> (String, Option<String>) {
         let n = slaves.nodes.len();
         let text = format!(
-            "the {n} node{} of {} make{} up no whole faces: in the faces around them no other node \
-             may touch",
-            if n == 1 { "" } else { "s" },
+            "the nodes of {} ({n}) touch alone, where they lie: they make up no whole faces of \
+             one piece",
             pair.slave,
-            if n == 1 { "s" } else { "" },
         );
         let list = &mut account.taken;
         Account::add(list, &self.deck.files, pair.place, "CONTACT PAIR", &text);
