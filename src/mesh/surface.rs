@@ -7,6 +7,9 @@ use std::collections::BTreeMap;
 
 /// Largest distance of two paired nodes across the normal, as a share of a facet's length.
 pub const PAIRING: f64 = 1e-5;
+/// Angle in degrees between two facets from which their common edge is an edge of the body: the
+/// usual feature angle for telling such edges from those within a curved surface.
+pub(crate) const FEATURE_ANGLE: f64 = 30.0;
 
 /// Smallest cosine of the angle between neighbouring facets of a smooth line: the value for a
 /// circle of ten facets.

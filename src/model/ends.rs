@@ -9,13 +9,10 @@ mod solid;
 
 use super::pairs::ties::Tied;
 use super::{ContactSurface, Pair};
+use crate::mesh::surface::FEATURE_ANGLE;
 use crate::mesh::{Facet, Mesh};
 use crate::scene::Scene;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Angle in degrees by which the two boundaries must diverge for an end to be a corner: the usual
-/// feature angle for telling edges of a body from facets of a curved surface.
-const FEATURE_ANGLE: f64 = 30.0;
 
 /// An end of a run of pairs: its last pair and the one before it.
 struct End {

@@ -221,6 +221,20 @@ struct Found {
     repeated: Vec<Pair>,
 }
 
+impl Found {
+    /// Pairs of whole facets, none of which a support or an earlier contact has.
+    fn new(pairs: Vec<Pair>, slave: usize, facet_length: f64) -> Self {
+        Found {
+            pairs,
+            slave,
+            facet_length,
+            covered: Covered::default(),
+            held: Vec::new(),
+            repeated: Vec::new(),
+        }
+    }
+}
+
 /// Makes the contact surface of the pairs from `start` on.
 fn surface_of(
     entries: &ContactInput,

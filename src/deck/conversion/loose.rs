@@ -1,5 +1,5 @@
-//! Nodes without elements: the sums that their displacements and forces are, for the tables that
-//! list them.
+//! Nodes without elements, such as reference nodes. Their displacements and forces are sums of
+//! those of other nodes, which are recorded here for the tables that list them.
 
 use super::super::constraints::HeldPlane;
 use super::super::history::{Key, Map};

@@ -286,23 +286,26 @@ impl Draft<'_> {
 
     /// Adds the equation that a sum of terms and a value over time is zero. If the value is not, it
     /// is a load.
-    pub(super) fn relate(&mut self, mut terms: Vec<EquationTerm>, moved: Series, place: Place) {
+    pub(super) fn relate(&mut self, terms: Vec<EquationTerm>, moved: Series, place: Place) {
         if moved.is_zero() {
             let key = format!("equation.{}", self.equations.len());
             self.places.insert(key, self.deck.files.show(place));
             self.equations.push(scene::Equation { terms });
             return;
         }
-        let first = terms.remove(0);
-        for term in &mut terms {
-            term.coefficient /= -first.coefficient;
-        }
+        let Some((first, rest)) = terms.split_first() else {
+            return;
+        };
+        let over_first = |term: &EquationTerm| EquationTerm {
+            coefficient: -term.coefficient / first.coefficient,
+            ..term.clone()
+        };
         let load = Load {
-            on: first.on,
+            on: first.on.clone(),
             relative: Some(Relative {
                 direction: first.direction,
                 value: -moved.largest() / first.coefficient,
-                terms,
+                terms: rest.iter().map(over_first).collect(),
             }),
             ..Load::default()
         };

@@ -142,14 +142,7 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
         ));
     }
     check(mesh, contact, &pairs, facet_length)?;
-    Ok(Some(Found {
-        pairs,
-        slave,
-        facet_length,
-        covered: BTreeMap::new(),
-        held: Vec::new(),
-        repeated: Vec::new(),
-    }))
+    Ok(Some(Found::new(pairs, slave, facet_length)))
 }
 
 /// Whether fully paired facets match: each facet of either surface whose nodes all have a partner

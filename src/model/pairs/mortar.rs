@@ -110,12 +110,8 @@ pub(super) fn pairs(entries: &ContactInput, notes: &mut Vec<String>) -> Result<F
         ));
     }
     Ok(Found {
-        pairs: found.pairs,
-        slave: found.slave,
-        facet_length: found.facet_length,
         covered: found.covered,
-        held: Vec::new(),
-        repeated: Vec::new(),
+        ..Found::new(found.pairs, found.slave, found.facet_length)
     })
 }
 
@@ -153,12 +149,8 @@ pub(super) fn tied(entries: &ContactInput, distance: Option<f64>) -> Result<(Fou
     let mut free = found.left_out;
     free.extend(found.alone);
     let found = Found {
-        pairs: found.pairs,
-        slave: found.slave,
-        facet_length: found.facet_length,
         covered: found.covered,
-        held: Vec::new(),
-        repeated: Vec::new(),
+        ..Found::new(found.pairs, found.slave, found.facet_length)
     };
     Ok((found, free))
 }

@@ -73,7 +73,8 @@ pub(super) fn pairs(input: &ContactInput, only: &Only) -> Result<Found> {
         let off = difference(x, found.point);
         let gap = dot(off, found.normal);
         let beside = length(along(off, -gap, found.normal));
-        if beside > (PAIRING * facet_length).max(FACING * found.distance) {
+        let faces = beside <= (PAIRING * facet_length).max(FACING * found.distance);
+        if !faces {
             continue;
         }
         let facet = master.facets[k];
@@ -102,14 +103,7 @@ pub(super) fn pairs(input: &ContactInput, only: &Only) -> Result<Found> {
     if !mesh.is_solid() {
         order(mesh, &mut pairs);
     }
-    Ok(Found {
-        pairs,
-        slave,
-        facet_length,
-        covered: BTreeMap::new(),
-        held: Vec::new(),
-        repeated: Vec::new(),
-    })
+    Ok(Found::new(pairs, slave, facet_length))
 }
 
 fn check(input: &ContactInput, only: &Only, pairs: &[Pair], facet_length: f64) -> Result<()> {

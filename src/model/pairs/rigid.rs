@@ -71,14 +71,7 @@ pub(super) fn pairs(entries: &ContactInput, slave: usize, body: &RigidBody) -> R
         )));
     }
     check_apart(entries, &pairs, body, facet_length)?;
-    Ok(Found {
-        pairs,
-        slave,
-        facet_length,
-        covered: BTreeMap::new(),
-        held: Vec::new(),
-        repeated: Vec::new(),
-    })
+    Ok(Found::new(pairs, slave, facet_length))
 }
 
 /// Refuses a rigid surface that starts inside the body.

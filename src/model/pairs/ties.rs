@@ -3,15 +3,12 @@
 use super::stated::Stated;
 use super::{ContactInput, ContactSurface, Pair, list, mortar};
 use crate::error::{Error, Result};
+use crate::mesh::surface::FEATURE_ANGLE;
 use crate::mesh::{Facet, Mesh, Surface};
 use crate::model::names::Entry;
 use crate::scene::{Contact, Scene, Tie};
 use crate::space::dot;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Cosine of the angle between the normals of a node in two ties above which both are on one face,
-/// 30 degrees: the usual feature angle for telling edges of a body from facets of a curved surface.
-const ONE_FACE: f64 = 0.866;
 
 /// A tie of the scene with its rows.
 #[derive(Debug, Clone)]
@@ -56,7 +53,8 @@ pub(in crate::model) fn resolve(
             match row_of.get(&row.slave) {
                 Some(&[tie, place]) => {
                     let known = &mut out[tie].rows[place];
-                    let is_one_face = dot(known.normal, row.normal) > ONE_FACE;
+                    let is_one_face =
+                        dot(known.normal, row.normal) > FEATURE_ANGLE.to_radians().cos();
                     let is_cut = mesh.degree() > 1 && share_a_facet(&scene.tie, mesh, [tie, index]);
                     if is_one_face && is_cut && *known != row {
                         return Err(refused(Error::input(format!(
