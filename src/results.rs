@@ -394,6 +394,21 @@ pub struct Counts {
     pub hard_increments: usize,
 }
 
+impl Counts {
+    /// The sum of the counts of two runs.
+    pub(crate) fn and(&self, other: &Counts) -> Counts {
+        Counts {
+            factorizations: self.factorizations + other.factorizations,
+            zone_factorizations: self.zone_factorizations + other.zone_factorizations,
+            trailing_solves: self.trailing_solves + other.trailing_solves,
+            full_solves: self.full_solves + other.full_solves,
+            plastic_iterations: self.plastic_iterations + other.plastic_iterations,
+            contact_changes: self.contact_changes + other.contact_changes,
+            hard_increments: self.hard_increments + other.hard_increments,
+        }
+    }
+}
+
 /// A published or exact value compared with the computed one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReferenceRow {

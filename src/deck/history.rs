@@ -1,9 +1,11 @@
 //! Histories of the values of degrees of freedom, nodes and faces over all steps.
 //!
 //! A value given in a step is reached linearly from the one before over the time of the step, or
-//! follows an amplitude. A value not given in a step stays, or goes back to zero with `OP=NEW`.
-//! Several values for the same node or face in one step are added, but values of supports replace
-//! each other.
+//! follows an amplitude. Where an amplitude jumps at the start of a step, the first increment goes
+//! linearly to the value at its end, as in CalculiX. A value not given in a step stays, or goes
+//! back to zero with `OP=NEW`. Several values for the same node or face in one step are added, but
+//! values of supports replace each other. A displacement that is first given in a later step is
+//! reached from where the node then is, and `OP=NEW` releases it: such a history has a span of steps.
 
 use super::Deck;
 use super::bodies::unsupported;
@@ -14,7 +16,7 @@ use super::sets::What;
 use super::source::Place;
 use crate::error::Result;
 use crate::interpolation::interpolate;
-use crate::number::exact;
+use crate::scene::span::Span;
 use std::collections::BTreeMap;
 
 /// Relative difference, between the end of a step and the beginning of the next, above which a
@@ -30,6 +32,10 @@ pub(super) struct Entry {
     pub(super) series: Series,
     /// The line that gave the value last.
     pub(super) place: Place,
+    /// The steps over which a displacement is given.
+    pub(super) span: Span,
+    /// Whether the displacement stays where the node was at the beginning of the span.
+    pub(super) stays: bool,
     /// Values with amplitudes over total time, which continue in later steps.
     runs_on: Vec<(f64, String)>,
 }
@@ -40,9 +46,19 @@ impl Entry {
         Entry {
             series,
             place,
+            span: Span::WHOLE,
+            stays: false,
             runs_on: Vec::new(),
         }
     }
+}
+
+/// Displacements that are given, as histories by key.
+pub(super) struct GivenDisplacements {
+    /// Displacements given in all steps.
+    pub(super) whole: Map,
+    /// Displacements given from a later step on, or no longer given in one.
+    pub(super) in_steps: Vec<(Key, Entry)>,
 }
 
 /// Histories by key.
@@ -52,6 +68,8 @@ pub(super) type Map = BTreeMap<Key, Entry>;
 struct Interval {
     start: f64,
     end: f64,
+    /// End of the step's first increment.
+    first: f64,
 }
 
 /// The values that a step gives for a key, with their amplitudes.
@@ -86,31 +104,54 @@ impl Deck {
             .collect()
     }
 
-    /// The histories of all keys of one kind.
+    /// The histories of all given displacements.
     ///
     /// # Errors
-    /// `Input` for undefined names and numbers; `Unsupported` for supports that appear or disappear
-    /// between steps and for values that jump.
+    /// `Input` for undefined names and numbers; `Unsupported` for values that jump.
+    pub(super) fn displacements(&self) -> Result<GivenDisplacements> {
+        let mut ended = Vec::new();
+        let all = self.histories_of(Kind::Boundary, &mut ended)?;
+        let (whole, begun): (Map, Map) =
+            (all.into_iter()).partition(|(_, entry)| entry.span.is_whole());
+        ended.extend(begun);
+        ended.sort_by_key(|(key, _)| *key);
+        Ok(GivenDisplacements {
+            whole,
+            in_steps: ended,
+        })
+    }
+
+    /// The histories of all keys of a kind of load.
+    ///
+    /// # Errors
+    /// As for [`Deck::displacements`].
     pub(super) fn histories(&self, kind: Kind) -> Result<Map> {
+        self.histories_of(kind, &mut Vec::new())
+    }
+
+    /// The histories of all keys of one kind. Those of displacements that are released are added to
+    /// `ended`.
+    fn histories_of(&self, kind: Kind, ended: &mut Vec<(Key, Entry)>) -> Result<Map> {
         let mut map = Map::new();
         let initial = self.program.initial.iter();
         for condition in initial.filter(|condition| condition.kind == kind) {
             for key in self.keys(condition)? {
-                let entry = Entry {
-                    series: Series::starting(condition.value),
-                    place: condition.place,
-                    runs_on: Vec::new(),
-                };
+                let entry = Entry::new(Series::starting(condition.value), condition.place);
                 map.insert(key, entry);
             }
         }
         let mut start = 0.0;
         for (number, step) in self.program.steps.iter().enumerate() {
-            let end = start + step.period;
-            self.go_through(kind, number, step, &Interval { start, end }, &mut map)?;
-            start = end;
+            let time = Interval {
+                start,
+                end: start + step.period,
+                first: start + step.period / step.increments.max(1) as f64,
+            };
+            self.go_through(kind, (number, step), &time, &mut map, ended)?;
+            start = time.end;
         }
-        if let Some(entry) = map.values().find(|entry| !entry.series.is_finite()) {
+        let all = || map.values().chain(ended.iter().map(|(_, entry)| entry));
+        if let Some(entry) = all().find(|entry| !entry.series.is_finite()) {
             let message = "a value is too large, or a time";
             return Err(self.error(entry.place, kind.keyword(), message));
         }
@@ -120,20 +161,34 @@ impl Deck {
     fn go_through(
         &self,
         kind: Kind,
-        number: usize,
-        step: &Step,
+        (number, step): (usize, &Step),
         time: &Interval,
         map: &mut Map,
+        ended: &mut Vec<(Key, Entry)>,
     ) -> Result<()> {
         let mut given = self.given(kind, step)?;
         let is_renewed = step.renewed[kind as usize];
+        if kind == Kind::Boundary {
+            // A node that stayed where it was begins a history when it gets a value.
+            let ends = |key: &Key, entry: &Entry| match given.get(key) {
+                Some(given) => entry.stays && !given.is_fixed,
+                None => is_renewed.is_some() && number > 0,
+            };
+            map.retain(|key, entry| {
+                let stays = !ends(key, entry);
+                if !stays {
+                    entry.span.until = Some([time.start, time.first]);
+                    ended.push((*key, entry.clone()));
+                }
+                stays
+            });
+        }
         for (key, entry) in map.iter_mut() {
             if let Some(given) = given.remove(key) {
                 self.apply(kind, number, &given, time, entry)?;
                 continue;
             }
             match (is_renewed, kind) {
-                (Some(place), Kind::Boundary) => return Err(self.released(*key, number, place)),
                 (Some(_), Kind::Temperature) => {
                     entry.runs_on.clear();
                     entry.series.push(time.end, entry.series.at(0.0));
@@ -146,43 +201,18 @@ impl Deck {
             }
         }
         for (key, given) in given {
+            let mut entry = Entry::new(Series::starting(0.0), given.place);
             if number > 0 && kind == Kind::Boundary {
-                let node = self.node_name(key.0 as usize);
-                let message = format!(
-                    "node {node} is held along {} only from step {} on: supports are the same in \
-                     all steps; hold it from the first step on, or press with a force",
-                    key.1 + 1,
-                    number + 1
-                );
-                return Err(unsupported(self.error(
-                    given.place,
-                    kind.keyword(),
-                    message,
-                )));
-            }
-            let mut entry = Entry {
-                series: Series::starting(0.0),
-                place: given.place,
-                runs_on: Vec::new(),
-            };
-            if number > 0 {
+                entry.series = Series::default();
+                entry.span.since = Some(time.start);
+                entry.stays = given.is_fixed;
+            } else if number > 0 {
                 entry.series.push(time.start, 0.0);
             }
             self.apply(kind, number, &given, time, &mut entry)?;
             map.insert(key, entry);
         }
         Ok(())
-    }
-
-    fn released(&self, key: Key, number: usize, place: Place) -> crate::Error {
-        let node = self.node_name(key.0 as usize);
-        let message = format!(
-            "OP=NEW releases node {node} along {} in step {}: supports are the same in all steps; \
-             repeat them, or press with a force where it is to come free",
-            key.1 + 1,
-            number + 1
-        );
-        unsupported(self.error(place, "BOUNDARY", message))
     }
 
     /// The values that a step gives, key by key.
@@ -327,17 +357,15 @@ impl Deck {
         let last = entry.series.last();
         if number == 0 {
             entry.series = Series::starting(start);
-        } else if (start - last).abs() > JUMP * start.abs().max(last.abs()) {
-            let message = format!(
-                "the value jumps from {} to {} at the start of step {}: begin the amplitude where \
-                 the step before ends",
-                exact(last),
-                exact(start),
-                number + 1
-            );
-            return Err(unsupported(self.error(given.place, keyword, message)));
         }
-        follow(&laws, time, &mut entry.series);
+        let jumps = (start - last).abs() > JUMP * start.abs().max(last.abs());
+        // A jump at the start of the step is taken over the first increment; a node that comes from
+        // wherever it is has no value there.
+        let from = match number > 0 && (jumps || !entry.series.is_begun()) {
+            true => time.first,
+            false => time.start,
+        };
+        follow(&laws, time, from, &mut entry.series);
         Ok(())
     }
 
@@ -350,7 +378,7 @@ impl Deck {
             .collect();
         match laws.is_empty() {
             true => entry.series.push(time.end, entry.series.last()),
-            false => follow(&laws, time, &mut entry.series),
+            false => follow(&laws, time, time.start, &mut entry.series),
         }
         Ok(())
     }
@@ -368,13 +396,15 @@ fn value_at(laws: &[(f64, &Amplitude)], at: f64, time: &Interval) -> f64 {
     laws.iter().map(of_law).sum()
 }
 
-/// Continues a history along amplitudes to the end of a step.
-fn follow(laws: &[(f64, &Amplitude)], time: &Interval, series: &mut Series) {
+/// Continues a history along amplitudes to the end of a step: linearly to the value at the time
+/// `from`, and from there on as they go.
+fn follow(laws: &[(f64, &Amplitude)], time: &Interval, from: f64, series: &mut Series) {
     let mut times = vec![time.end];
+    times.extend((time.start < from).then_some(from));
     for (_, amplitude) in laws {
         let offset = if amplitude.is_total { 0.0 } else { time.start };
         let kinks = amplitude.rows.iter().map(|row| row[0] + offset);
-        times.extend(kinks.filter(|t| time.start < *t && *t < time.end));
+        times.extend(kinks.filter(|t| from < *t && *t < time.end));
     }
     times.sort_by(f64::total_cmp);
     times.dedup();

@@ -15,6 +15,11 @@ impl Series {
         Series(vec![[0.0, value]])
     }
 
+    /// Whether there is a value yet.
+    pub(super) fn is_begun(&self) -> bool {
+        !self.0.is_empty()
+    }
+
     /// The last value; 0 if there is none yet.
     pub(super) fn last(&self) -> f64 {
         self.0.last().map_or(0.0, |row| row[1])
@@ -68,11 +73,20 @@ impl Series {
         &self.0
     }
 
-    /// The rows divided by the largest value.
+    /// The rows divided by the largest value; ones if all values are zero.
     pub(super) fn shape(&self) -> Vec<[f64; 2]> {
         let largest = self.largest();
         let rows = self.0.iter();
+        if largest == 0.0 {
+            return rows.map(|&[time, _]| [time, 1.0]).collect();
+        }
         rows.map(|&[time, value]| [time, value / largest]).collect()
+    }
+
+    /// The series with all values multiplied by a factor.
+    pub(super) fn multiplied(&self, factor: f64) -> Series {
+        let rows = self.0.iter();
+        Series(rows.map(|&[time, value]| [time, factor * value]).collect())
     }
 
     /// Adds another series, multiplied by a factor.

@@ -1,8 +1,10 @@
 //! Linear equations of the scene, by which one displacement follows others, and prescribed
 //! differences of displacements.
 
+use super::carried::Carried;
 use super::freedoms::{Freedoms, Slot};
 use super::names::Entry;
+use super::on_mesh::OnMesh;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{EquationTerm, Scene};
@@ -16,8 +18,8 @@ pub(super) struct Following {
     pub direction: usize,
     /// Nodes on the right-hand side, each with its vector `v`.
     pub terms: Vec<(usize, Vector)>,
-    /// The value that a load prescribes, with the number of the load.
-    pub moved: Option<(usize, f64)>,
+    /// The values that loads prescribe, which are added, with the numbers of the loads.
+    pub moved: Vec<(usize, f64)>,
     /// The list of the scene in which the equation stands, and its number there.
     of: (&'static str, usize),
 }
@@ -26,8 +28,15 @@ pub(super) struct Following {
 ///
 /// # Errors
 /// Input errors: sets that do not exist, sets of different sizes.
-pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Vec<Following>> {
-    let mut out = Vec::new();
+pub(super) fn resolve(
+    scene: &Scene,
+    mesh: &Mesh,
+    carried: Option<&Carried>,
+) -> Result<Vec<Following>> {
+    let mut out = match carried {
+        Some(carried) => on_their_way(scene, mesh, carried)?,
+        None => Vec::new(),
+    };
     for ((list, index), terms, moved) in all(scene) {
         let entry = Entry::of_list(scene, list, index);
         let nodes = nodes_of_terms(&entry, mesh, (list, index), &terms)?;
@@ -47,8 +56,37 @@ pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Vec<Following>> {
                     node,
                     direction,
                     terms,
-                    moved: moved.map(|value| (index, value)),
+                    moved: moved.map(|value| (index, value)).into_iter().collect(),
                     of: (list, index),
+                });
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// Prescribed displacements whose nodes come from where an earlier leg of the program left them: a
+/// share of that place and a share of the prescribed value are added.
+fn on_their_way(scene: &Scene, mesh: &Mesh, carried: &Carried) -> Result<Vec<Following>> {
+    let mut out = Vec::new();
+    for (index, load) in scene.load.iter().enumerate() {
+        let (Some(origin), Some(given)) = (carried.origin_case(scene, index), &load.displacement)
+        else {
+            continue;
+        };
+        let entry = Entry::of_list(scene, "load", index);
+        let within = |error: Error| entry.refused(error.within(entry.on(&load.on)));
+        for (direction, field) in given.components().into_iter().enumerate() {
+            let Some(field) = field else { continue };
+            let field = OnMesh::new(field, "displacement", scene, mesh).map_err(within)?;
+            for node in entry.nodes(mesh, &load.on)? {
+                let value = field.at_node(node).map_err(within)?;
+                out.push(Following {
+                    node,
+                    direction,
+                    terms: Vec::new(),
+                    moved: vec![(index, value), (origin, carried.of_node(node)[direction])],
+                    of: ("load", index),
                 });
             }
         }

@@ -42,7 +42,7 @@ pub(super) struct Followers {
     /// Sum `sum v . q` of control points for each follower.
     terms: Vec<Vec<(usize, Vector)>>,
     /// Prescribed values that are added to the sums of followers.
-    moved: BTreeMap<usize, u32>,
+    moved: BTreeMap<usize, Vec<u32>>,
     /// Number of followers by ties, which come first.
     of_ties: usize,
 }
@@ -141,17 +141,16 @@ impl Freedoms {
             let terms = equation.terms.iter();
             let terms = terms.map(|&(node, v)| (node, v.map(|v| sense * v)));
             let k = followers.terms.len();
-            if let Some((load, value)) = equation.moved {
-                followers.moved.insert(k, self.prescribed.len() as u32);
-                let value = sense * value;
+            let weight = sense / self.basis.own_weight(equation.node);
+            for &(load, value) in &equation.moved {
+                let all = followers.moved.entry(k).or_default();
+                all.push(self.prescribed.len() as u32);
+                let value = weight * value;
                 self.prescribed.push(Prescribed { load, value });
             }
             followers.place.insert((equation.node, axis), k);
             let direction = self.local(equation.node)[axis];
             let terms = self.at_control_point(equation.node, direction, terms.collect());
-            if let Some(&p) = followers.moved.get(&k) {
-                self.prescribed[p as usize].value /= self.basis.own_weight(equation.node);
-            }
             followers.terms.push(terms);
             self.slots[equation.node][axis] = Slot::Sum(k as u32);
         }
@@ -429,7 +428,8 @@ impl FollowerExpansion<'_> {
         let mut sums: BTreeMap<Axis, f64> = BTreeMap::new();
         let mut moved: BTreeMap<u32, f64> = BTreeMap::new();
         let (freedoms, followers) = (self.freedoms, self.followers);
-        moved.extend(followers.moved.get(&k).map(|&p| (p, 1.0)));
+        let own = followers.moved.get(&k).into_iter().flatten();
+        moved.extend(own.map(|&p| (p, 1.0)));
         for &(node, v) in &followers.terms[k] {
             let axes = freedoms.local(node).into_iter().zip(freedoms.slots[node]);
             for (l, (axis, slot)) in axes.enumerate() {

@@ -2,19 +2,18 @@
 //! them.
 
 use super::Pair;
+use super::carried::Carried;
 use super::contact_basis::ContactBasis;
 use super::equations::Following;
 use super::followers::{Followers, Others};
 use super::frame::{ALIGNED, Frame, frame};
-use super::names::Entry;
-use super::on_mesh::OnMesh;
 use super::pairs::ties::Tied;
 use super::rigid::RigidBodies;
 use super::springs::Spring;
 use super::supports::{Held, Supports, turn_normals_into_supports};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::mesh::Mesh;
-use crate::scene::{Direction, Scene};
+use crate::scene::Scene;
 use crate::space::{Vector, dot, in_words, unit};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -88,10 +87,13 @@ impl Freedoms {
         pairs: &mut [Pair],
         master_normals: &[(usize, Vector)],
         (ties, equations, rigid): (&[Tied], &[Following], &RigidBodies),
+        carried: Option<&Carried>,
     ) -> Result<(Self, Followers)> {
         let n_nodes = mesh.n_nodes();
         let supports = Supports::resolve(scene, mesh)?;
+        // All legs of the program have the same normals.
         turn_normals_into_supports(pairs, &supports);
+        let supports = supports.in_leg(scene, carried.map_or(0.0, |carried| carried.at));
         let mut normal_of = vec![None; n_nodes];
         for pair in pairs.iter() {
             // A master that a support holds is an obstacle: it does not move.
@@ -146,15 +148,18 @@ impl Freedoms {
         }
         for (&node, of_node) in &supports.of_node {
             freedoms.hold(scene, mesh, node, normal_of[node], of_node)?;
+            if let Some(carried) = carried {
+                freedoms.hold_where_it_is(scene, node, of_node, carried);
+            }
         }
         let shared = rigid.hold(&mut freedoms);
-        let mut planes = freedoms.apply_loads(scene, mesh, &touches)?;
+        let mut planes = freedoms.apply_loads(scene, mesh, &touches, carried)?;
         planes.extend(
             shared
                 .into_iter()
                 .map(|(axis, k)| (axis, scene.load.len() + k)),
         );
-        freedoms.check_edges(mesh)?;
+        freedoms.check_edges(mesh, scene.load.len())?;
         let others = Others {
             plane: &|axis| planes.contains_key(&axis),
             pairs: &*pairs,
@@ -163,46 +168,6 @@ impl Freedoms {
         freedoms.follow_equations(scene, mesh, equations, &others, &mut followers)?;
         freedoms.number(&planes);
         Ok((freedoms, followers))
-    }
-
-    /// Refuses an edge whose middle is held through its control point while its ends are not held
-    /// in the same way.
-    fn check_edges(&self, mesh: &Mesh) -> Result<()> {
-        let held = |node: usize, direction: Vector| {
-            let axes = self.local(node);
-            // Planes at any angle hold all directions in the span of their normals.
-            let fixed = (0..3).filter(|&i| self.slots[node][i] == Slot::Fixed);
-            if fixed.map(|i| dot(axes[i], direction).powi(2)).sum::<f64>() > 1.0 - ALIGNED {
-                return Some((usize::MAX, 0.0));
-            }
-            let at = (0..3).find(|&i| dot(axes[i], direction).abs() > 1.0 - ALIGNED)?;
-            let sign = dot(axes[at], direction).signum();
-            match self.slots[node][at] {
-                Slot::Free(_) | Slot::Sum(_) => None,
-                Slot::Fixed => Some((usize::MAX, 0.0)),
-                Slot::Prescribed(p) => {
-                    let prescribed = self.prescribed[p as usize];
-                    Some((prescribed.load, sign * prescribed.value))
-                }
-            }
-        };
-        for (node, ends) in self.basis.edges() {
-            for (slot, axis) in self.slots[node].iter().zip(self.local(node)) {
-                let alike = |end: &usize| held(*end, axis) == held(node, axis);
-                if !matches!(slot, Slot::Free(_)) && !ends.iter().all(alike) {
-                    return Err(Error::input(format!(
-                        "node {} in the middle of an edge in contact is held along {}, but an end \
-                         of the edge (nodes {} and {}) is not held alike: hold or release the \
-                         whole edge",
-                        mesh.node_label(node),
-                        in_words(axis, mesh.dimension),
-                        mesh.node_label(ends[0]),
-                        mesh.node_label(ends[1])
-                    )));
-                }
-            }
-        }
-        Ok(())
     }
 
     fn set_frame(&mut self, node: usize, frame: Frame) {
@@ -280,81 +245,6 @@ impl Freedoms {
             }
         }
         Ok(())
-    }
-
-    /// Turns prescribed displacements into slots, and surfaces held plane into groups.
-    fn apply_loads(&mut self, scene: &Scene, mesh: &Mesh, touches: &[bool]) -> Result<Planes> {
-        let mut planes = Planes::new();
-        for (index, load) in scene.load.iter().enumerate() {
-            let entry = Entry::of_list(scene, "load", index);
-            let directions: Vec<(usize, Option<OnMesh>)> = if let Some(d) = &load.displacement {
-                let given = d.components().into_iter().enumerate();
-                let given = given.filter_map(|(axis, field)| Some((axis, field?)));
-                let fields = given.map(|(axis, field)| {
-                    let field = OnMesh::new(field, "displacement", scene, mesh);
-                    Ok((axis, Some(field?)))
-                });
-                let within = |error: Error| entry.refused(error.within(entry.on(&load.on)));
-                fields.collect::<Result<_>>().map_err(within)?
-            } else if let Some(plane) = load.plane_force
-                && !scene.rigid.contains_key(&load.on)
-            {
-                vec![(plane.direction.axis(), None)]
-            } else {
-                continue;
-            };
-            for node in entry.nodes(mesh, &load.on)? {
-                let refused = |why: String| {
-                    entry.refused(Error::input(format!(
-                        "load {} on `{}`: node {} {why}",
-                        index + 1,
-                        load.on,
-                        mesh.node_label(node)
-                    )))
-                };
-                let touches = touches[node];
-                for (direction, value) in &directions {
-                    let direction = *direction;
-                    let name = Direction::ALL[direction].name();
-                    let local = self.local_axis(node, direction).ok_or_else(|| {
-                        let has = match touches {
-                            true => "a contact normal",
-                            false => "a turned support",
-                        };
-                        refused(format!("has {has} and cannot be moved along {name}"))
-                    })?;
-                    let sign = dot(self.local(node)[local], unit(direction)).signum();
-                    if self.slots[node][local] != Slot::Free(0)
-                        || planes.contains_key(&(node, local))
-                    {
-                        return Err(refused(format!(
-                            "is already held or prescribed along {name}"
-                        )));
-                    }
-                    match value {
-                        Some(field) => {
-                            let value = field
-                                .at_control(node, &self.basis)
-                                .map_err(|error| entry.refused(error.within(entry.on(&load.on))))?;
-                            self.slots[node][local] =
-                                Slot::Prescribed(self.prescribed.len() as u32);
-                            self.prescribed.push(Prescribed {
-                                load: index,
-                                value: sign * value,
-                            });
-                        }
-                        None if sign < 0.0 || touches => {
-                            let why = "belongs to a contact surface, which cannot be held plane";
-                            return Err(refused(why.to_string()));
-                        }
-                        None => {
-                            planes.insert((node, local), index);
-                        }
-                    }
-                }
-            }
-        }
-        Ok(planes)
     }
 
     fn number(&mut self, planes: &Planes) {
@@ -451,4 +341,4 @@ impl Freedoms {
 
 /// Group of each node and local direction that belong to a surface held plane (load index) or to a
 /// rigid one (numbers beyond those of the loads).
-type Planes = BTreeMap<(usize, usize), usize>;
+pub(super) type Planes = BTreeMap<(usize, usize), usize>;

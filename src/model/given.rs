@@ -1,5 +1,6 @@
 //! Data of a model from arrays that are stated node by node, where a scene relies on geometry.
 
+use super::carried::Carried;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::space::{Vector, direction, dot, in_words, length};
@@ -28,6 +29,8 @@ pub(crate) struct Given {
     pub(super) pairs: BTreeMap<usize, Vec<NodePair>>,
     /// Forces on the model itself (not on the whole of a symmetric one) at factor 1.
     pub(super) forces: BTreeMap<usize, Vec<(usize, Vector)>>,
+    /// What an earlier leg of the program has left.
+    pub(super) carried: Option<Carried>,
 }
 
 impl Given {
@@ -35,8 +38,13 @@ impl Given {
     /// on their surfaces.
     ///
     /// # Errors
-    /// A force on a node that does not exist.
+    /// A force on a node that does not exist; displacements of another mesh.
     pub(super) fn check(&self, n_nodes: usize) -> Result<()> {
+        if (self.carried.as_ref()).is_some_and(|carried| !carried.is_of(n_nodes)) {
+            return Err(Error::input(
+                "the displacements to begin with are of another mesh",
+            ));
+        }
         let nodes = self.forces.values().flatten().map(|(node, _)| *node);
         match nodes.into_iter().find(|node| *node >= n_nodes) {
             Some(node) => Err(Error::input(format!(

@@ -29,6 +29,8 @@ pub enum Magnitude {
     Gap,
     /// Initial strain of a body.
     Strain,
+    /// Displacements and support forces that an earlier leg of the program has left.
+    Carried,
 }
 
 /// A load: nodal forces per unit of its factor, and how the factor depends on the load factor.
@@ -88,7 +90,7 @@ impl LoadCase {
     pub(crate) fn acts(&self) -> bool {
         match self.measures {
             Magnitude::Displacement => self.magnitude != 0.0,
-            Magnitude::Gap => self.magnitude != 0.0,
+            Magnitude::Gap | Magnitude::Carried => self.magnitude != 0.0,
             _ => !self.free_strain.is_empty() || self.nodal.iter().any(|(_, f)| *f != [0.0; 3]),
         }
     }
@@ -108,6 +110,7 @@ impl LoadCase {
         };
         let size = match self.measures {
             Magnitude::Displacement => self.magnitude.abs(),
+            Magnitude::Carried => 0.0,
             _ => self.size(),
         };
         factor * size
@@ -149,6 +152,10 @@ pub(super) fn resolve(
             if let Some(forces) = given.forces.get(&index) {
                 case.nodal.clone_from(forces);
             }
+            let start = given.carried.as_ref().map_or(0.0, |carried| carried.at);
+            if !load.span().holds_from(start) {
+                case.magnitude = 0.0;
+            }
             case.nodal = freedoms.basis.share_of(case.nodal);
             for (_, opening) in &mut case.opens {
                 opening.restate(&freedoms.basis);
@@ -160,10 +167,18 @@ pub(super) fn resolve(
 }
 
 /// Number of the load by which results are reported: the first that varies, otherwise the first.
-pub(super) fn leading(loads: &[LoadCase]) -> Option<usize> {
+/// Loads that act in all legs of the program come before others.
+pub(super) fn leading(scene: &Scene, loads: &[LoadCase]) -> Option<usize> {
+    let own = || loads.iter().enumerate();
     let varies = |load: &LoadCase| !matches!(load.history, History::Constant);
+    let is_whole = |index: usize| {
+        let entry = scene.load.get(index);
+        entry.is_none_or(|load| load.span().is_whole())
+    };
+    let whole = own().find(|(index, load)| varies(load) && is_whole(*index));
+    let any = || own().find(|(_, load)| varies(load));
     let first = (!loads.is_empty()).then_some(0);
-    loads.iter().position(varies).or(first)
+    whole.or_else(any).map(|(index, _)| index).or(first)
 }
 
 /// Converts the forces to a new numbering of the freedoms.
@@ -182,6 +197,26 @@ fn body_of(mesh: &Mesh, nodes: &[usize]) -> u32 {
     };
     let element = (0..mesh.n_elements()).find(holds);
     element.map_or(0, |e| mesh.element_body[e])
+}
+
+impl LoadCase {
+    /// A load without nodes and forces, for what an earlier leg of the program has left.
+    pub(super) fn carried(name: &str, history: History) -> LoadCase {
+        LoadCase {
+            name: name.to_string(),
+            nodal: Vec::new(),
+            forces: Vec::new(),
+            history,
+            magnitude: 0.0,
+            measures: Magnitude::Carried,
+            nodes: Vec::new(),
+            shares: Vec::new(),
+            body: 0,
+            direction: [0.0; 3],
+            free_strain: Vec::new(),
+            opens: Vec::new(),
+        }
+    }
 }
 
 fn resolve_load(

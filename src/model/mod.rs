@@ -6,6 +6,7 @@
 mod alike;
 mod body_forces;
 mod builder;
+mod carried;
 mod contact_basis;
 mod continuum;
 mod depth;
@@ -30,6 +31,7 @@ mod on_mesh;
 mod openings;
 mod pairs;
 mod plausible;
+mod prescribed;
 mod recipe;
 mod rigid;
 mod rows;
@@ -97,8 +99,8 @@ pub struct Model {
     pub symmetry: f64,
     /// Warnings for the user, found while the model was made.
     pub warnings: Vec<String>,
-    /// State from which a run starts, once an [`crate::analysis::Analysis`] has read it; `None` for
-    /// a virgin state.
+    /// State from which a run starts, once an [`crate::analysis::Analysis`] has read it or an
+    /// earlier leg of the program has left it; `None` for a virgin state.
     pub start: Option<EndState>,
     origin: Origin,
 }
@@ -116,7 +118,7 @@ impl Model {
     /// Number of the load by which results are reported: the first that varies, otherwise the
     /// first.
     pub fn leading_load(&self) -> Option<usize> {
-        loads::leading(&self.loads)
+        loads::leading(&self.scene, &self.loads)
     }
 
     /// Share of the interference of all contacts that is applied at a load factor.
@@ -174,6 +176,27 @@ impl Model {
         Self::resolve(scene, mesh, Origin::Arrays(Given::default()))
     }
 
+    /// Builds the model of a leg of the program.
+    ///
+    /// # Errors
+    /// Errors of [`Model::new`].
+    fn of_leg(scene: &Scene, mesh: Mesh, given: Given) -> Result<Self> {
+        let made = Self::resolve(scene, mesh, Origin::Arrays(given));
+        let mut model = made.map_err(|error| words::of_deck(scene, error))?;
+        for text in &mut model.warnings {
+            *text = words::text_of_deck(scene, text);
+        }
+        Ok(model)
+    }
+
+    /// Data given in addition to the scene.
+    fn given(&self) -> Given {
+        match &self.origin {
+            Origin::Arrays(given) => given.clone(),
+            Origin::Scene => Given::default(),
+        }
+    }
+
     /// Whether the scene alone makes this model.
     pub(crate) fn is_of_its_scene(&self) -> bool {
         matches!(self.origin, Origin::Scene)
@@ -205,7 +228,7 @@ impl Model {
             pairs::resolve(scene, &mesh, (given, &rigid), &mut warnings)?;
         let ties = pairs::ties::resolve(scene, &mesh, &contacts, &mut warnings)?;
         let basis = ContactBasis::of(&mesh, &pairs, &contacts, &ties)?;
-        let equations = equations::resolve(scene, &mesh)?;
+        let equations = equations::resolve(scene, &mesh, given.carried.as_ref())?;
         let normals = pairs::mortar::master_normals(&mesh, &pairs, &contacts);
         let (mut freedoms, followers) = Freedoms::new(
             scene,
@@ -214,12 +237,16 @@ impl Model {
             &mut pairs,
             &normals,
             (&ties, &equations, &rigid),
+            given.carried.as_ref(),
         )?;
         warnings.extend(settle(&mut mesh, &mut freedoms, &followers)?);
         freedoms.basis.restate(&mut pairs, &contacts);
         let stated = (&mut pairs[..], &contacts[..]);
         pairs::stated::at_control_points(scene, &mesh, &freedoms.basis, stated)?;
         let mut loads = loads::resolve(scene, &mesh, given, (&freedoms, &contacts))?;
+        if let Some(carried) = &given.carried {
+            carried.add_cases(scene, (&mut loads, &freedoms));
+        }
         openings::of_moved_masters(&mut loads, &freedoms, (&pairs, &contacts));
         let of_bodies = (&materials[..], &contacts[..]);
         loads.extend(initial_strain::resolve(scene, &mesh, of_bodies, &freedoms)?);
@@ -253,7 +280,7 @@ impl Model {
             pairs,
             rows,
             contacts,
-            alike: alike::alike(&loads, loads::leading(&loads)),
+            alike: alike::alike(&loads, loads::leading(scene, &loads)),
             loads,
             floating,
             symmetry: scene.symmetry as f64,

@@ -2,7 +2,7 @@
 
 use super::names::Entry;
 use super::pairs::Pair;
-use crate::error::{Error, Result};
+use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::space::{Vector, along, direction, dot, unit};
@@ -50,7 +50,8 @@ impl Moved {
     }
 }
 
-/// Held directions of each node, in the order of the scene.
+/// Held directions of each node, in the order of the scene, whether throughout the program or in
+/// some of its legs.
 pub(super) struct Supports {
     pub(super) of_node: BTreeMap<usize, Vec<Held>>,
 }
@@ -84,6 +85,18 @@ impl Supports {
         Ok(Supports { of_node })
     }
 
+    /// Keeps the supports that hold in the leg that begins at a load factor.
+    pub(super) fn in_leg(mut self, scene: &Scene, start: f64) -> Self {
+        for held in self.of_node.values_mut() {
+            held.retain(|held| {
+                let support = held.support.map(|index| &scene.support[index]);
+                support.is_none_or(|support| support.span().holds_from(start))
+            });
+        }
+        self.of_node.retain(|_, held| !held.is_empty());
+        self
+    }
+
     /// Finds the prescribed displacements of all loads, and those that follow others in equations.
     pub(super) fn moved(scene: &Scene, mesh: &Mesh) -> Result<Moved> {
         let mut of_node: BTreeMap<usize, Vec<Vector>> = BTreeMap::new();
@@ -114,6 +127,31 @@ impl Supports {
 }
 
 impl Supports {
+    /// Checks that supports hold the slave of a pair along its normal in all legs of the program.
+    ///
+    /// # Errors
+    /// `Unsupported` naming the node and the support.
+    pub(super) fn hold_throughout(&self, scene: &Scene, mesh: &Mesh, pair: &Pair) -> Result<()> {
+        let held = self.of_node.get(&pair.slave).into_iter().flatten();
+        for held in held.filter(|held| dot(pair.normal, held.direction).abs() >= NEARLY_TANGENT) {
+            let support = held.support.map(|index| &scene.support[index]);
+            if support.is_some_and(|support| !support.span().is_whole()) {
+                let error = held.refused(
+                    scene,
+                    format!(
+                        "{} begins or ends within the program, and holds node {} along its \
+                         contact normal: contact and support would take turns; take the node out \
+                         of one of the two sets",
+                        held.by(scene),
+                        mesh.node_label(pair.slave)
+                    ),
+                );
+                return Err(Error::new(ErrorKind::Unsupported, error.to_string()));
+            }
+        }
+        Ok(())
+    }
+
     /// Whether a node is held along a direction, and not only nearly at right angles to it.
     pub(super) fn hold_along(&self, node: usize, direction: Vector) -> bool {
         let mut held = self.of_node.get(&node).into_iter().flatten();

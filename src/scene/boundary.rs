@@ -125,6 +125,15 @@ pub struct Support {
     pub angle: Option<f64>,
     /// A single direction, of any orientation, that is held; given instead of `fix`.
     pub direction: Option<Components>,
+    /// Load factor from which on the nodes are held, where they are then. By default they are held
+    /// from the start, where the mesh has them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub since: Option<f64>,
+    /// Two load factors: up to the first the nodes are held, then their support forces are taken
+    /// away, linearly, until nothing is left of them at the second. By default the nodes are held
+    /// to the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub until: Option<[f64; 2]>,
 }
 
 /// A coordinate direction; in an axisymmetric model x means r and y means z.
@@ -226,6 +235,16 @@ pub struct Load {
     /// Dependence of the load on the load factor.
     #[serde(default)]
     pub history: History,
+    /// Load factor from which on a displacement is prescribed. The nodes begin where they are then,
+    /// and go linearly to the next row of the `history`, which must be a table. By default a
+    /// displacement is prescribed from the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub since: Option<f64>,
+    /// Two load factors: up to the first the displacement is prescribed, then the forces that this
+    /// takes are taken away, linearly, until nothing is left of them at the second. By default the
+    /// displacement is prescribed to the end.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub until: Option<[f64; 2]>,
 }
 
 impl Load {

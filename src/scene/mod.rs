@@ -30,6 +30,7 @@ mod reference;
 mod requests;
 mod rigid;
 mod schema;
+pub(crate) mod span;
 mod target;
 mod tensile_test;
 mod units;

@@ -36,6 +36,7 @@ mod shakedown;
 mod shrink_fit;
 mod ssnv104;
 mod start_from;
+mod supports_in_time;
 mod thick_cylinder;
 mod thick_sphere;
 mod yield_depth;

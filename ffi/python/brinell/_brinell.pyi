@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Optional, Sequence, Union
+from typing import Any, Callable, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -76,7 +76,16 @@ class Model:
         interference: float = 0.0,
         slave: str = "auto",
     ) -> None: ...
-    def support(self, on: str, fix: str, *, angle: Optional[float] = None) -> None: ...
+    def support(
+        self,
+        on: str,
+        fix: str = "",
+        *,
+        angle: Optional[float] = None,
+        direction: Optional[Sequence[float]] = None,
+        since: Optional[float] = None,
+        until: Optional[Tuple[float, float]] = None,
+    ) -> None: ...
     def load(self, on: str, **values: Any) -> None: ...
     def nodal_load(self, name: str, nodes: ArrayLike, forces: ArrayLike, *, history: Any = None) -> None: ...
     def target(self, *, first_yield: bool = False, **values: Any) -> None: ...

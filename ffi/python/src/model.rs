@@ -338,8 +338,10 @@ impl Model {
 
     /// Holds a node set or surface along "x", "y", of a solid "z", or several of them ("xy"), in
     /// axes turned counter-clockwise by `angle` degrees; or, of a solid, along any one
-    /// direction=(x, y, z).
-    #[pyo3(signature = (on, fix = "", *, angle = None, direction = None))]
+    /// direction=(x, y, z). From the load factor `since` on the nodes are held where they then are;
+    /// until=(held, free) lets them go: the support forces are taken away between the two.
+    #[pyo3(signature = (on, fix = "", *, angle = None, direction = None, since = None, until = None))]
+    #[allow(clippy::too_many_arguments)] // keywords
     fn support(
         &mut self,
         py: Python<'_>,
@@ -347,6 +349,8 @@ impl Model {
         fix: &str,
         angle: Option<f64>,
         direction: Option<Vec<f64>>,
+        since: Option<f64>,
+        until: Option<[f64; 2]>,
     ) -> PyResult<()> {
         let fix = fix.chars().map(|c| match c {
             'x' => Ok(Direction::X),
@@ -365,6 +369,8 @@ impl Model {
             fix: fix.collect::<PyResult<_>>()?,
             angle,
             direction,
+            since,
+            until,
         };
         self.change(py, |b| {
             b.support(support);

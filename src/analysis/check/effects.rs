@@ -94,7 +94,8 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     };
     let of_contact = seconds::of_contact(&contact);
     let factorisation = seconds::of_factorisation(&prediction, backend) + of_contact;
-    let run = seconds::of_run(model, &sizes, &prediction, factorisation);
+    let again = model.scene.changes_of_support().len() as f64 * factorisation;
+    let run = again + seconds::of_run(model, &sizes, &prediction, factorisation);
     let mut notes = model.warnings.clone();
     notes.extend(notes_on_program(model));
     notes.extend(faster_solver(model, backend));
@@ -297,6 +298,8 @@ fn initial_state(model: &Model) -> Effect {
 
 fn earlier_run(model: &Model, start: Option<&EndState>) -> Effect {
     let folder = model.scene.start_from.as_ref().map(|dir| dir.display());
+    // A later leg of the program starts from the state that the one before has left.
+    let start = start.filter(|_| folder.is_some());
     let why = match (folder, start) {
         (None, _) => "the run starts from a virgin state".to_string(),
         (Some(folder), None) => format!("nothing had yielded in the run in {folder}"),
@@ -313,7 +316,14 @@ fn prescribed_displacements(model: &Model) -> Effect {
     let loads = model.loads.iter();
     let prescribing = |load: &&LoadCase| load.measures == Magnitude::Displacement;
     let asked: Vec<&LoadCase> = loads.filter(prescribing).collect();
-    let acting = asked.iter().filter(|load| load.acts());
+    let of_a_leg = model
+        .scene
+        .load
+        .iter()
+        .filter(|load| !load.span().is_whole());
+    let of_a_leg: Vec<&str> = of_a_leg.map(|load| load.name.as_str()).collect();
+    let acts = |load: &&&LoadCase| load.acts() || of_a_leg.contains(&load.name.as_str());
+    let acting = asked.iter().filter(acts);
     let acting: Vec<&str> = acting.map(|load| load.name.as_str()).collect();
     let why = match (asked.is_empty(), acting.is_empty()) {
         (true, _) => "no load prescribes one".to_string(),
@@ -409,13 +419,23 @@ fn interference(model: &Model) -> Effect {
 
 fn preload(model: &Model) -> Effect {
     let acts = |load: &LoadCase| {
-        load.measures != Magnitude::Strain && load.acts() && load.factor(0.0, 1.0) != 0.0
+        let is_own = !matches!(load.measures, Magnitude::Strain | Magnitude::Carried);
+        is_own && load.acts() && load.factor(0.0, 1.0) != 0.0
     };
     let (on, why) = match model.loads.iter().any(acts) {
         true => (true, "a load acts at load factor 0"),
         false => (false, "no load acts at load factor 0"),
     };
     effect("preload", on, why.to_string())
+}
+
+fn changing_supports(model: &Model) -> Effect {
+    let legs = model.scene.changes_of_support().len() + 1;
+    let why = match legs {
+        1 => "the same displacements are held throughout".to_string(),
+        _ => format!("{legs} legs of the program, each with a factorisation of its own"),
+    };
+    effect("changing supports", legs > 1, why)
 }
 
 fn floating_bodies(model: &Model) -> Effect {
@@ -448,6 +468,7 @@ pub(in crate::analysis) fn effects(
         ties(model),
         interference(model),
         prescribed_displacements(model),
+        changing_supports(model),
         cycles(model),
         loads_found(model),
         preload(model),

@@ -152,6 +152,15 @@ pub fn including(model: &Model, old: &Choice, elements: &[usize]) -> Choice {
     Choice::from_marks(model, core, GUARD)
 }
 
+/// A zone that holds all elements of two zones.
+pub fn joined(model: &Model, zones: [&Choice; 2]) -> Choice {
+    let mut core = vec![false; model.mesh.n_elements()];
+    for &e in zones.iter().flat_map(|zone| &zone.elements) {
+        core[e] = true;
+    }
+    Choice::from_marks(model, core, GUARD)
+}
+
 /// Adds layers of neighbouring elements that may yield: elements of any body that share a node.
 fn widen(model: &Model, mut marked: Vec<bool>, layers: usize) -> Vec<bool> {
     for _ in 0..layers {

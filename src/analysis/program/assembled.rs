@@ -24,7 +24,9 @@ impl Analysis {
     /// damaged, or of another mesh or version.
     pub fn new(mut model: Model, backend: Backend) -> Result<Self> {
         let start = Instant::now();
-        model.start = starting::read(&model)?;
+        if model.start.is_none() {
+            model.start = starting::read(&model)?;
+        }
         let system = assemble(&model, backend);
         let system = system.map_err(|error| words::of_deck(&model.scene, error))?;
         let timings = vec![("assembly".to_string(), start.elapsed().as_secs_f64())];

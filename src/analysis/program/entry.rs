@@ -2,30 +2,44 @@
 //! first yield.
 
 use super::assembled::Analysis;
+use super::legs;
 use super::position::Purpose;
 use super::run::Run;
 use super::scout;
 use crate::checkpoint::{Checkpoints, Identity, Store};
 use crate::deck::words;
-use crate::error::Result;
+use crate::error::{Error, ErrorKind, Result};
+use crate::number::significant;
 use crate::progress::Observer;
 use crate::results::{Incomplete, Results};
 
 /// Runs to the end, or as far as possible.
 fn complete(mut run: Run) -> Result<Results> {
     let outcome = run.execute();
-    let mut results = run.finish();
-    match outcome {
-        Ok(()) => {}
-        Err(error) if results.states.is_empty() && results.history.is_empty() => return Err(error),
-        Err(error) => {
-            results.incomplete = Some(Incomplete {
-                kind: error.kind(),
-                why: error.in_full(),
-            });
+    run.complete(outcome)
+}
+
+impl Run<'_, '_> {
+    /// The results of a run with the given outcome, as far as it came.
+    ///
+    /// # Errors
+    /// The error of the outcome, if there are no results.
+    pub(super) fn complete(self, outcome: Result<()>) -> Result<Results> {
+        let mut results = self.finish();
+        match outcome {
+            Ok(()) => {}
+            Err(error) if results.states.is_empty() && results.history.is_empty() => {
+                return Err(error);
+            }
+            Err(error) => {
+                results.incomplete = Some(Incomplete {
+                    kind: error.kind(),
+                    why: error.in_full(),
+                });
+            }
         }
+        Ok(results)
     }
-    Ok(results)
 }
 
 impl Analysis {
@@ -58,7 +72,7 @@ impl Analysis {
     /// Failures before the first state: factorisation, yield load, a body that is not held.
     pub fn run(&mut self, observer: &mut dyn Observer) -> Result<Results> {
         let expected = scout::expect(self, observer);
-        let results = Run::new(self, Purpose::Program, expected, observer).and_then(complete);
+        let results = legs::run(self, expected, observer);
         results.map_err(|error| words::of_deck(&self.model.scene, error))
     }
 
@@ -76,6 +90,7 @@ impl Analysis {
         checkpoints: &Checkpoints,
         observer: &mut dyn Observer,
     ) -> Result<Results> {
+        self.check_single_leg()?;
         let store = self.store(checkpoints)?;
         let expected = scout::expect(self, observer);
         let run = Run::new(self, Purpose::Program, expected, observer)?;
@@ -96,6 +111,7 @@ impl Analysis {
         checkpoints: &Checkpoints,
         observer: &mut dyn Observer,
     ) -> Result<Results> {
+        self.check_single_leg()?;
         let store = self.store(checkpoints)?;
         let every = checkpoints.interval();
         let run = Run::resume(self, observer, store, every, scout::expect)?;
@@ -121,7 +137,29 @@ impl Analysis {
     /// # Errors
     /// As [`Analysis::run`].
     pub fn yield_load(&mut self, observer: &mut dyn Observer) -> Result<Results> {
-        complete(Run::new(self, Purpose::YieldLoad, None, observer)?)
+        let results = complete(Run::new(self, Purpose::YieldLoad, None, observer)?)?;
+        match (results.first_yield, self.model.end_of_leg()) {
+            (Some(first), Some(end)) if first.alpha > end => Err(Error::analysis(format!(
+                "no yield load up to load factor {}, at which supports change: run the program",
+                significant(end, 6)
+            ))),
+            _ => Ok(results),
+        }
+    }
+
+    /// Refuses checkpoints of a program in which supports change.
+    fn check_single_leg(&self) -> Result<()> {
+        match self.model.end_of_leg() {
+            None => Ok(()),
+            Some(end) => Err(Error::new(
+                ErrorKind::Unsupported,
+                format!(
+                    "checkpoints are of runs with the same supports throughout; here supports \
+                     change at load factor {}: run without checkpoints",
+                    significant(end, 6)
+                ),
+            )),
+        }
     }
 
     fn store(&self, checkpoints: &Checkpoints) -> Result<Store> {

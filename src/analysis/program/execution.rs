@@ -133,9 +133,10 @@ impl<'m, 'o> Run<'m, 'o> {
             } else {
                 match self.position.stage {
                     Stage::Preload { again } => self.prepare(again)?,
-                    Stage::Targets if self.position.target < self.labels.len() => {
+                    Stage::Targets if self.position.target < self.last_target => {
                         self.begin_target()?;
                     }
+                    Stage::Targets if self.last_target < self.labels.len() => return Ok(None),
                     Stage::Targets => {
                         if !self.begin_cycle() {
                             return Ok(None);

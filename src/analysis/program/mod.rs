@@ -16,6 +16,7 @@
 //! | `targets` | from the current load to the next target | |
 //! | `finish` | the results of a run at its end | |
 //! | `execution` | the program, event by event | |
+//! | `legs` | a program in which supports change | |
 //! | `restart` | resuming from a checkpoint | |
 //! | `assembled` | a model with its assembled system | 3.1 |
 //! | `scout` | the elastic stress from a coarser mesh | |
@@ -29,6 +30,7 @@ mod entry;
 mod execution;
 mod finish;
 mod first_yield;
+mod legs;
 mod path;
 pub(super) mod position;
 mod restart;

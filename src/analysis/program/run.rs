@@ -12,6 +12,7 @@ use crate::error::Result;
 use crate::model::Model;
 use crate::progress::Observer;
 use crate::results::{Quality, Results};
+use crate::scene::Target;
 use std::cell::Cell;
 use std::rc::Rc;
 
@@ -34,6 +35,8 @@ pub(in crate::analysis) struct Run<'m, 'o> {
     pub(super) unloads_outside: Rc<Cell<bool>>,
     /// Gauges for the additional columns of the history.
     pub(super) gauges: Option<Gauges>,
+    /// Number of targets of the program up to the end of the leg.
+    pub(super) last_target: usize,
     /// Names of the targets.
     pub(super) labels: Vec<String>,
     pub(super) observer: &'o mut dyn Observer,
@@ -55,6 +58,7 @@ impl<'m, 'o> Run<'m, 'o> {
         observer: &'o mut dyn Observer,
     ) -> Self {
         Run {
+            last_target: solver.structure.model.targets_up_to_end_of_leg(),
             labels: solver.structure.model.scene.program.labels(),
             solver,
             zone,
@@ -98,12 +102,14 @@ impl<'m, 'o> Run<'m, 'o> {
         self.results.warnings.push(text);
     }
 
+    /// The program's targets up to the end of the leg.
+    pub(super) fn targets_of_leg(&self) -> &'m [Target] {
+        &self.model().scene.program.targets[..self.last_target]
+    }
+
     /// The largest absolute load factor among the targets, if there is one.
     pub(super) fn largest_factor(&self) -> Option<f64> {
-        self.model()
-            .scene
-            .program
-            .targets
+        self.targets_of_leg()
             .iter()
             .filter_map(|t| t.load_factor)
             .map(f64::abs)

@@ -62,7 +62,7 @@ impl Run<'_, '_> {
 
     /// Ratio of elastic von Mises stress to yield stress of each element, the largest over the
     /// given load factors.
-    fn elastic_ratios(&mut self, factors: &[f64]) -> Result<Vec<f64>> {
+    pub(super) fn elastic_ratios(&mut self, factors: &[f64]) -> Result<Vec<f64>> {
         let before = self.solver.state();
         let mut ratios = vec![0.0f64; self.model().mesh.n_elements()];
         for &alpha in factors {
@@ -130,7 +130,7 @@ impl Run<'_, '_> {
     /// load.
     fn extreme_factors(&self, at_yield: f64) -> Vec<f64> {
         let mut all: Vec<f64> = Vec::new();
-        for target in &self.model().scene.program.targets {
+        for target in self.targets_of_leg() {
             all.extend(target.load_factor);
             all.extend(target.half_width.map(|m| m * m * at_yield));
         }

@@ -231,7 +231,9 @@ impl<'m> Solver<'m> {
                         let all = condensed.load.iter().chain(&condensed.forces);
                         all.map(|f| f.abs()).sum()
                     }
-                    Magnitude::Displacement => condensed.load.iter().map(|f| f.abs()).sum(),
+                    Magnitude::Displacement | Magnitude::Carried => {
+                        condensed.load.iter().map(|f| f.abs()).sum()
+                    }
                     Magnitude::Gap => condensed.forces.iter().map(|f| f.abs()).sum(),
                     _ => loads().map(LoadCase::size).sum(),
                 };

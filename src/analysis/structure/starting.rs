@@ -1,6 +1,7 @@
 //! The state that a run starts from: the state that an earlier run left in the material.
 
 use super::solver::Solver;
+use super::state::State;
 use crate::analysis::zone::history::History;
 use crate::checkpoint::read_end_state;
 use crate::error::{Error, Result};
@@ -130,16 +131,40 @@ fn check_origin(model: &Model, state: &EndState) -> Result<()> {
 /// A body that residual stresses alone push away from every contact.
 pub(in crate::analysis) fn begin(solver: &mut Solver) -> Result<()> {
     solver.unload();
+    match take_over(solver) {
+        true => {
+            let nothing = solver.at.clone();
+            solver.solve_contact_at(&nothing)
+        }
+        false => Ok(()),
+    }
+}
+
+/// Goes to the state in which another structure, with the same pairs and the same plastic history,
+/// was at the same load factor.
+pub(in crate::analysis) fn begin_at(solver: &mut Solver, before: &State) {
+    solver.unload();
+    take_over(solver);
+    solver.at = solver.structure.point(before.at.alpha);
+    solver.zone.set_factors(&solver.at.factors);
+    solver.now.gap.copy_from_slice(&before.equilibrium.gap);
+    solver.now.force.copy_from_slice(&before.equilibrium.force);
+    solver.fresh = false;
+    solver.set_springs(&before.springs);
+    solver.restore_statuses(&before.open, &before.border);
+}
+
+/// Takes over the plastic history that the run starts from. Returns whether there is any.
+fn take_over(solver: &mut Solver) -> bool {
     let structure = &solver.structure;
     let Some(start) = &structure.model.start else {
-        return Ok(());
+        return false;
     };
     let history = History::from(start);
     solver.zone.restore_of(&start.elements, &history);
     let initial = solver.zone.initial_load(structure.sub.zeros());
     solver.now.initial = structure.eliminate_initial(initial, &mut solver.cost);
-    let nothing = solver.at.clone();
-    solver.solve_contact_at(&nothing)
+    true
 }
 
 /// The state left in the material; `None` if no body may yield.

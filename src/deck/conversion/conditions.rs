@@ -6,7 +6,7 @@
 
 use super::super::data::{Condition, Kind, Target};
 use super::super::facets::Face;
-use super::super::history::{Key, Map};
+use super::super::history::{Entry, GivenDisplacements, Key, Map};
 use super::super::linear::Terms;
 use super::super::series::Series;
 use super::super::source::Place;
@@ -26,12 +26,16 @@ type MemberGroups = BTreeMap<(u8, Vec<u64>), (Vec<u32>, Series, Place)>;
 
 impl Draft<'_> {
     pub(super) fn conditions(&mut self) -> Result<()> {
-        let mut boundary = self.deck.histories(Kind::Boundary)?;
+        let GivenDisplacements {
+            whole: mut boundary,
+            mut in_steps,
+        } = self.deck.displacements()?;
         let mut forces = self.deck.histories(Kind::Force)?;
-        let planes = self.constrain(&mut boundary, &mut forces)?;
+        let planes = self.constrain(&mut boundary, &mut in_steps, &mut forces)?;
         self.turn(&mut boundary, &mut forces)?;
         self.hold_planes(planes, &mut boundary, &mut forces)?;
         self.boundary(boundary)?;
+        self.boundary_in_steps(in_steps)?;
         self.forces(forces)?;
         let pressures = self.deck.histories(Kind::Pressure)?;
         self.pressures(pressures)
@@ -99,7 +103,7 @@ impl Draft<'_> {
         for (on, axis, series, place) in self.of_node_sets(Kind::Boundary, &mut map)? {
             match series.is_zero() {
                 true => self.hold(&on, &[axis as usize], place),
-                false => self.displace(on, axis, series, place),
+                false => self.displace(on, axis, Entry::new(series, place)),
             }
         }
         // For each node, the axes along which it is held, as a mask.
@@ -125,12 +129,18 @@ impl Draft<'_> {
         }
         for ((axis, _), (nodes, series, place)) in Self::groups(map) {
             let on = self.geometry.add_nodes(&made("boundary", place), nodes);
-            self.displace(on, axis, series, place);
+            self.displace(on, axis, Entry::new(series, place));
         }
         Ok(())
     }
 
-    fn displace(&mut self, on: String, axis: u8, series: Series, place: Place) {
+    pub(super) fn displace(&mut self, on: String, axis: u8, entry: Entry) {
+        let Entry {
+            series,
+            place,
+            span,
+            ..
+        } = entry;
         let value = |of: u8| (of == axis).then(|| series.largest().into());
         let load = Load {
             on,
@@ -139,6 +149,8 @@ impl Draft<'_> {
                 y: value(1),
                 z: value(2),
             }),
+            since: span.since,
+            until: span.until,
             ..Load::default()
         };
         self.add_load("displacement", load, series, place);
@@ -302,6 +314,6 @@ pub(super) fn take_known<'m>(
 }
 
 /// The name of a set that is made for a line of the deck.
-fn made(keyword: &str, place: Place) -> String {
+pub(super) fn made(keyword: &str, place: Place) -> String {
     format!("{keyword}-line-{}", place.line())
 }

@@ -7,6 +7,7 @@ mod contact_changes;
 mod draft;
 mod equations;
 mod geometry;
+mod in_steps;
 mod loose;
 mod outputs;
 mod system;
@@ -23,7 +24,7 @@ use super::temperature::OfBody;
 use crate::error::{Error, ErrorKind, Result};
 use crate::interpolation::interpolate;
 use crate::number::exact;
-use crate::scene::{Body, History, Scene, Stepping, Target};
+use crate::scene::{Body, History, Scene, Stepping, Support, Target};
 use crate::shape::Integration;
 use crate::space::Space;
 use draft::Draft;
@@ -306,7 +307,11 @@ impl Deck {
         if interferes {
             scene.program.interference_until = ends.first().copied();
         }
-        let common = first.filter(|shape| !interferes && from_step_to_step(shape));
+        let spans = draft.supports.iter().map(Support::span);
+        let of_loads = draft.loads.iter().map(|(load, _)| load.span());
+        let changes = spans.chain(of_loads).any(|span| !span.is_whole());
+        let is_counted_in_time = interferes || changes;
+        let common = first.filter(|shape| !is_counted_in_time && from_step_to_step(shape));
         let common = common.filter(|first| varying.all(|shape| are_alike(shape, first)));
         let factor = |time: f64| match common {
             Some(shape) => interpolate(shape, time),
@@ -333,7 +338,7 @@ impl Deck {
         let loads = std::mem::take(&mut draft.loads).into_iter().zip(&shapes);
         for ((mut load, _), shape) in loads {
             load.history = match common {
-                _ if is_constant(&shape) => History::Constant,
+                _ if is_constant(&shape) && load.span().is_whole() => History::Constant,
                 Some(_) => History::Proportional,
                 None => History::Table(shape.clone()),
             };

@@ -27,6 +27,7 @@ impl Draft<'_> {
     pub(super) fn constrain(
         &mut self,
         boundary: &mut Map,
+        in_steps: &mut [(Key, Entry)],
         forces: &mut Map,
     ) -> Result<Vec<HeldPlane>> {
         let axes = self.deck.local_axes()?;
@@ -47,7 +48,12 @@ impl Draft<'_> {
         }
         self.forces_of_loose(&planes, &rows);
         let (simple, joined) = apart(planes, &rows, |plane| {
-            let is_own = |node: &u32| axes.contains_key(node);
+            let is_own = |node: &u32| {
+                let changes = in_steps
+                    .iter()
+                    .any(|(key, _)| *key == (*node, plane.leader.1));
+                changes || axes.contains_key(node)
+            };
             let (leader, axis) = plane.leader;
             let mut followers = plane.nodes.iter().filter(|node| **node != leader);
             plane.nodes.iter().any(is_own)
@@ -68,6 +74,7 @@ impl Draft<'_> {
             .collect();
         let reduced = self.reduced(rows, boundary);
         self.displacements_of_loose(&simple, &reduced, boundary);
+        self.pass_on_in_steps(&reduced, in_steps)?;
         self.move_forces(&reduced, &of_rows, boundary, forces)?;
         self.check_known(&reduced.known, boundary)?;
         let known = boundary.clone();

@@ -141,6 +141,10 @@ impl Resolver<'_, '_> {
         } = attempt;
         let supports = &self.supports;
         let is_held = |pair: &Pair| is_held(supports, one.contact, pair);
+        let slaves = found.pairs.iter().filter(|pair| is_held(pair));
+        for pair in slaves {
+            supports.hold_throughout(self.scene, self.mesh, pair)?;
+        }
         held::leave_to_supports(&mut found, is_held, (self.mesh, &one.what), self.notes)?;
         if let Some(&shared) = shared.first() {
             return Err(ContactRefusal::AtEntry(

@@ -7,6 +7,7 @@ mod material;
 mod parts;
 mod program;
 mod rigid;
+mod spans;
 
 use super::{History, Scene};
 use crate::error::{Error, Result};
@@ -160,6 +161,7 @@ impl Checks {
             checks.boundary(scene);
             checks.rigid(scene);
             checks.program(scene);
+            checks.spans(scene);
             checks.references(scene);
             checks.require(
                 scene.start_from.is_none() || scene.accuracy.is_none(),

@@ -1,4 +1,4 @@
-//! Refusals of effects: back stresses, yield stress by depth, cycles.
+//! Refusals of effects: back stresses, yield stress by depth, cycles, supports that change.
 
 use super::*;
 
@@ -124,6 +124,98 @@ fn cycles() {
             (
                 |s| load_factors(s, &[1.0, 1.0]),
                 "program.cycles: all targets are the same load factor",
+            ),
+        ],
+    );
+}
+
+/// A scene whose first support may begin at load factor 1, with targets at 1 and 2.
+fn in_legs() -> Scene {
+    let mut scene = good();
+    let program = &mut scene.program;
+    program.unit = Unit::Load;
+    program.targets = [1.0, 2.0]
+        .map(|factor| Target {
+            load_factor: Some(factor),
+            ..Target::default()
+        })
+        .to_vec();
+    scene.support[0].since = Some(1.0);
+    scene
+}
+
+fn displaced(scene: &mut Scene) -> &mut crate::scene::Load {
+    scene.load[0].plane_force = None;
+    scene.load[0].displacement = Some(Displacement {
+        y: Some((-1.0).into()),
+        ..Displacement::default()
+    });
+    &mut scene.load[0]
+}
+
+#[test]
+fn supports_that_change() {
+    in_legs().validate().unwrap();
+    refused(
+        in_legs,
+        &[
+            (
+                |s| s.support[0].since = Some(-1.0),
+                "support.0.since: -1 must be greater than zero",
+            ),
+            (
+                |s| s.support[0].since = Some(1.5),
+                "support.0.since: 1.5 must be the load factor of a target",
+            ),
+            (
+                |s| s.support[0].since = Some(2.0),
+                "support.0.since: 2 must be the load factor of a target, and not of the last",
+            ),
+            (
+                |s| s.support[0].until = Some([1.0, 2.0]),
+                "support.0.until: must ascend, and begin beyond `since`",
+            ),
+            (
+                |s| {
+                    s.support[0].since = None;
+                    s.support[0].until = Some([1.0, 0.5]);
+                },
+                "support.0.until: must ascend",
+            ),
+            (
+                |s| {
+                    s.support[0].since = None;
+                    s.support[0].until = Some([1.0, 1.5]);
+                    s.support[1].until = Some([1.0, 2.0]);
+                },
+                "support.1.until: is free at 2, others that end at 1 at 1.5",
+            ),
+            (
+                |s| s.load[0].since = Some(1.0),
+                "load.0.since: is for a prescribed `displacement`",
+            ),
+            (
+                |s| displaced(s).since = Some(1.0),
+                "load.0.history: must be a table with a row beyond `since`",
+            ),
+            (
+                |s| {
+                    displaced(s).since = Some(1.0);
+                    s.load[0].history = History::Table(vec![[0.0, 0.0], [1.0, 1.0]]);
+                },
+                "load.0.history: must be a table with a row beyond `since`",
+            ),
+            (
+                |s| s.program.targets[1].load_factor = Some(0.5),
+                "support.0: begins or ends within the program, whose targets must be load factors",
+            ),
+            (
+                |s| s.program.unit = Unit::Yield,
+                "support.0: begins or ends within the program, which needs `unit",
+            ),
+            (
+                |s| s.program.cycles = 2,
+                "support.0: begins or ends within the program, which needs `unit",
             ),
         ],
     );

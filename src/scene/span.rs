@@ -1,0 +1,93 @@
+//! The load factors between which a support or a prescribed displacement holds its nodes.
+//!
+//! The load factors at which one begins or ends divide the program into legs. Within a leg the same
+//! displacements are held.
+
+use super::{History, Load, Scene, Support};
+
+/// The load factors between which a support or a prescribed displacement holds its nodes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Span {
+    /// Where it begins; `None` for the start of the program.
+    pub(crate) since: Option<f64>,
+    /// Where it ends, and where the force with which it held has been taken away; `None` if it
+    /// holds to the end.
+    pub(crate) until: Option<[f64; 2]>,
+}
+
+impl Span {
+    /// The span of what holds throughout the program.
+    pub(crate) const WHOLE: Span = Span {
+        since: None,
+        until: None,
+    };
+
+    /// Whether the nodes are held throughout the program.
+    pub(crate) fn is_whole(self) -> bool {
+        self.since.is_none() && self.until.is_none()
+    }
+
+    /// Whether the nodes are held in the leg that begins at a load factor.
+    pub(crate) fn holds_from(self, start: f64) -> bool {
+        let begun = self.since.is_none_or(|since| since <= start);
+        begun && self.until.is_none_or(|until| start < until[0])
+    }
+
+    /// The load factors at which it begins and ends, if they lie within the program.
+    pub(crate) fn changes(self) -> impl Iterator<Item = f64> {
+        self.since
+            .into_iter()
+            .chain(self.until.map(|until| until[0]))
+    }
+}
+
+impl Support {
+    /// A support of a set over a span, which holds nothing yet.
+    pub(crate) fn over(on: String, span: Span) -> Support {
+        Support {
+            on,
+            since: span.since,
+            until: span.until,
+            ..Support::default()
+        }
+    }
+
+    pub(crate) fn span(&self) -> Span {
+        Span {
+            since: self.since,
+            until: self.until,
+        }
+    }
+}
+
+impl Load {
+    pub(crate) fn span(&self) -> Span {
+        Span {
+            since: self.since,
+            until: self.until,
+        }
+    }
+
+    /// The load factor at which nodes that a prescribed displacement takes over where they are have
+    /// reached the values of its history: that of the next row of its table.
+    pub(crate) fn arrives(&self) -> Option<f64> {
+        let History::Table(rows) = &self.history else {
+            return None;
+        };
+        let later = rows.iter().map(|row| row[0]);
+        self.since
+            .and_then(|since| later.into_iter().find(|at| *at > since))
+    }
+}
+
+impl Scene {
+    /// The load factors at which supports or prescribed displacements begin or end, ascending.
+    pub(crate) fn changes_of_support(&self) -> Vec<f64> {
+        let supports = self.support.iter().map(Support::span);
+        let spans = supports.chain(self.load.iter().map(Load::span));
+        let mut changes: Vec<f64> = spans.flat_map(Span::changes).collect();
+        changes.sort_by(f64::total_cmp);
+        changes.dedup();
+        changes
+    }
+}
