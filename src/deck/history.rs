@@ -5,7 +5,8 @@
 //! linearly to the value at its end, as in CalculiX. A value not given in a step stays, or goes
 //! back to zero with `OP=NEW`. Several values for the same node or face in one step are added, but
 //! values of supports replace each other. A displacement that is first given in a later step is
-//! reached from where the node then is, and `OP=NEW` releases it: such a history has a span of steps.
+//! reached from where the node then is, and `OP=NEW` releases it: such a history has a span of
+//! steps.
 
 use super::Deck;
 use super::bodies::unsupported;
