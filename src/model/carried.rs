@@ -13,10 +13,12 @@
 //! with the support forces `f_a` at its end, and the load factor `c` at which they have been taken
 //! away. The displacements `u_a`, and the support forces, are load cases of their own.
 
-use super::contact_basis::ContactBasis;
+use super::given::Given;
 use super::loads::{LoadCase, on_freedoms};
 use super::{Freedoms, Model, Origin, Slot};
-use crate::error::Result;
+use crate::deck::words;
+use crate::error::{Error, ErrorKind, Result};
+use crate::number::significant;
 use crate::scene::{History, Load, Scene, Support};
 use crate::space::{Vector, along, length};
 use serde::{Deserialize, Serialize};
@@ -52,11 +54,6 @@ impl Carried {
     /// Number of the load case of supports that hold nodes where they were.
     pub(super) fn held_case(scene: &Scene) -> usize {
         scene.load.len()
-    }
-
-    /// Displacement of the control point of a node at the beginning of the leg.
-    pub(super) fn of_control(&self, node: usize, basis: &ContactBasis) -> Vector {
-        basis.at_control(node, |node| self.displacements[node])
     }
 
     /// Displacement of a node at the beginning of the leg.
@@ -131,7 +128,7 @@ impl Carried {
 
 impl Model {
     /// Load factor at which the leg of the program begins in which the model's supports hold.
-    fn start_of_leg(&self) -> f64 {
+    pub(super) fn start_of_leg(&self) -> f64 {
         match &self.origin {
             Origin::Arrays(given) => given.carried.as_ref().map_or(0.0, |carried| carried.at),
             Origin::Scene => 0.0,
@@ -177,7 +174,59 @@ impl Model {
             displacements,
             released,
         });
-        Self::of_leg(&self.scene, self.mesh.clone(), given)
+        self.of_leg(given, at)
+    }
+
+    /// Checks that the model can be built for all later legs of the program.
+    ///
+    /// # Errors
+    /// Errors of [`Model::next_leg`].
+    pub(super) fn check_later_legs(&self) -> Result<()> {
+        for at in self.scene.changes_of_support() {
+            let mut given = self.given();
+            given.carried = Some(Carried {
+                at,
+                displacements: vec![[0.0; 3]; self.mesh.n_nodes()],
+                released: Vec::new(),
+            });
+            self.of_leg(given, at)?;
+        }
+        Ok(())
+    }
+
+    /// Builds the model of a later leg, with the same contact pairs and no other pins.
+    fn of_leg(&self, given: Given, at: f64) -> Result<Model> {
+        let made = Self::resolve(&self.scene, self.mesh.clone(), Origin::Arrays(given));
+        let mut next = made.map_err(|error| words::of_deck(&self.scene, error))?;
+        for text in &mut next.warnings {
+            *text = words::text_of_deck(&self.scene, text);
+        }
+        let slaves = |model: &Model| -> Vec<usize> {
+            let pairs = model.pairs.iter();
+            pairs.map(|pair| pair.slave).collect()
+        };
+        let at = significant(at, 6);
+        if slaves(self) != slaves(&next) {
+            return Err(Error::new(
+                ErrorKind::Unsupported,
+                format!(
+                    "with the supports from load factor {at} on, other nodes are in contact than \
+                     before"
+                ),
+            ));
+        }
+        let mut pins = next.floating.pins.iter();
+        match pins.find(|pin| !self.floating.pins.contains(pin)) {
+            None => Ok(next),
+            Some(pin) => Err(Error::new(
+                ErrorKind::Unheld,
+                format!(
+                    "{}: nothing holds this motion from load factor {at} on, at which supports \
+                     end; add a support or a contact",
+                    pin.motion
+                ),
+            )),
+        }
     }
 
     /// Forces on control points that are not those of loads, from the external forces on all nodes.

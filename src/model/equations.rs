@@ -168,13 +168,17 @@ impl Following {
         let refused = |why: &str| {
             let (list, index) = self.of;
             let entry = Entry::of_list(scene, list, index);
-            entry.refused(Error::input(format!(
-                "{list} {}: the displacement of node {} along {} cannot follow others: {why}; \
-                 put another term first",
-                index + 1,
-                mesh.node_label(node),
-                crate::scene::Direction::ALL[direction].name(),
-            )))
+            let (number, node) = (index + 1, mesh.node_label(node));
+            let along = crate::scene::Direction::ALL[direction].name();
+            entry.refused(Error::input(match self.terms.is_empty() {
+                true => {
+                    format!("{list} {number}: node {node} cannot be moved along {along}: {why}")
+                }
+                false => format!(
+                    "{list} {number}: the displacement of node {node} along {along} cannot follow \
+                     others: {why}; put another term first"
+                ),
+            }))
         };
         let axis = freedoms.local_axis(node, direction);
         let axis = axis.ok_or_else(|| refused("a contact normal or a turned support is there"))?;

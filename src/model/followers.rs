@@ -20,6 +20,7 @@ use super::equations::Following;
 use super::freedoms::{Freedoms, Prescribed, Slot};
 use super::pairs::Pair;
 use super::pairs::ties::Tied;
+use super::prescribed::FollowingMiddle;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::Scene;
@@ -112,6 +113,26 @@ impl Freedoms {
         }
         followers.of_ties = followers.terms.len();
         Ok(followers)
+    }
+
+    /// Lets middles of edges whose displacement is given follow the ends of the edge: with the
+    /// given displacement `u`, the control point moves by `(u - sum w_e q_e) / w`.
+    pub(super) fn follow_ends(&mut self, middles: &[FollowingMiddle], followers: &mut Followers) {
+        for middle in middles {
+            let k = followers.terms.len();
+            let direction = self.local(middle.node)[middle.axis];
+            followers.place.insert((middle.node, middle.axis), k);
+            if let Some((load, value)) = middle.moved {
+                let value = value / self.basis.own_weight(middle.node);
+                followers
+                    .moved
+                    .insert(k, vec![self.prescribed.len() as u32]);
+                self.prescribed.push(Prescribed { load, value });
+            }
+            let terms = self.at_control_point(middle.node, direction, Vec::new());
+            followers.terms.push(terms);
+            self.slots[middle.node][middle.axis] = Slot::Sum(k as u32);
+        }
     }
 
     /// Makes displacements follow others by equations.

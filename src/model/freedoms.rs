@@ -159,12 +159,13 @@ impl Freedoms {
                 .into_iter()
                 .map(|(axis, k)| (axis, scene.load.len() + k)),
         );
-        freedoms.check_edges(mesh, scene.load.len())?;
+        let middles = freedoms.give_to_control_points(scene.load.len());
         let others = Others {
             plane: &|axis| planes.contains_key(&axis),
             pairs: &*pairs,
         };
         let mut followers = freedoms.follow(mesh, ties, &others)?;
+        freedoms.follow_ends(&middles, &mut followers);
         freedoms.follow_equations(scene, mesh, equations, &others, &mut followers)?;
         freedoms.number(&planes);
         Ok((freedoms, followers))

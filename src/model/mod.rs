@@ -176,19 +176,6 @@ impl Model {
         Self::resolve(scene, mesh, Origin::Arrays(Given::default()))
     }
 
-    /// Builds the model of a leg of the program.
-    ///
-    /// # Errors
-    /// Errors of [`Model::new`].
-    fn of_leg(scene: &Scene, mesh: Mesh, given: Given) -> Result<Self> {
-        let made = Self::resolve(scene, mesh, Origin::Arrays(given));
-        let mut model = made.map_err(|error| words::of_deck(scene, error))?;
-        for text in &mut model.warnings {
-            *text = words::text_of_deck(scene, text);
-        }
-        Ok(model)
-    }
-
     /// Data given in addition to the scene.
     fn given(&self) -> Given {
         match &self.origin {
@@ -294,6 +281,9 @@ impl Model {
         }
         let warning = plausible::of_symmetry(&model);
         model.warnings.extend(warning);
+        if model.start_of_leg() == 0.0 {
+            model.check_later_legs()?;
+        }
         Ok(model)
     }
 

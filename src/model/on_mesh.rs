@@ -1,6 +1,5 @@
 //! Fields of a scene on its mesh: numbers, formulas of the position, values at nodes.
 
-use super::contact_basis::ContactBasis;
 use crate::element::FacetPoint;
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, node_values};
@@ -71,32 +70,6 @@ impl<'a> OnMesh<'a> {
                     label()
                 ))
             }),
-        }
-    }
-
-    /// Value of the field at the control point of a node.
-    ///
-    /// # Errors
-    /// Errors of [`at_node`](Self::at_node), also at the ends of the edge if the node is the middle
-    /// of one.
-    pub fn at_control(&self, node: usize, basis: &ContactBasis) -> Result<f64> {
-        let own = self.at_node(node)?;
-        let (Some([a, b]), None) = (basis.ends(node), self.uniform()) else {
-            return Ok(own);
-        };
-        let ends = [self.at_node(a)?, self.at_node(b)?];
-        Ok(basis.number_at_control(node, |of| match of {
-            n if n == a => ends[0],
-            n if n == b => ends[1],
-            _ => own,
-        }))
-    }
-
-    /// Value of a uniform field; `None` for other fields.
-    fn uniform(&self) -> Option<f64> {
-        match &self.values {
-            FieldValues::Uniform(value) => Some(*value),
-            FieldValues::Formula(_) | FieldValues::Nodal { .. } => None,
         }
     }
 

@@ -10,52 +10,82 @@ use super::supports::Held;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Direction, Load, Scene};
-use crate::space::{Vector, dot, in_words, unit};
+use crate::space::{Vector, dot, unit};
+
+/// A displacement of the middle of an edge that is given while the ends of the edge move otherwise:
+/// the control point of the middle follows those of the ends.
+pub(super) struct FollowingMiddle {
+    pub(super) node: usize,
+    /// Number of the local axis.
+    pub(super) axis: usize,
+    /// The prescribed value, with the number of the load; `None` for zero.
+    pub(super) moved: Option<(usize, f64)>,
+}
 
 impl Freedoms {
-    /// Refuses an edge whose middle is held through its control point while its ends are not held
-    /// in the same way: all at rest, or all moved by the same load. `n_loads` is the number of
-    /// loads of the scene.
-    pub(super) fn check_edges(&self, mesh: &Mesh, n_loads: usize) -> Result<()> {
-        // Displacements that a leg of the program has left are held like zero.
-        let of = |slot: Slot| match slot {
-            Slot::Free(_) | Slot::Sum(_) => None,
-            Slot::Fixed => Some(n_loads),
-            Slot::Prescribed(p) => Some(self.prescribed[p as usize].load),
-        };
-        let held = |node: usize, direction: Vector| {
-            let axes = self.local(node);
-            // Planes at any angle hold all directions in the span of their normals.
-            let at_rest = (0..3).filter(|&i| of(self.slots[node][i]) == Some(n_loads));
-            if at_rest
-                .map(|i| dot(axes[i], direction).powi(2))
-                .sum::<f64>()
-                > 1.0 - ALIGNED
-            {
-                return Some(n_loads);
-            }
-            let at = (0..3).find(|&i| dot(axes[i], direction).abs() > 1.0 - ALIGNED)?;
-            of(self.slots[node][at])
-        };
+    /// Turns displacements prescribed at the middles of edges into those of their control points.
+    /// Returns the middles for which these depend on ends that are free, or moved by another load.
+    /// `n_loads` is the number of loads of the scene.
+    pub(super) fn give_to_control_points(&mut self, n_loads: usize) -> Vec<FollowingMiddle> {
+        let mut following = Vec::new();
+        let mut values = Vec::new();
         for (node, ends) in self.basis.edges() {
-            for (slot, axis) in self.slots[node].iter().zip(self.local(node)) {
-                let alike = |end: &usize| held(*end, axis) == held(node, axis);
-                if !matches!(slot, Slot::Free(_)) && !ends.iter().all(alike) {
-                    return Err(Error::input(format!(
-                        "node {} in the middle of an edge in contact is held along {}, but an end \
-                         of the edge (nodes {} and {}) is not held alike: hold or release the \
-                         whole edge",
-                        mesh.node_label(node),
-                        in_words(axis, mesh.dimension),
-                        mesh.node_label(ends[0]),
-                        mesh.node_label(ends[1])
-                    )));
+            for (axis, slot) in self.of_node(node).iter().enumerate() {
+                let (load, value) = match *slot {
+                    Slot::Free(_) | Slot::Sum(_) => continue,
+                    Slot::Fixed => (n_loads, 0.0),
+                    Slot::Prescribed(p) => {
+                        let Prescribed { load, value } = self.prescribed[p as usize];
+                        (load, value)
+                    }
+                };
+                let direction = self.local(node)[axis];
+                let at_end = |end: usize| self.given_along(end, direction, load);
+                let control = match ends.map(at_end) {
+                    [Some(a), Some(b)] => Some(self.basis.number_at_control(node, |of| match of {
+                        of if of == ends[0] => a,
+                        of if of == ends[1] => b,
+                        _ => value,
+                    })),
+                    _ => None,
+                };
+                match (control, *slot) {
+                    (Some(control), Slot::Prescribed(p)) => values.push((p, control)),
+                    (Some(0.0), _) => {}
+                    _ => following.push(FollowingMiddle {
+                        node,
+                        axis,
+                        moved: (load != n_loads || value != 0.0).then_some((load, value)),
+                    }),
                 }
             }
         }
-        Ok(())
+        for (p, control) in values {
+            self.prescribed[p as usize].value = control;
+        }
+        following
     }
 
+    /// Displacement of a node along a direction at factor 1 of a load, if the node is held there or
+    /// this load alone prescribes the displacement; `None` if something else moves the node.
+    fn given_along(&self, node: usize, direction: Vector, load: usize) -> Option<f64> {
+        let axes = self.local(node);
+        // Planes at any angle hold all directions in the span of their normals.
+        let shares = (0..self.per_node).map(|i| (i, dot(axes[i], direction)));
+        let mut sum = 0.0;
+        for (axis, share) in shares.filter(|(_, share)| share.powi(2) > ALIGNED) {
+            sum += share
+                * match self.slots[node][axis] {
+                    Slot::Fixed => 0.0,
+                    Slot::Prescribed(p) => {
+                        let Prescribed { load: own, value } = self.prescribed[p as usize];
+                        (own == load).then_some(value)?
+                    }
+                    Slot::Free(_) | Slot::Sum(_) => return None,
+                };
+        }
+        Some(sum)
+    }
     /// Holds a node where it is along the directions of supports that began within the program.
     pub(super) fn hold_where_it_is(
         &mut self,
@@ -75,7 +105,7 @@ impl Freedoms {
                     *slot = Slot::Prescribed(self.prescribed.len() as u32);
                     self.prescribed.push(Prescribed {
                         load: Carried::held_case(scene),
-                        value: dot(carried.of_control(node, &self.basis), axis),
+                        value: dot(carried.of_node(node), axis),
                     });
                 }
             }
@@ -154,7 +184,7 @@ impl Freedoms {
                     match value {
                         Some(field) => {
                             let value = field
-                                .at_control(node, &self.basis)
+                                .at_node(node)
                                 .map_err(|error| entry.refused(error.within(entry.on(&load.on))))?;
                             self.slots[node][local] =
                                 Slot::Prescribed(self.prescribed.len() as u32);

@@ -18,7 +18,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 43] = [
+const CASES: [Case; 44] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     // Flow turns, and CalculiX takes each of its increments in one step of the implicit rule; with
@@ -62,6 +62,7 @@ const CASES: [Case; 43] = [
     case("in_steps", FULL, PRINTED),
     case("rigid_released", FULL, PRINTED),
     case("springback", &[], 2e-4),
+    case("held_middles", &[], PRINTED),
     case("adjusted", FULL, PRINTED),
     // What presses on held nodes goes into their supports; CalculiX' springs give way there.
     case("held_edge", FULL, 1e-5),

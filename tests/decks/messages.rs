@@ -158,9 +158,9 @@ fn messages_of_a_deck_have_no_keys_of_scenes() {
         (
             &[(
                 "*END STEP",
-                "*END STEP\n*STEP\n*STATIC\n*BOUNDARY\n7, 1\n*END STEP",
+                "*END STEP\n*STEP\n*STATIC\n*BOUNDARY\n7, 3\n13, 3\n*END STEP",
             )],
-            "*BOUNDARY: node 7",
+            "node 7 cannot be moved along z",
         ),
     ];
     for (changes, expected) in cases {

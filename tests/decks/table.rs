@@ -49,7 +49,7 @@ const POINTS: &str = "slaves of ccx follow the points that they lie on, here the
                       faces: `decks::table` shows that equations of that kind give the values of \
                       ccx";
 
-const ROWS: [Row; 56] = [
+const ROWS: [Row; 57] = [
     row("Gmsh", "programs/gmsh_bar", ""),
     row("Gmsh", "programs/gmsh_plate", THICKNESS),
     row("FreeCAD", "programs/freecad_face_load", ""),
@@ -103,6 +103,7 @@ const ROWS: [Row; 56] = [
     row("supports in steps", "in_steps", ""),
     row("supports in steps", "rigid_released", ""),
     row("supports in steps", "springback", STEPS),
+    row("middles that are held", "held_middles", ""),
     row("TRANSFORM", "ring", ""),
     row("TRANSFORM", "moved_along", ""),
     row("TRANSFORM", "cyclic", ""),
