@@ -59,6 +59,8 @@ pub(crate) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error
 pub struct Results {
     /// Numbers of nodes, elements, freedoms and contact pairs.
     pub sizes: Sizes,
+    /// Names of the bodies, in the order of the figures of each body.
+    pub bodies: Vec<String>,
     /// The effects that were simulated or not, and why.
     pub effects: Vec<Effect>,
     /// First yield, if a body can yield and does.

@@ -331,7 +331,10 @@ impl Pursuit {
     }
 
     fn no_such_quantity(&self, results: &Results) -> Error {
-        let all: Vec<String> = quantities(results).into_iter().map(|q| q.path).collect();
+        let all = quantities(results).into_iter();
+        let all: Vec<String> = (all.filter(|quantity| !quantity.is_of_part()))
+            .map(|quantity| quantity.path)
+            .collect();
         Error::input(format!(
             "`accuracy` demands nothing that this scene has ({}); its quantities are {}",
             String::from(self.demand.clone()),

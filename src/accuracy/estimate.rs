@@ -96,8 +96,13 @@ pub(super) fn assess(
         true if has_norm && results.incomplete.is_none() => EstimateMethod::EnergyNorm,
         _ => EstimateMethod::None,
     };
-    let unresolved = Unresolved::of(scene, results);
-    out.notes.extend(unresolved.note());
+    let mut unresolved = Unresolved::of(scene, results);
+    let elsewhere: Vec<(f64, &Results)> = (found.iter())
+        .map(|(ratio, other)| (*ratio, &other.results))
+        .collect();
+    let formal = formal_order("approach", results.sizes.degree);
+    unresolved.find_nearly_closed(results, &elsewhere, formal);
+    out.notes.extend(unresolved.notes());
     for quantity in &quantities(results) {
         let algebraic = algebraic_error(run, quantity);
         let mesh = match out.method {
@@ -159,7 +164,7 @@ fn by_energy_norm(run: &Judged, quantity: &Quantity) -> Option<f64> {
         || targets.any(|(target, label)| {
             (target.first_yield || target.finds_load()) && of_state(label, "load")
         });
-    let is_of_all = !is_found && matches!(quantity.key(), "load" | "approach" | "plastic_work");
+    let is_of_all = !is_found && matches!(quantity.kind, "load" | "approach" | "plastic_work");
     let norms = run.results.states.iter().filter_map(|state| {
         let local = state.local_energy_error.filter(|_| !is_of_all);
         local.or(state.energy_error)
@@ -285,7 +290,7 @@ fn of_meshes(
         .iter()
         .filter_map(|(ratio, values)| Some((*ratio, value_of(values, &quantity.path)?)));
     let values: Vec<(f64, f64)> = own.chain(there).collect();
-    let found = by_asymptotic(&values, formal_order(quantity.key(), degree));
+    let found = by_asymptotic(&values, formal_order(quantity.kind, degree));
     let error = found.map(|f| (f.uncertainty + quantity.reading).max(quantity.least));
     // What changes by no more than the algebra leaves shows no order.
     let is_same = |value: &(f64, f64)| (value.1 - quantity.value).abs() <= algebraic;
@@ -319,7 +324,8 @@ fn by_asymptotic(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> {
 /// yield what `gamma` leaves of the largest stress, too.
 fn algebraic_error(run: &Judged, quantity: &Quantity) -> f64 {
     let results = run.results;
-    let state = state_of(results, &quantity.path);
+    let of_quantity = |state: &&State| Some(&state.name) == quantity.state.as_ref();
+    let state = results.states.iter().find(of_quantity);
     let quality = state.map_or(results.quality, |s| s.quality);
     let worst = quality.backward_error + quality.equilibrium + quality.complementarity;
     let mut relative = worst.max(smallest_pivot_ratio(results.sizes.freedoms));
@@ -327,12 +333,6 @@ fn algebraic_error(run: &Judged, quantity: &Quantity) -> f64 {
         relative += left_of_search(run.scene.program.gamma);
     }
     relative * quantity.scale
-}
-
-/// The state that a quantity belongs to; none for first yield.
-fn state_of<'r>(results: &'r Results, path: &str) -> Option<&'r State> {
-    let (name, _) = path.strip_prefix("states.")?.rsplit_once('.')?;
-    results.states.iter().find(|s| s.name == name)
 }
 
 /// What is to be known of targets by half width or another figure: the load at which a mesh reaches

@@ -49,9 +49,11 @@ impl Outcome {
         };
         let mut excess = 0.0;
         for (quantity, errors) in quantities(results).iter().zip(&found.quantities) {
-            let all = demand
-                .all()
-                .filter(|_| is_demanded_with_all(quantity.key()));
+            // Nobody demands an accuracy of the parts of a state.
+            if quantity.is_of_part() {
+                continue;
+            }
+            let all = demand.all().filter(|_| is_demanded_with_all(quantity.kind));
             let Some(wanted) = demand.named(&quantity.path).or(all) else {
                 continue;
             };
@@ -67,7 +69,7 @@ impl Outcome {
                 out.worst = Some(quantity.path.clone());
             }
             if quantity.scale > 0.0 {
-                let formal = formal_order(quantity.key(), results.sizes.degree);
+                let formal = formal_order(quantity.kind, results.sizes.degree);
                 out.add(errors, [relative, wanted, quantity.scale], formal);
             }
         }
@@ -194,7 +196,7 @@ mod tests {
             extrapolated: None,
         };
         let all = quantities(&results);
-        let rows = all.iter().map(|quantity| match quantity.key() {
+        let rows = all.iter().map(|quantity| match quantity.kind {
             "load" => row(&quantity.path, quantity.value, 0.02),
             _ => row(&quantity.path, quantity.value, 0.05),
         });

@@ -1,16 +1,20 @@
 //! The quantities that a run reports, by their paths in `summary.json`.
 
-use crate::results::{self, EdgeReading, Estimated, QUANTITIES, Results, Scope};
+use crate::results::{self, EdgeReading, Estimated, QUANTITIES, Results, Scope, State};
 use std::collections::BTreeMap;
 
 /// A reported quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
-    /// `yield.KEY` or `states.NAME.KEY`.
+    /// `yield.KEY`, `states.NAME.KEY`, or of a part of a state `states.NAME.PART.KEY`.
     pub path: String,
+    /// Name of the state; `None` for first yield.
+    pub state: Option<String>,
+    /// What the quantity is: KEY, or of a part one of [`PARTS`].
+    pub kind: &'static str,
     /// Value of the quantity in the unit of the run.
     pub value: f64,
-    /// The largest size that a quantity of this KEY has in the run: what its error is measured
+    /// The largest size that a quantity of this kind has in the run: what its error is measured
     /// against.
     pub scale: f64,
     /// Error of the reading off the pressures: of half widths and areas, else 0.
@@ -21,20 +25,30 @@ pub struct Quantity {
 }
 
 impl Quantity {
-    /// The last part of its path.
-    pub fn key(&self) -> &str {
-        self.path.rsplit('.').next().unwrap_or(&self.path)
+    /// Whether it is a figure of a part of a state.
+    pub(super) fn is_of_part(&self) -> bool {
+        PARTS.contains(&self.kind)
     }
 }
+
+/// Kinds of figures of the parts of a state: of bodies, contacts and patches.
+const PARTS: [&str; 5] = [
+    BODY_DENT,
+    "contact force",
+    "patch force",
+    "patch pressure",
+    "patch half axis",
+];
+const BODY_DENT: &str = "body dent";
 
 /// How the error of the quantities of a key is estimated.
 fn estimated(key: &str) -> Option<Estimated> {
     results::Quantity::of(key)?.estimated
 }
 
-/// Whether a demand on all quantities holds for those of this key.
-pub(super) fn is_demanded_with_all(key: &str) -> bool {
-    estimated(key).is_none_or(|estimated| estimated.in_all)
+/// Whether a demand on all quantities holds for those of this kind.
+pub(super) fn is_demanded_with_all(kind: &str) -> bool {
+    estimated(kind).is_none_or(|estimated| estimated.in_all)
 }
 
 /// Formal order of convergence: that of the displacements, one more than the degree of the elements
@@ -72,27 +86,32 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
         .flat_map(known)
         .collect();
     let mut out: Vec<Quantity> = Vec::new();
-    let mut add = |prefix: &str, key: &str, value: f64, reading: f64, least: f64| {
-        if value.is_finite() {
-            out.push(Quantity {
-                path: format!("{prefix}.{key}"),
-                value,
-                scale: 0.0,
-                reading,
-                least,
-            });
-        }
-    };
+    let mut add =
+        |state: Option<&str>, key: &'static str, value: f64, [reading, least]: [f64; 2]| {
+            if value.is_finite() {
+                out.push(Quantity {
+                    path: match state {
+                        Some(state) => format!("states.{state}.{key}"),
+                        None => format!("yield.{key}"),
+                    },
+                    state: state.map(str::to_string),
+                    kind: key,
+                    value,
+                    scale: 0.0,
+                    reading,
+                    least,
+                });
+            }
+        };
     for quantity in &known {
         if let (Some(first), Some(field)) = (&results.first_yield, quantity.at_yield) {
             let value = (field.get)(first);
             let width = (first.half_width, &first.half_width_reading);
             let reading = read_with(quantity.key, value, width);
-            add("yield", quantity.key, value, reading, 0.0);
+            add(None, quantity.key, value, [reading, 0.0]);
         }
     }
     for state in &results.states {
-        let prefix = format!("states.{}", state.name);
         // What the scene gives has no error.
         let is_open = |quantity: &&&results::Quantity| match quantity.key {
             "load" => !state.load_is_given,
@@ -108,16 +127,67 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
             };
             let width = (state.half_width, &state.half_width_reading);
             let reading = read_with(quantity.key, value, width);
-            add(&prefix, quantity.key, value, reading, least);
+            add(Some(&state.name), quantity.key, value, [reading, least]);
         }
     }
-    let mut scales: BTreeMap<String, f64> = BTreeMap::new();
+    out.extend(
+        results
+            .states
+            .iter()
+            .flat_map(|state| of_parts(state, results)),
+    );
+    let mut scales: BTreeMap<&str, f64> = BTreeMap::new();
     for quantity in &out {
-        let scale = scales.entry(quantity.key().to_string()).or_insert(0.0);
+        let scale = scales.entry(quantity.kind).or_insert(0.0);
         *scale = scale.max(quantity.value.abs());
     }
     for quantity in &mut out {
-        quantity.scale = scales[quantity.key()];
+        quantity.scale = scales[quantity.kind];
+    }
+    out
+}
+
+/// Figures of the parts of a state: the dents of bodies if several have one, the forces of contacts
+/// if there are several, and of a solid the patches, the strongest first.
+fn of_parts(state: &State, results: &Results) -> Vec<Quantity> {
+    let mut out: Vec<Quantity> = Vec::new();
+    let mut add = |part: String, kind: &'static str, value: f64| {
+        if value.is_finite() {
+            out.push(Quantity {
+                path: format!("states.{}.{part}", state.name),
+                state: Some(state.name.clone()),
+                kind,
+                value,
+                scale: 0.0,
+                reading: 0.0,
+                least: 0.0,
+            });
+        }
+    };
+    let dents = &state.residual_depth_by_body;
+    if dents.iter().filter(|dent| **dent != 0.0).count() > 1 {
+        for (body, &dent) in results.bodies.iter().zip(dents) {
+            add(format!("residual_depth_by_body.{body}"), BODY_DENT, dent);
+        }
+    }
+    let mut forces: BTreeMap<usize, f64> = BTreeMap::new();
+    for pair in &state.pairs {
+        *forces.entry(pair.contact).or_insert(0.0) += pair.force;
+    }
+    let all: f64 = forces.values().sum();
+    if forces.len() > 1 && all > 0.0 {
+        for (contact, force) in forces {
+            let force = state.contact_force * force / all;
+            add(format!("contact_{}.force", contact + 1), PARTS[1], force);
+        }
+    }
+    for (number, patch) in state.patches.iter().enumerate() {
+        let of = format!("patches.{}", number + 1);
+        add(format!("{of}.force"), PARTS[2], patch.force);
+        add(format!("{of}.max_pressure"), PARTS[3], patch.max_pressure);
+        for (axis, half) in patch.semi_axes.into_iter().enumerate() {
+            add(format!("{of}.semi_axes.{}", axis + 1), PARTS[4], half);
+        }
     }
     out
 }
@@ -130,7 +200,7 @@ pub fn value_of(quantities: &[Quantity], path: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::{State, YieldPoint};
+    use crate::results::YieldPoint;
 
     #[test]
     fn quantities_follow_what_the_scene_has() {

@@ -85,6 +85,7 @@ impl StudyRun {
                 out.work = work(&results);
                 out.values = quantities(&results)
                     .into_iter()
+                    .filter(|quantity| !quantity.is_of_part())
                     .map(|q| (q.path, q.value))
                     .collect();
                 for row in &results.reference {

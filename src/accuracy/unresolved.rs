@@ -3,15 +3,25 @@
 //! The pressures of the last pairs at the edge of a contact ([`EdgeReading::AT_EDGE`]) are not
 //! those of points. Where a side of a contact has no other pairs, no pressure is known, nor is the
 //! stress below it: meshes that agree there do so because all of them replace the contact by the
-//! same few forces.
+//! same few forces. Where surfaces are apart on all meshes, by less than the meshes leave uncertain,
+//! it is not known whether they touch.
 
+use super::extrapolation::extrapolate;
 use super::quantities::Quantity;
-use crate::results::{EdgeReading, Results};
+use crate::results::{EdgeReading, Results, State};
 use crate::scene::{Scene, Unit};
 use std::collections::BTreeSet;
 
 /// Figures of a state that the contact does not decide, but the equilibrium of the whole.
-const OF_THE_WHOLE: [&str; 3] = ["load", "approach", "contact_force"];
+const OF_THE_WHOLE: [&str; 4] = ["load", "approach", "contact_force", "contact force"];
+
+/// Figures of a state that are zero as long as the surfaces are apart.
+const OF_CONTACT: [&str; 4] = [
+    "max_pressure",
+    "pole_pressure",
+    "half_width",
+    "contact_area",
+];
 
 /// Where the contact of a run is not resolved.
 pub(super) struct Unresolved {
@@ -22,6 +32,14 @@ pub(super) struct Unresolved {
     /// States that are reached at first yield.
     yielding: BTreeSet<String>,
     states: BTreeSet<String>,
+    /// States in which it is not known whether the surfaces touch.
+    nearly_closed: BTreeSet<String>,
+}
+
+/// The smallest gap of a state without contact forces; `None` if there are any, or no pairs.
+fn gap_of_open(state: &State) -> Option<f64> {
+    let gaps = state.pairs.iter().map(|pair| pair.gap);
+    gaps.reduce(f64::min).filter(|_| state.contact_force == 0.0)
 }
 
 fn is_unresolved(width: f64, reading: &EdgeReading) -> bool {
@@ -42,23 +60,69 @@ impl Unresolved {
             states: (states.filter(|s| is_unresolved(s.half_width, &s.half_width_reading)))
                 .map(|state| state.name.clone())
                 .collect(),
+            nearly_closed: BTreeSet::new(),
+        }
+    }
+
+    /// Finds the states in which all contacts are open on all meshes, while the smallest gap is no
+    /// larger than its uncertainty. `others` are the runs on other meshes, with their element sizes
+    /// and `formal` the order of displacements.
+    pub(super) fn find_nearly_closed(
+        &mut self,
+        results: &Results,
+        others: &[(f64, &Results)],
+        formal: f64,
+    ) {
+        for state in &results.states {
+            let Some(gap) = gap_of_open(state) else {
+                continue;
+            };
+            let there = others.iter().filter_map(|(ratio, other)| {
+                let same = other.states.iter().find(|other| other.name == state.name);
+                Some((*ratio, gap_of_open(same?)?))
+            });
+            let values: Vec<(f64, f64)> = std::iter::once((1.0, gap)).chain(there).collect();
+            let found = extrapolate(&values, formal);
+            if values.len() == others.len() + 1 && found.is_some_and(|f| f.uncertainty >= gap) {
+                self.nearly_closed.insert(state.name.clone());
+            }
         }
     }
 
     /// Whether the error of a quantity is unknown.
     pub(super) fn hides(&self, quantity: &Quantity) -> bool {
-        let Some((state, _)) =
-            (quantity.path.strip_prefix("states.")).and_then(|rest| rest.rsplit_once('.'))
-        else {
+        let Some(state) = &quantity.state else {
             return self.at_yield;
         };
+        if OF_CONTACT.contains(&quantity.kind) && self.nearly_closed.contains(state) {
+            return true;
+        }
         let is_of_yield = self.in_yield_loads || self.yielding.contains(state);
-        let is_local = !OF_THE_WHOLE.contains(&quantity.key());
+        let is_local = !OF_THE_WHOLE.contains(&quantity.kind);
         self.at_yield && is_of_yield || is_local && self.states.contains(state)
     }
 
-    /// The note about what is unknown and why.
-    pub(super) fn note(&self) -> Option<String> {
+    /// The notes about what is unknown and why.
+    pub(super) fn notes(&self) -> impl Iterator<Item = String> {
+        self.note_on_edges()
+            .into_iter()
+            .chain(self.note_on_open_contacts())
+    }
+
+    fn note_on_open_contacts(&self) -> Option<String> {
+        let states = self.nearly_closed.iter().map(|state| format!("`{state}`"));
+        let states: Vec<String> = states.collect();
+        (!states.is_empty()).then(|| {
+            format!(
+                "all contacts are open on all meshes ({}), by no more than the meshes leave \
+                 uncertain: it is not known whether the surfaces touch, and no error of pressures \
+                 and widths is stated",
+                states.join(", ")
+            )
+        })
+    }
+
+    fn note_on_edges(&self) -> Option<String> {
         let at_yield = self.at_yield.then(|| "first yield".to_string());
         let of_states = self.states.iter().map(|state| format!("`{state}`"));
         let places: Vec<String> = at_yield.into_iter().chain(of_states).collect();
@@ -110,7 +174,7 @@ mod tests {
         let all = quantities(&results);
         let hidden = all.iter().filter(|quantity| found.hides(quantity));
         let hidden: Vec<String> = hidden.map(|quantity| quantity.path.clone()).collect();
-        assert_eq!(hidden.is_empty(), found.note().is_none());
+        assert_eq!(hidden.is_empty(), found.notes().next().is_none());
         hidden
     }
 

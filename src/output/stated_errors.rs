@@ -16,6 +16,8 @@ pub(crate) struct StatedErrors {
     pub kinds: Vec<(&'static str, Vec<String>)>,
     /// How the part of the mesh was estimated.
     pub method: String,
+    /// The largest errors of figures of bodies, contacts and patches, in words.
+    pub parts: Option<String>,
 }
 
 impl StatedErrors {
@@ -26,7 +28,8 @@ impl StatedErrors {
         }
         let mut of_prefix: BTreeMap<&str, BTreeMap<&str, &QuantityError>> = BTreeMap::new();
         let mut prefixes: Vec<&str> = Vec::new();
-        for quantity in &accuracy.quantities {
+        let whole = |quantity: &&QuantityError| quantity.of_part().is_none();
+        for quantity in accuracy.quantities.iter().filter(whole) {
             if let Some((prefix, key)) = quantity.quantity.rsplit_once('.') {
                 let keys = of_prefix.entry(prefix).or_insert_with(|| {
                     prefixes.push(prefix);
@@ -77,8 +80,31 @@ impl StatedErrors {
             states: states.collect(),
             kinds: kinds.collect(),
             method: method(accuracy),
+            parts: of_parts(accuracy),
         })
     }
+}
+
+/// The largest stated errors of figures of bodies, contacts and patches, in words; `None` if there
+/// are none.
+fn of_parts(accuracy: &Accuracy) -> Option<String> {
+    let mut largest: Vec<(&str, Option<f64>)> = Vec::new();
+    for quantity in &accuracy.quantities {
+        let Some(part) = quantity.of_part() else {
+            continue;
+        };
+        let error = quantity.relative_error;
+        match largest.iter_mut().find(|(known, _)| *known == part) {
+            Some((_, most)) => *most = most.zip(error).map(|(a, b)| a.max(b)),
+            None => largest.push((part, error)),
+        }
+    }
+    let each = largest.into_iter().map(|(part, error)| match error {
+        Some(error) => format!("{part} {} %", rough_percentage(error)),
+        None => format!("{part} unknown"),
+    });
+    let all: Vec<String> = each.collect();
+    (!all.is_empty()).then(|| format!("Parts, at most: {}.", all.join(", ")))
 }
 
 fn method(accuracy: &Accuracy) -> String {

@@ -87,11 +87,43 @@ pub struct Companion {
     pub seconds: f64,
 }
 
+/// Parts of a state whose figures have errors of their own: what their paths have, and the figures
+/// in words.
+const PARTS: [(&str, &str); 6] = [
+    (".residual_depth_by_body.", "dents of bodies"),
+    (".contact_", "forces of contacts"),
+    (".force", "forces of patches"),
+    (".max_pressure", "their pressures"),
+    (".semi_axes.1", "their larger half axes"),
+    (".semi_axes.2", "their smaller ones"),
+];
+
+impl QuantityError {
+    /// In words, what the quantity is if it is one of a part of a state: of a body, a contact or a
+    /// patch.
+    pub fn of_part(&self) -> Option<&'static str> {
+        let path = &self.quantity;
+        let [body, contact, patches @ ..] = PARTS;
+        if path.contains(body.0) {
+            return Some(body.1);
+        }
+        if path.contains(".patches.") {
+            let mut of = patches.into_iter();
+            return of
+                .find(|(end, _)| path.ends_with(end))
+                .map(|(_, words)| words);
+        }
+        (path.contains(contact.0) && path.ends_with(".force")).then_some(contact.1)
+    }
+}
+
 /// A reported quantity with its estimated errors, all absolute, not negative and in the unit of the
 /// quantity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct QuantityError {
-    /// Path of the quantity in `summary.json`; states are given by name: `states.NAME.KEY`.
+    /// Path of the quantity in `summary.json`; states are given by name: `states.NAME.KEY`. Of a
+    /// part of a state: `states.NAME.residual_depth_by_body.BODY`, `states.NAME.contact_1.force`,
+    /// `states.NAME.patches.1.KEY`, patches counted from 1 in the order of the summary.
     pub quantity: String,
     /// The reported value.
     #[serde(deserialize_with = "number")]

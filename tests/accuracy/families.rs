@@ -45,6 +45,7 @@ pub struct Claim {
     pub family: String,
     pub mesh: String,
     pub quantity: String,
+    pub kind: &'static str,
     pub stated: f64,
     pub truth: f64,
     pub order: Option<f64>,
@@ -53,7 +54,7 @@ pub struct Claim {
 impl Claim {
     /// What kind of quantity it is.
     pub fn key(&self) -> &str {
-        self.quantity.rsplit('.').next().unwrap()
+        self.kind
     }
 }
 
@@ -98,6 +99,7 @@ impl Family {
                         family: self.name.clone(),
                         mesh: mesh.clone(),
                         quantity: row.quantity.clone(),
+                        kind: quantity.kind,
                         stated,
                         truth: true_error,
                         order: row.order,

@@ -211,7 +211,7 @@ impl Row {
         let of_contact = force(&ours.1).zip(force(&theirs.1)).map(|(a, b)| {
             let size = b.iter().fold(0.0f64, |most, f| most.max(f.abs()));
             let most = (a.iter().zip(&b)).fold(0.0f64, |most, (a, b)| most.max((a - b).abs()));
-            format!("{:.1e}", most / size)
+            format!("{:.1e}", most / size.max(f64::MIN_POSITIVE))
         });
         format!(
             "| {} | `{}` | {:.1e} | {:.1e} | {} | {:.2}, {:.2} | {} |",

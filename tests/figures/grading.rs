@@ -41,7 +41,7 @@ fn errors(results: &Results, truth: &Results) -> BTreeMap<String, f64> {
         assert_eq!(own.path, exact.path);
         if exact.scale > 0.0 {
             let error = (own.value - exact.value).abs() / exact.scale;
-            let most: &mut f64 = out.entry(own.key().to_string()).or_default();
+            let most: &mut f64 = out.entry(own.kind.to_string()).or_default();
             *most = most.max(error);
         }
     }

@@ -69,6 +69,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let results = Results {
             timings: analysis.timings.clone(),
             warnings: model.warnings.clone(),
+            bodies: model.mesh.bodies.clone(),
             ..Results::default()
         };
         for warning in &model.warnings {

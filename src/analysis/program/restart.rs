@@ -75,6 +75,7 @@ impl<'m, 'o> Run<'m, 'o> {
         let mut results = results_of(&mut record, &store)?;
         results.timings.clone_from(&analysis.timings);
         results.warnings.clone_from(&model.warnings);
+        results.bodies.clone_from(&model.mesh.bodies);
         if !same {
             results.warnings.push(
                 "resumed with a factorisation that differs in its last digits (another BLAS or \

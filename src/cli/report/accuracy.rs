@@ -38,5 +38,8 @@ impl Report {
             &table,
         );
         self.lines(&format!("  {}", stated.method));
+        if let Some(parts) = &stated.parts {
+            self.lines(&format!("  {parts}"));
+        }
     }
 }

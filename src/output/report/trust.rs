@@ -24,6 +24,7 @@ pub(super) fn errors(results: &Results, labels: &Labels) -> Markup {
                 (stated.method)
             }
             (stated_errors(stated))
+            @if let Some(parts) = &stated.parts { p.quiet { (parts) } }
         }
         @if let Some(demand) = &accuracy.demand {
             p { (in_words(demand)) "." }
