@@ -15,7 +15,7 @@
 
 use super::given::Given;
 use super::loads::{LoadCase, on_freedoms};
-use super::{Freedoms, Model, Origin, Slot};
+use super::{Freedoms, Model, Origin};
 use crate::deck::words;
 use crate::error::{Error, ErrorKind, Result};
 use crate::number::significant;
@@ -244,20 +244,15 @@ impl Model {
 
     /// The forces of supports, equations and prescribed displacements, if any of them ends at a
     /// load factor. Those that go on bear the same forces in the next leg, in which these forces do
-    /// no work.
+    /// no work. All nodes are taken: the middle of an edge that is held acts on its ends, too.
     fn ending_at(&self, at: f64, forces: &[Vector]) -> Option<Released> {
         let supports = self.scene.support.iter().map(Support::span);
         let spans = supports.chain(self.scene.load.iter().map(Load::span));
         let mut ends = spans.filter_map(|span| span.until);
         let until = ends.find(|until| until[0] == at)?;
-        let is_held = |node: &usize| {
-            let slots = self.freedoms.of_node(*node);
-            !slots.iter().all(|slot| matches!(slot, Slot::Free(_)))
-        };
-        let held = (0..forces.len()).filter(is_held);
         Some(Released {
             until,
-            forces: held.map(|node| (node, forces[node])).collect(),
+            forces: forces.iter().copied().enumerate().collect(),
         })
     }
 }

@@ -105,6 +105,7 @@ impl<'m, 'o> Run<'m, 'o> {
         run.position = handed.position;
         run.follow_sets()?;
         run.check_same_state(&handed.displacements)?;
+        run.tell_of_dents();
         run.timed(TimeRow::Zone, |run| run.fit_zone_of_leg())?;
         run.observer.phase("load program");
         Ok(run)
@@ -170,30 +171,48 @@ impl<'m, 'o> Run<'m, 'o> {
         }
     }
 
+    /// Warns that dents count the supports of the leg as at rest.
+    fn tell_of_dents(&mut self) {
+        let model = self.model();
+        let begun = model.scene.support.iter().any(|s| s.since.is_some());
+        if begun && model.start.is_some() && !model.pairs.is_empty() {
+            let text = format!(
+                "residual depths from load factor {} on are those that the supports of this leg of \
+                 the program would leave, were they at rest where the mesh has their nodes",
+                significant(self.solver.at.alpha, 6)
+            );
+            self.warn(Some(text));
+        }
+    }
+
     /// Checks that the leg begins in the state in which the last one ended.
     fn check_same_state(&mut self, before: &[Vector]) -> Result<()> {
         let u = self.solver.reading().displacements()?.total;
-        let here = self.model().nodal(&u, &self.solver.at.factors);
-        // If nothing has moved yet, displacements are those of round-off.
-        let least = self
-            .solver
-            .scales
-            .displacement
-            .max(self.model().mesh.diagonal() * f64::EPSILON);
-        let largest = before.iter().map(|u| length(*u)).fold(least, f64::max);
+        let model = self.model();
+        let here = model.nodal(&u, &self.solver.at.factors);
+        let sizes = before.iter().map(|u| length(*u));
+        let largest = sizes.fold(self.solver.scales.displacement, f64::max);
         let off = here.iter().zip(before);
         let off = off.map(|(here, before)| length(along(*here, -1.0, *before)));
-        let off = off.fold(0.0, f64::max);
-        if off <= SAME_STATE * largest {
+        let (mut node, mut most) = (0, 0.0);
+        for (index, off) in off.enumerate() {
+            if off > most {
+                (node, most) = (index, off);
+            }
+        }
+        // If nothing has moved yet, displacements are those of round-off.
+        let round_off = f64::EPSILON * model.mesh.diagonal();
+        if most <= round_off.max(SAME_STATE * largest) {
             return Ok(());
         }
         Err(Error::analysis(format!(
-            "where supports change, at load factor {}, displacements jump by {}, {} of the \
-             largest: a body that nothing but contact holds may rest in several places; give it a \
-             support",
+            "where supports change, at load factor {}, the equilibrium is lost: node {} jumps by \
+             {}, {} of the largest displacement. Does a body rest on nothing but contact there, or \
+             has its contact been taken off? Give it a support",
             significant(self.solver.at.alpha, 6),
-            significant(off, 3),
-            significant(off / largest, 2)
+            model.mesh.node_label(node),
+            significant(most, 3),
+            significant(most / largest, 2)
         )))
     }
 
