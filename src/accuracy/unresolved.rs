@@ -3,8 +3,8 @@
 //! The pressures of the last pairs at the edge of a contact ([`EdgeReading::AT_EDGE`]) are not
 //! those of points. Where a side of a contact has no other pairs, no pressure is known, nor is the
 //! stress below it: meshes that agree there do so because all of them replace the contact by the
-//! same few forces. Where surfaces are apart on all meshes, by less than the meshes leave uncertain,
-//! it is not known whether they touch.
+//! same few forces. Where surfaces are apart on all meshes, by less than the meshes leave
+//! uncertain, it is not known whether they touch.
 
 use super::extrapolation::extrapolate;
 use super::quantities::Quantity;
@@ -36,10 +36,12 @@ pub(super) struct Unresolved {
     nearly_closed: BTreeSet<String>,
 }
 
-/// The smallest gap of a state without contact forces; `None` if there are any, or no pairs.
+/// The smallest gap of a loaded state without contact forces; `None` if there are any, no pairs, or
+/// no load: then nothing presses the surfaces on each other, whether or not they touch.
 fn gap_of_open(state: &State) -> Option<f64> {
     let gaps = state.pairs.iter().map(|pair| pair.gap);
-    gaps.reduce(f64::min).filter(|_| state.contact_force == 0.0)
+    let is_open = state.contact_force == 0.0 && state.load != 0.0;
+    gaps.reduce(f64::min).filter(|_| is_open)
 }
 
 fn is_unresolved(width: f64, reading: &EdgeReading) -> bool {

@@ -77,12 +77,22 @@ impl Carried {
             .collect()
     }
 
-    /// Number of the load case for the displacements from which the nodes of a load come; `None`
-    /// if they have the values of its history.
-    pub(super) fn origin_case(&self, scene: &Scene, load: usize) -> Option<usize> {
-        let all = self.on_their_way(scene).into_iter();
-        let mut own = all.filter(|(index, ..)| *index == load);
-        own.next().map(|(_, case, _)| case)
+    /// What a load of the scene prescribes, by the numbers of load cases: where its nodes came to
+    /// be, `before`, or a sum of shares of this and of the `value` at its factor 1. `None` if it is
+    /// the value alone, or if the load does not hold in this leg.
+    pub(super) fn taken_over(
+        &self,
+        scene: &Scene,
+        load: usize,
+        [value, before]: [f64; 2],
+    ) -> Option<Vec<(usize, f64)>> {
+        let entry = &scene.load[load];
+        if entry.stays() && entry.span().holds_from(self.at) {
+            return Some(vec![(Self::held_case(scene), before)]);
+        }
+        let mut all = self.on_their_way(scene).into_iter();
+        let (_, origin, _) = all.find(|(index, ..)| *index == load)?;
+        Some(vec![(load, value), (origin, before)])
     }
 
     /// Adds the load cases of what was carried over, and lets loads whose nodes come from elsewhere
@@ -101,6 +111,11 @@ impl Carried {
             magnitude: largest,
             ..LoadCase::carried(name, history)
         };
+        for (load, entry) in loads.iter_mut().zip(&scene.load) {
+            if entry.stays() {
+                load.magnitude = 0.0;
+            }
+        }
         let held = displaced("displacements at which supports begin", History::Constant);
         loads.push(held);
         for (index, _, arrives) in self.on_their_way(scene) {

@@ -5,10 +5,13 @@ use super::carried::Carried;
 use super::freedoms::{Freedoms, Slot};
 use super::names::Entry;
 use super::on_mesh::OnMesh;
+use super::solved::solved;
+use super::supports::Supports;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{EquationTerm, Scene};
 use crate::space::{Vector, dot, unit};
+use std::collections::BTreeSet;
 
 /// A displacement that follows others: `u . e_direction = sum v_k . u_k + value`.
 #[derive(Debug, Clone)]
@@ -21,7 +24,7 @@ pub(super) struct Following {
     /// The values that loads prescribe, which are added, with the numbers of the loads.
     pub moved: Vec<(usize, f64)>,
     /// The list of the scene in which the equation stands, and its number there.
-    of: (&'static str, usize),
+    pub of: (&'static str, usize),
 }
 
 /// Resolves the equations of a scene, with one entry for each following node.
@@ -33,11 +36,76 @@ pub(super) fn resolve(
     mesh: &Mesh,
     carried: Option<&Carried>,
 ) -> Result<Vec<Following>> {
+    let all = of_entries(scene, mesh, carried)?;
+    let is_of_leg = |following: &Following| {
+        let (list, index) = following.of;
+        list == "load" && !scene.load[index].span().is_whole()
+    };
+    let (mut of_leg, whole): (Vec<Following>, Vec<Following>) =
+        all.into_iter().partition(is_of_leg);
+    if of_leg.is_empty() {
+        return Ok(whole);
+    }
+    // Conditions along the axes of one node are solved together.
+    let nodes: BTreeSet<usize> = of_leg.iter().flat_map(Following::nodes).collect();
+    let (along_axes, mut whole): (Vec<Following>, Vec<Following>) =
+        whole.into_iter().partition(|following| {
+            let mut of = following.nodes();
+            of.all(|node| node == following.node) && nodes.contains(&following.node)
+        });
+    of_leg.extend(along_axes);
+    let follows = whole
+        .iter()
+        .map(|following| (following.node, following.direction));
+    let mut taken: BTreeSet<(usize, usize)> = follows.collect();
+    taken.extend(held_in_leg(
+        scene,
+        mesh,
+        carried.map_or(0.0, |carried| carried.at),
+    )?);
+    whole.extend(solved(of_leg, &taken, |(list, index), why| {
+        let entry = Entry::of_list(scene, list, index);
+        entry.refused(Error::input(format!("{list} {} {why}", index + 1)))
+    })?);
+    Ok(whole)
+}
+
+/// Displacements along axes that supports hold, or loads prescribe, in the leg of the program that
+/// begins at a load factor.
+fn held_in_leg(scene: &Scene, mesh: &Mesh, start: f64) -> Result<Vec<(usize, usize)>> {
+    let mut out = Vec::new();
+    let supports = Supports::resolve(scene, mesh)?.in_leg(scene, start);
+    for &node in supports.of_node.keys() {
+        let held = (0..mesh.dimension).filter(|&axis| supports.hold_along(node, unit(axis)));
+        out.extend(held.map(|axis| (node, axis)));
+    }
+    let loads = scene.load.iter().enumerate();
+    for (index, load) in loads.filter(|(_, load)| load.span().holds_from(start)) {
+        let given = load.displacement.iter().flat_map(|d| d.components());
+        let given: Vec<usize> = given
+            .enumerate()
+            .filter_map(|(a, f)| f.map(|_| a))
+            .collect();
+        if !given.is_empty() {
+            for node in Entry::of_list(scene, "load", index).nodes(mesh, &load.on)? {
+                out.extend(given.iter().map(|&axis| (node, axis)));
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// The equations of all entries of a scene, one for each following node.
+fn of_entries(scene: &Scene, mesh: &Mesh, carried: Option<&Carried>) -> Result<Vec<Following>> {
     let mut out = match carried {
         Some(carried) => on_their_way(scene, mesh, carried)?,
         None => Vec::new(),
     };
+    let start = carried.map_or(0.0, |carried| carried.at);
     for ((list, index), terms, moved) in all(scene) {
+        if moved.is_some() && !scene.load[index].span().holds_from(start) {
+            continue;
+        }
         let entry = Entry::of_list(scene, list, index);
         let nodes = nodes_of_terms(&entry, mesh, (list, index), &terms)?;
         let [first, rest @ ..] = terms.as_slice() else {
@@ -52,11 +120,19 @@ pub(super) fn resolve(
             let (direction, terms) = (first.direction.axis(), terms.collect::<Vec<_>>());
             // A node that a whole set follows may itself belong to the set.
             if moved.is_some() || terms[..] != [(node, unit(direction))] {
+                let moved = moved.map(|value| {
+                    let before = carried.map_or(0.0, |carried| {
+                        let of = terms.iter().map(|&(node, v)| dot(v, carried.of_node(node)));
+                        carried.of_node(node)[direction] - of.sum::<f64>()
+                    });
+                    let taken = carried.and_then(|c| c.taken_over(scene, index, [value, before]));
+                    taken.unwrap_or_else(|| vec![(index, value)])
+                });
                 out.push(Following {
                     node,
                     direction,
                     terms,
-                    moved: moved.map(|value| (index, value)).into_iter().collect(),
+                    moved: moved.unwrap_or_default(),
                     of: (list, index),
                 });
             }
@@ -70,8 +146,7 @@ pub(super) fn resolve(
 fn on_their_way(scene: &Scene, mesh: &Mesh, carried: &Carried) -> Result<Vec<Following>> {
     let mut out = Vec::new();
     for (index, load) in scene.load.iter().enumerate() {
-        let (Some(origin), Some(given)) = (carried.origin_case(scene, index), &load.displacement)
-        else {
+        let Some(given) = &load.displacement else {
             continue;
         };
         let entry = Entry::of_list(scene, "load", index);
@@ -81,13 +156,16 @@ fn on_their_way(scene: &Scene, mesh: &Mesh, carried: &Carried) -> Result<Vec<Fol
             let field = OnMesh::new(field, "displacement", scene, mesh).map_err(within)?;
             for node in entry.nodes(mesh, &load.on)? {
                 let value = field.at_node(node).map_err(within)?;
-                out.push(Following {
-                    node,
-                    direction,
-                    terms: Vec::new(),
-                    moved: vec![(index, value), (origin, carried.of_node(node)[direction])],
-                    of: ("load", index),
-                });
+                let before = carried.of_node(node)[direction];
+                if let Some(moved) = carried.taken_over(scene, index, [value, before]) {
+                    out.push(Following {
+                        node,
+                        direction,
+                        terms: Vec::new(),
+                        moved,
+                        of: ("load", index),
+                    });
+                }
             }
         }
     }
@@ -151,6 +229,12 @@ fn nodes_of_terms(
 }
 
 impl Following {
+    /// All nodes of the equation.
+    fn nodes(&self) -> impl Iterator<Item = usize> + '_ {
+        let others = self.terms.iter().map(|(node, _)| *node);
+        others.chain([self.node])
+    }
+
     /// Returns the local axis of the node that follows, and its sign relative to the direction.
     ///
     /// # Errors

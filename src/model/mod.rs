@@ -35,6 +35,7 @@ mod prescribed;
 mod recipe;
 mod rigid;
 mod rows;
+mod solved;
 mod springs;
 mod sums;
 mod supports;

@@ -128,7 +128,8 @@ impl Freedoms {
         let displaced = loads().filter(|(_, load)| !is_plane(load));
         for (index, load) in displaced.chain(loads().filter(|(_, load)| is_plane(load))) {
             // Displacements on their way are equations.
-            let comes = carried.is_some_and(|carried| carried.origin_case(scene, index).is_some());
+            let is_taken_over = |carried: &Carried| carried.taken_over(scene, index, [0.0; 2]);
+            let comes = carried.and_then(is_taken_over).is_some();
             if comes || !load.span().holds_from(start) {
                 continue;
             }

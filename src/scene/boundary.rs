@@ -235,9 +235,10 @@ pub struct Load {
     /// Dependence of the load on the load factor.
     #[serde(default)]
     pub history: History,
-    /// Load factor from which on a displacement is prescribed. The nodes begin where they are then,
-    /// and go linearly to the next row of the `history`, which must be a table. By default a
-    /// displacement is prescribed from the start.
+    /// Load factor from which on a displacement (or a `relative` one) is prescribed. The nodes
+    /// begin where they are then, and go linearly to the next row of the `history`, a table; with
+    /// the history `"constant"` they stay there. By default a displacement is prescribed from the
+    /// start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub since: Option<f64>,
     /// Two load factors: up to the first the displacement is prescribed, then the forces that this

@@ -68,6 +68,11 @@ impl Load {
         }
     }
 
+    /// Whether what is prescribed stays as it is when the load takes it over.
+    pub(crate) fn stays(&self) -> bool {
+        self.since.is_some() && self.history == History::Constant
+    }
+
     /// The load factor at which nodes that a prescribed displacement takes over where they are have
     /// reached the values of its history: that of the next row of its table.
     pub(crate) fn arrives(&self) -> Option<f64> {

@@ -18,7 +18,7 @@ struct Case {
 const PRINTED: f64 = 1e-6;
 const FULL: &[&str] = &["mesh.formulation=full"];
 
-const CASES: [Case; 44] = [
+const CASES: [Case; 45] = [
     case("two_blocks", FULL, PRINTED),
     case("history", &[], PRINTED),
     // Flow turns, and CalculiX takes each of its increments in one step of the implicit rule; with
@@ -61,6 +61,7 @@ const CASES: [Case; 44] = [
     case("fixed", FULL, PRINTED),
     case("in_steps", FULL, PRINTED),
     case("rigid_released", FULL, PRINTED),
+    case("sums_in_steps", FULL, PRINTED),
     case("springback", &[], 2e-4),
     case("held_middles", &[], PRINTED),
     case("adjusted", FULL, PRINTED),

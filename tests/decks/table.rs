@@ -49,7 +49,7 @@ const POINTS: &str = "slaves of ccx follow the points that they lie on, here the
                       faces: `decks::table` shows that equations of that kind give the values of \
                       ccx";
 
-const ROWS: [Row; 57] = [
+const ROWS: [Row; 58] = [
     row("Gmsh", "programs/gmsh_bar", ""),
     row("Gmsh", "programs/gmsh_plate", THICKNESS),
     row("FreeCAD", "programs/freecad_face_load", ""),
@@ -102,6 +102,7 @@ const ROWS: [Row; 57] = [
     row("FIXED, absent nodes, OFFSET", "fixed", ""),
     row("supports in steps", "in_steps", ""),
     row("supports in steps", "rigid_released", ""),
+    row("supports in steps", "sums_in_steps", ""),
     row("supports in steps", "springback", STEPS),
     row("middles that are held", "held_middles", ""),
     row("TRANSFORM", "ring", ""),

@@ -129,6 +129,7 @@ pub fn results(mesh: &Mesh) -> Results {
         ..pressed.clone()
     };
     Results {
+        bodies: vec!["low".into(), "high".into()],
         ranks: None,
         cycles: Some(Cycles {
             outcome: CycleOutcome::Ratchetting,

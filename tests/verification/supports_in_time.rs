@@ -8,7 +8,8 @@ use brinell::model::{Model, ModelBuilder};
 use brinell::progress::Silent;
 use brinell::results::{Results, State};
 use brinell::scene::{
-    Body, Contact, Direction, Displacement, History, Kind, Load, Material, Support, Target,
+    Body, Contact, Direction, Displacement, EquationTerm, History, Kind, Load, Material, Relative,
+    Support, Target,
 };
 use brinell::{ErrorKind, Result};
 
@@ -154,6 +155,49 @@ fn a_support_holds_where_the_nodes_are_and_lets_go() {
     let counted: Vec<usize> = (1..=increments.len()).collect();
     assert_eq!(increments, counted);
     assert!((results.first_yield.unwrap().load - YIELD).abs() < 1e-9);
+}
+
+/// What a load with the history "constant" takes over stays: a displacement as under a support, and
+/// a difference of displacements.
+#[test]
+fn what_is_taken_over_stays_where_it_is() {
+    let [strain, plastic] = beyond_yield(15.0);
+    let rows = [[0.0, 0.0], [1.0, 15.0], [2.0, 0.0]];
+    let over = Load {
+        since: Some(1.0),
+        until: Some([2.0, 3.0]),
+        history: History::Constant,
+        ..Load::default()
+    };
+    let mut bar = cube();
+    bar.load(force(&rows)).load(Load {
+        name: "stays".into(),
+        on: "top".into(),
+        displacement: displaced(1.0, &[]).displacement,
+        ..over.clone()
+    });
+    let expected = [[strain, 15.0], [strain, 15.0], [plastic, 0.0]];
+    near(&top(&computed(&bar).unwrap()), expected);
+    // The height of the cube stays, against its bottom.
+    let mut bar = cube();
+    bar.load(force(&rows)).load(Load {
+        name: "height".into(),
+        on: "top".into(),
+        relative: Some(Relative {
+            direction: Direction::Z,
+            value: 0.0,
+            terms: vec![EquationTerm {
+                on: "z".into(),
+                direction: Direction::Z,
+                coefficient: 1.0,
+            }],
+        }),
+        ..over
+    });
+    let heights = top(&computed(&bar).unwrap());
+    for (found, expected) in heights.iter().zip(expected) {
+        close("height", found[0], expected[0], 0.1, 1e-9);
+    }
 }
 
 /// A displacement that is prescribed from the start lets go beyond yield; one that is prescribed

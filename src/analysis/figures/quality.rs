@@ -143,6 +143,15 @@ impl Reading<'_, '_> {
         scales.force = scales.force.max(applied).max(largest(reactions));
         scales.displacement = scales.displacement.max(largest(&u.total));
         scales.deformation = scales.deformation.max(largest(u.deformation()));
+        // Without loads, displacements within the round-off of the mesh are none.
+        let round_off_of_mesh = f64::EPSILON * self.solver.structure.model.mesh.diagonal();
+        if applied == 0.0 && self.solver.scales.displacement <= round_off_of_mesh {
+            return Quality {
+                componentwise_error: Some(0.0),
+                round_off: Some(0.0),
+                ..Quality::default()
+            };
+        }
         let mut out_of_balance = internal;
         for spring in &self.solver.structure.model.freedoms.springs {
             out_of_balance[spring.freedom] += spring.stiffness * u.total[spring.freedom];

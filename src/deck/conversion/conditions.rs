@@ -12,6 +12,7 @@ use super::super::series::Series;
 use super::super::source::Place;
 use super::Draft;
 use super::along_axes::AlongAxis;
+use super::in_steps::SumInSteps;
 use crate::error::Result;
 use crate::scene::{Displacement, Load, Support};
 use crate::space::Vector;
@@ -245,7 +246,10 @@ impl Draft<'_> {
             .collect();
         let mut by_direction: BTreeMap<[u64; 3], (Vector, BTreeSet<u32>, Place)> = BTreeMap::new();
         let is_moved = |key: &Key| !boundary[key].series.is_zero() && self.geometry.uses(key.0);
-        let moved: BTreeSet<u32> = turned.iter().filter(|k| is_moved(k)).map(|k| k.0).collect();
+        let moved = turned.iter().filter(|k| is_moved(k)).map(|k| k.0);
+        let in_steps = self.in_steps.iter().flat_map(SumInSteps::nodes);
+        let in_steps = in_steps.filter(|node| axes.contains_key(node));
+        let moved: BTreeSet<u32> = moved.chain(in_steps).collect();
         for &node in &moved {
             let known: Vec<AlongAxis> = take_known(node, &axes[&node], boundary).collect();
             self.move_along(node, &known, &axes, boundary);

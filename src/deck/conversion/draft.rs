@@ -4,6 +4,7 @@ use super::super::Deck;
 use super::super::series::Series;
 use super::super::source::Place;
 use super::Geometry;
+use super::in_steps::SumInSteps;
 use crate::scene::{Contact, Direction, Equation, Load, LooseNode, Support, Tie};
 use crate::space::{Components, Vector};
 use std::collections::BTreeMap;
@@ -20,6 +21,8 @@ pub(super) struct Draft<'d> {
     pub(super) contacts: Vec<Contact>,
     pub(super) ties: Vec<Tie>,
     pub(super) equations: Vec<Equation>,
+    /// Sums of displacements that are given in some steps only.
+    pub(super) in_steps: Vec<SumInSteps>,
     /// Names of the sets of a single node that equations use.
     pub(super) sets_of_nodes: BTreeMap<u32, String>,
     /// Nodes without elements, by node number.
@@ -39,6 +42,7 @@ impl<'d> Draft<'d> {
             contacts: Vec::new(),
             ties: Vec::new(),
             equations: Vec::new(),
+            in_steps: Vec::new(),
             sets_of_nodes: BTreeMap::new(),
             loose: BTreeMap::new(),
             places: BTreeMap::new(),

@@ -1,124 +1,191 @@
 //! Supports that begin or end in a later step: `*BOUNDARY` from a later step on, `FIXED`, and
 //! `OP=NEW`, which releases what it does not repeat.
+//!
+//! Conditions on reference nodes and along the axes of a `*TRANSFORM` are sums of displacements.
 
 use super::super::bodies::unsupported;
 use super::super::history::{Entry, Key};
-use super::super::linear::Reduced;
+use super::super::linear::{Reduced, Terms};
+use super::super::series::Series;
 use super::Draft;
 use super::conditions::made;
 use crate::error::Result;
 use crate::scene::span::Span;
-use crate::scene::{Direction, Support};
-use std::collections::BTreeMap;
+use crate::scene::{Direction, EquationTerm, Load, Relative, Support};
+use std::collections::{BTreeMap, BTreeSet};
 
-/// What is done to nodes over the same steps, as a key: axis, node with axes of its own, span,
-/// whether the nodes stay where they are, and the values over time.
-type Done = (u8, Option<u32>, [Option<[u64; 2]>; 2], bool, Vec<u64>);
+/// Largest coefficient that counts as zero after an elimination.
+const ROUND_OFF: f64 = 1e-12;
+
+/// Bits of the load factors of a span, as a key.
+type SpanBits = [Option<[u64; 2]>; 2];
+
+/// What is done to nodes over the same steps, as a key: axis, span, whether the nodes stay where
+/// they are, and the values over time.
+type Done = (u8, SpanBits, bool, Vec<u64>);
+
+/// The condition that a sum of displacements along x, y and z has a value over some steps.
+pub(super) struct SumInSteps {
+    terms: Terms,
+    entry: Entry,
+}
+
+impl SumInSteps {
+    /// Nodes of the sum.
+    pub(super) fn nodes(&self) -> impl Iterator<Item = u32> + '_ {
+        self.terms.keys().map(|key| key.0)
+    }
+}
+
+fn bits(span: Span) -> SpanBits {
+    let since = span.since.map(|since| [since.to_bits(); 2]);
+    [since, span.until.map(|until| until.map(f64::to_bits))]
+}
 
 impl Draft<'_> {
-    /// Passes conditions on nodes without elements, and on displacements that follow another one,
-    /// on to the displacement to which they are coupled.
+    /// Separates conditions in steps into those on a single displacement along x, y or z, and sums:
+    /// of nodes without elements, of displacements that follow others, and along axes of nodes.
     ///
     /// # Errors
-    /// `Unsupported` for a displacement that is coupled to several others.
-    pub(super) fn pass_on_in_steps(
-        &self,
+    /// `Unsupported` for a displacement that is coupled to others without elements.
+    pub(super) fn sums_in_steps(
+        &mut self,
         reduced: &Reduced,
-        in_steps: &mut [(Key, Entry)],
+        in_steps: &mut Vec<(Key, Entry)>,
     ) -> Result<()> {
-        for (key, entry) in in_steps {
+        let axes = self.deck.local_axes()?;
+        let is_moved = |entry: &Entry| !entry.stays && !is_at_rest(entry);
+        let moved = in_steps.iter().filter(|(_, entry)| is_moved(entry));
+        let moved: BTreeSet<u32> = moved.map(|(key, _)| key.0).collect();
+        let mut single = Vec::new();
+        for (key, entry) in std::mem::take(in_steps) {
             let mut all = reduced.loose.iter().chain(&reduced.others);
-            let Some(follows) = all.find(|follows| follows.key == *key) else {
-                continue;
+            let of = match all.find(|follows| follows.key == key) {
+                Some(follows) => follows.of.clone(),
+                None if !self.geometry.uses(key.0) => continue,
+                None => Terms::from([(key, 1.0)]),
             };
-            let mut of = follows.of.iter();
-            let (Some((to, share)), None) = (of.next(), of.next()) else {
-                let node = self.deck.node_name(key.0 as usize);
-                let message = format!(
-                    "node {node} is held along {} only in some steps, and equations or a rigid \
-                     body couple it to several displacements: hold one of these, or the node in \
-                     all steps",
-                    key.1 + 1
-                );
-                return Err(unsupported(self.deck.error(
-                    entry.place,
-                    "BOUNDARY",
-                    message,
-                )));
-            };
-            entry.series = entry.series.multiplied(1.0 / share);
-            *key = *to;
+            let is_alone = of.len() == 1;
+            let turned = of.keys().any(|key| axes.contains_key(&key.0));
+            match of.iter().next() {
+                Some((to, share)) if is_alone && !turned => {
+                    let mut entry = entry;
+                    entry.series = entry.series.multiplied(1.0 / share);
+                    single.push((*to, entry));
+                }
+                // Nodes that stay where they are along their own axes have supports.
+                Some((to, _)) if is_alone && *to == key && !moved.contains(&key.0) => {
+                    single.push((key, entry));
+                }
+                _ => {
+                    if of.is_empty() || of.keys().any(|key| !self.geometry.uses(key.0)) {
+                        return Err(self.coupled(key, &entry));
+                    }
+                    let mut terms = Terms::new();
+                    for ((node, axis), c) in of {
+                        let own = axes.get(&node).map(|axes| axes[axis as usize]);
+                        let own = own.unwrap_or_else(|| crate::space::unit(axis as usize));
+                        for (global, share) in own.into_iter().enumerate() {
+                            *terms.entry((node, global as u8)).or_default() += c * share;
+                        }
+                    }
+                    terms.retain(|_, c| c.abs() > ROUND_OFF);
+                    self.in_steps.push(SumInSteps { terms, entry });
+                }
+            }
         }
+        *in_steps = single;
         Ok(())
+    }
+
+    fn coupled(&self, key: Key, entry: &Entry) -> crate::Error {
+        let node = self.deck.node_name(key.0 as usize);
+        let message = format!(
+            "node {node} is held along {} only in some steps, and is coupled to nodes without \
+             elements that are held otherwise: hold it in all steps",
+            key.1 + 1
+        );
+        unsupported(self.deck.error(entry.place, "BOUNDARY", message))
     }
 
     /// Turns conditions that begin or end in a later step into supports and prescribed
     /// displacements.
-    ///
-    /// # Errors
-    /// `Unsupported` for a displacement along axes of a `*TRANSFORM` that has a value.
     pub(super) fn boundary_in_steps(&mut self, in_steps: Vec<(Key, Entry)>) -> Result<()> {
         let axes = self.deck.local_axes()?;
         let mut groups: BTreeMap<Done, (Vec<u32>, Entry)> = BTreeMap::new();
         for ((node, axis), entry) in in_steps {
-            if !self.geometry.uses(node) {
+            if let Some(axes) = axes.get(&node) {
+                let on = self.set_of_node(node);
+                let support = Support {
+                    direction: Some(self.components(axes[axis as usize])),
+                    ..Support::over(on, entry.span)
+                };
+                self.add_support(support, entry.place);
                 continue;
             }
-            let bits = |span: Span| {
-                let since = span.since.map(|since| [since.to_bits(); 2]);
-                [since, span.until.map(|until| until.map(f64::to_bits))]
-            };
-            // Supports of nodes with axes of their own are made node by node.
-            let own = axes.get(&node).map(|_| node);
-            let key = (
-                axis,
-                own,
-                bits(entry.span),
-                entry.stays,
-                entry.series.bits(),
-            );
-            groups
-                .entry(key)
-                .or_insert((Vec::new(), entry))
-                .0
-                .push(node);
+            let key = (axis, bits(entry.span), entry.stays, entry.series.bits());
+            let (nodes, _) = groups.entry(key).or_insert((Vec::new(), entry));
+            nodes.push(node);
         }
-        for ((axis, own, ..), (nodes, entry)) in groups {
-            let on = self
-                .geometry
-                .add_nodes(&made("boundary", entry.place), nodes);
-            let is_at_rest = entry.span.since.is_none() && entry.series.is_zero();
-            match own.and_then(|node| axes.get(&node)) {
-                Some(axes) if entry.stays || is_at_rest => {
-                    let support = Support {
-                        direction: Some(self.components(axes[axis as usize])),
-                        ..Support::over(on, entry.span)
-                    };
-                    self.add_support(support, entry.place);
-                }
-                Some(_) => {
-                    let node = self.deck.node_name(own.unwrap_or(0) as usize);
-                    let message = format!(
-                        "node {node} has axes of its own, and is moved along {} only in some \
-                         steps: move it in all steps, or along x, y and z",
-                        axis + 1
-                    );
-                    return Err(unsupported(self.deck.error(
-                        entry.place,
-                        "BOUNDARY",
-                        message,
-                    )));
-                }
-                None if entry.stays || is_at_rest => {
-                    let support = Support {
-                        fix: vec![Direction::ALL[axis as usize]],
-                        ..Support::over(on, entry.span)
-                    };
-                    self.add_support(support, entry.place);
-                }
-                None => self.displace(on, axis, entry),
+        for ((axis, ..), (nodes, entry)) in groups {
+            let name = made("boundary", entry.place);
+            let on = self.geometry.add_nodes(&name, nodes);
+            if entry.stays || is_at_rest(&entry) {
+                let support = Support {
+                    fix: vec![Direction::ALL[axis as usize]],
+                    ..Support::over(on, entry.span)
+                };
+                self.add_support(support, entry.place);
+            } else {
+                self.displace(on, axis, entry);
             }
+        }
+        for sum in std::mem::take(&mut self.in_steps) {
+            self.relate_over_span(sum);
         }
         Ok(())
     }
+
+    /// Adds a sum as a prescribed difference between the displacement that has the largest
+    /// coefficient and the others.
+    fn relate_over_span(&mut self, sum: SumInSteps) {
+        let largest = sum
+            .terms
+            .iter()
+            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+        let Some((&pivot, &c)) = largest else { return };
+        let others = sum.terms.into_iter().filter(|(key, _)| *key != pivot);
+        let terms = others.map(|((node, axis), own)| EquationTerm {
+            on: self.set_of_node(node),
+            direction: Direction::ALL[axis as usize],
+            coefficient: -own / c,
+        });
+        let terms = terms.collect();
+        let Entry {
+            series,
+            place,
+            span,
+            stays,
+            ..
+        } = sum.entry;
+        // What stays has no values over time.
+        let series = if stays { Series::default() } else { series };
+        let load = Load {
+            on: self.set_of_node(pivot.0),
+            relative: Some(Relative {
+                direction: Direction::ALL[pivot.1 as usize],
+                value: series.largest() / c,
+                terms,
+            }),
+            since: span.since,
+            until: span.until,
+            ..Load::default()
+        };
+        self.add_load("relative", load, series, place);
+    }
+}
+
+/// Whether a node is held from the start, where it is in the mesh.
+fn is_at_rest(entry: &Entry) -> bool {
+    entry.span.since.is_none() && entry.series.is_zero()
 }

@@ -27,7 +27,7 @@ impl Draft<'_> {
     pub(super) fn constrain(
         &mut self,
         boundary: &mut Map,
-        in_steps: &mut [(Key, Entry)],
+        in_steps: &mut Vec<(Key, Entry)>,
         forces: &mut Map,
     ) -> Result<Vec<HeldPlane>> {
         let axes = self.deck.local_axes()?;
@@ -74,7 +74,7 @@ impl Draft<'_> {
             .collect();
         let reduced = self.reduced(rows, boundary);
         self.displacements_of_loose(&simple, &reduced, boundary);
-        self.pass_on_in_steps(&reduced, in_steps)?;
+        self.sums_in_steps(&reduced, in_steps)?;
         self.move_forces(&reduced, &of_rows, boundary, forces)?;
         self.check_known(&reduced.known, boundary)?;
         let known = boundary.clone();

@@ -51,16 +51,18 @@ impl Checks {
         ];
         for (name, _) in given.into_iter().filter(|(_, is_given)| *is_given) {
             self.require(
-                load.displacement.is_some(),
+                load.displacement.is_some() || load.relative.is_some(),
                 format!("{key}.{name}"),
-                "is for a prescribed `displacement`; other loads begin and end by their `history`",
+                "is for a prescribed `displacement` or `relative`; other loads begin and end by \
+                 their `history`",
             );
         }
         if load.since.is_some() {
             self.require(
-                load.arrives().is_some(),
+                load.arrives().is_some() || load.stays(),
                 format!("{key}.history"),
-                "must be a table with a row beyond `since`, whose value the nodes then reach",
+                "must be a table with a row beyond `since`, whose value the nodes then reach, or \
+                 \"constant\" for what stays as it is",
             );
         }
     }
