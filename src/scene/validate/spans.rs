@@ -104,6 +104,12 @@ impl Checks {
             key,
             "begins or ends within the program, which needs `unit = \"load\"` and no `cycles`",
         );
+        self.require(
+            scene.rigid.is_empty(),
+            key,
+            "begins or ends within the program, which is not for scenes with [rigid] surfaces: \
+             give the tool a mesh, or let its load fall by its `history`",
+        );
         let factors: Vec<Option<f64>> = program.targets.iter().map(|t| t.load_factor).collect();
         let ascend = factors.windows(2).all(|pair| pair[0] <= pair[1]);
         self.require(

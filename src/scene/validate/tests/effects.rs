@@ -214,6 +214,20 @@ fn supports_that_change() {
                 "support.0: begins or ends within the program, which needs `unit",
             ),
             (
+                |s| {
+                    let plane = crate::scene::RigidPlane {
+                        point: [0.0, 5.0].into(),
+                        normal: [0.0, -1.0].into(),
+                    };
+                    let surface = crate::scene::RigidSurface {
+                        plane: Some(plane),
+                        ..Default::default()
+                    };
+                    s.rigid.insert("tool".into(), surface);
+                },
+                "support.0: begins or ends within the program, which is not for scenes with",
+            ),
+            (
                 |s| s.program.cycles = 2,
                 "support.0: begins or ends within the program, which needs `unit",
             ),
