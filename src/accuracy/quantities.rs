@@ -34,12 +34,16 @@ impl Quantity {
 /// Kinds of figures of the parts of a state: of bodies, contacts and patches.
 const PARTS: [&str; 5] = [
     BODY_DENT,
-    "contact force",
-    "patch force",
-    "patch pressure",
-    "patch half axis",
+    CONTACT_FORCE,
+    PATCH_FORCE,
+    PATCH_PRESSURE,
+    PATCH_HALF_AXIS,
 ];
 const BODY_DENT: &str = "body dent";
+pub(super) const CONTACT_FORCE: &str = "contact force";
+const PATCH_FORCE: &str = "patch force";
+const PATCH_PRESSURE: &str = "patch pressure";
+const PATCH_HALF_AXIS: &str = "patch half axis";
 
 /// How the error of the quantities of a key is estimated.
 fn estimated(key: &str) -> Option<Estimated> {
@@ -178,15 +182,27 @@ fn of_parts(state: &State, results: &Results) -> Vec<Quantity> {
     if forces.len() > 1 && all > 0.0 {
         for (contact, force) in forces {
             let force = state.contact_force * force / all;
-            add(format!("contact_{}.force", contact + 1), PARTS[1], force);
+            add(
+                format!("contact_{}.force", contact + 1),
+                CONTACT_FORCE,
+                force,
+            );
         }
     }
     for (number, patch) in state.patches.iter().enumerate() {
         let of = format!("patches.{}", number + 1);
-        add(format!("{of}.force"), PARTS[2], patch.force);
-        add(format!("{of}.max_pressure"), PARTS[3], patch.max_pressure);
+        add(format!("{of}.force"), PATCH_FORCE, patch.force);
+        add(
+            format!("{of}.max_pressure"),
+            PATCH_PRESSURE,
+            patch.max_pressure,
+        );
         for (axis, half) in patch.semi_axes.into_iter().enumerate() {
-            add(format!("{of}.semi_axes.{}", axis + 1), PARTS[4], half);
+            add(
+                format!("{of}.semi_axes.{}", axis + 1),
+                PATCH_HALF_AXIS,
+                half,
+            );
         }
     }
     out
@@ -200,7 +216,51 @@ pub fn value_of(quantities: &[Quantity], path: &str) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::results::YieldPoint;
+    use crate::results::{PairState, Status, YieldPoint};
+
+    #[test]
+    fn parts_of_a_state_are_quantities() {
+        let pair = |contact: usize, force: f64| PairState {
+            pair: contact,
+            contact,
+            position: [0.0; 3],
+            gap: 0.0,
+            force,
+            area: 1.0,
+            pressure: force,
+            status: Status::Closed,
+        };
+        let results = Results {
+            bodies: vec!["low".into(), "high".into()],
+            states: vec![State {
+                name: "a.b".into(),
+                contact_force: 8.0,
+                residual_depth_by_body: vec![0.3, 0.1],
+                pairs: vec![pair(0, 1.0), pair(1, 3.0)],
+                ..State::default()
+            }],
+            ..Results::default()
+        };
+        let parts: Vec<Quantity> = quantities(&results)
+            .into_iter()
+            .filter(Quantity::is_of_part)
+            .collect();
+        let found: Vec<(&str, f64, f64)> = parts
+            .iter()
+            .map(|q| (q.path.as_str(), q.value, q.scale))
+            .collect();
+        // The pairs are those of a quarter of the whole, whose force the state has.
+        assert_eq!(
+            found,
+            [
+                ("states.a.b.residual_depth_by_body.low", 0.3, 0.3),
+                ("states.a.b.residual_depth_by_body.high", 0.1, 0.3),
+                ("states.a.b.contact_1.force", 2.0, 6.0),
+                ("states.a.b.contact_2.force", 6.0, 6.0),
+            ]
+        );
+        assert!(parts.iter().all(|q| q.state.as_deref() == Some("a.b")));
+    }
 
     #[test]
     fn quantities_follow_what_the_scene_has() {

@@ -7,13 +7,13 @@
 //! uncertain, it is not known whether they touch.
 
 use super::extrapolation::extrapolate;
-use super::quantities::Quantity;
+use super::quantities::{CONTACT_FORCE, Quantity};
 use crate::results::{EdgeReading, Results, State};
 use crate::scene::{Scene, Unit};
 use std::collections::BTreeSet;
 
 /// Figures of a state that the contact does not decide, but the equilibrium of the whole.
-const OF_THE_WHOLE: [&str; 4] = ["load", "approach", "contact_force", "contact force"];
+const OF_THE_WHOLE: [&str; 4] = ["load", "approach", "contact_force", CONTACT_FORCE];
 
 /// Figures of a state that are zero as long as the surfaces are apart.
 const OF_CONTACT: [&str; 4] = [
@@ -144,7 +144,7 @@ impl Unresolved {
 mod tests {
     use super::super::quantities::quantities;
     use super::*;
-    use crate::results::{State, YieldPoint};
+    use crate::results::{PairState, State, Status, YieldPoint};
 
     /// Quantities whose error is hidden, of a run whose contact has so many pairs on a side at
     /// first yield and in its state.
@@ -178,6 +178,54 @@ mod tests {
         let hidden: Vec<String> = hidden.map(|quantity| quantity.path.clone()).collect();
         assert_eq!(hidden.is_empty(), found.notes().next().is_none());
         hidden
+    }
+
+    /// A state with a gap of 0.1 between its surfaces, under a load or none.
+    fn apart(gap: f64, load: f64) -> Results {
+        let pair = PairState {
+            pair: 0,
+            contact: 0,
+            position: [0.0; 3],
+            gap,
+            force: 0.0,
+            area: 1.0,
+            pressure: 0.0,
+            status: Status::Open,
+        };
+        let mut results = Results {
+            states: vec![State {
+                name: "pressed".into(),
+                load,
+                pairs: vec![pair],
+                ..State::default()
+            }],
+            ..Results::default()
+        };
+        results.sizes.contact_pairs = 1;
+        results
+    }
+
+    #[test]
+    fn surfaces_that_may_touch_have_no_error() {
+        let text = include_str!("../../data/scenes/thick_cylinder.toml");
+        let scene = Scene::parse(text, "scene.toml").unwrap();
+        // Gaps of three meshes, which change by more than their size, or by less; no load presses.
+        for (gaps, load, expected) in [
+            ([0.1, 0.3, 0.7], 5.0, true),
+            ([0.1, 0.1001, 0.1004], 5.0, false),
+            ([0.1, 0.3, 0.7], 0.0, false),
+        ] {
+            let runs = gaps.map(|gap| apart(gap, load));
+            let mut found = Unresolved::of(&scene, &runs[0]);
+            let others = [(1.5, &runs[1]), (2.0, &runs[2])];
+            found.find_nearly_closed(&runs[0], &others, 2.0);
+            let all = quantities(&runs[0]);
+            let pressure = all.iter().find(|q| q.kind == "max_pressure").unwrap();
+            assert_eq!(found.hides(pressure), expected, "{gaps:?}");
+            assert_eq!(found.notes().count(), usize::from(expected));
+            let approach = all.iter().find(|q| q.kind == "approach").unwrap();
+            assert!(!found.hides(approach));
+        }
     }
 
     #[test]

@@ -108,7 +108,7 @@ impl Deck {
     /// The histories of all given displacements.
     ///
     /// # Errors
-    /// `Input` for undefined names and numbers; `Unsupported` for values that jump.
+    /// `Input` for undefined names and numbers, and for values that are too large.
     pub(super) fn displacements(&self) -> Result<GivenDisplacements> {
         let mut ended = Vec::new();
         let all = self.histories_of(Kind::Boundary, &mut ended)?;

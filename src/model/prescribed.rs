@@ -86,6 +86,7 @@ impl Freedoms {
         }
         Some(sum)
     }
+
     /// Holds a node where it is along the directions of supports that began within the program.
     pub(super) fn hold_where_it_is(
         &mut self,

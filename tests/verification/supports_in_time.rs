@@ -69,14 +69,19 @@ fn cube() -> ModelBuilder {
             ..Support::default()
         });
     }
-    for factor in [1.0, 2.0, 3.0] {
+    reach(&mut builder, &[1.0, 2.0, 3.0]);
+    builder
+}
+
+/// Adds targets at load factors.
+fn reach(builder: &mut ModelBuilder, factors: &[f64]) {
+    for &factor in factors {
         builder.target(Target {
             load_factor: Some(factor),
             fields: true,
             ..Target::default()
         });
     }
-    builder
 }
 
 fn force(rows: &[[f64; 2]]) -> Load {
@@ -357,12 +362,7 @@ fn what_supports_leave_unheld_is_named() {
             ..Support::default()
         });
     }
-    for factor in [1.0, 2.0] {
-        touching.target(Target {
-            load_factor: Some(factor),
-            ..Target::default()
-        });
-    }
+    reach(&mut touching, &[1.0, 2.0]);
     let error = touching.build().unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unsupported);
     let said = error.to_string();

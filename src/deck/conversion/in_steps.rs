@@ -14,7 +14,7 @@ use crate::scene::span::Span;
 use crate::scene::{Direction, EquationTerm, Load, Relative, Support};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Largest coefficient that counts as zero after an elimination.
+/// Largest coefficient that counts as zero, as a component of an axis.
 const ROUND_OFF: f64 = 1e-12;
 
 /// Bits of the load factors of a span, as a key.
