@@ -2,7 +2,7 @@
 
 use super::companions::{Companions, Level, companions};
 use super::effort::Effort;
-use super::extrapolation::{Extrapolation, extrapolate};
+use super::extrapolation::extrapolate;
 use super::meter::work;
 use super::path::{self, PathErrors};
 use super::quantities::{Quantity, formal_order, quantities, value_of};
@@ -290,7 +290,7 @@ fn of_meshes(
         .iter()
         .filter_map(|(ratio, values)| Some((*ratio, value_of(values, &quantity.path)?)));
     let values: Vec<(f64, f64)> = own.chain(there).collect();
-    let found = by_asymptotic(&values, formal_order(quantity.kind, degree));
+    let found = extrapolate(&values, formal_order(quantity.kind, degree));
     let error = found.map(|f| (f.uncertainty + quantity.reading).max(quantity.least));
     // What changes by no more than the algebra leaves shows no order.
     let is_same = |value: &(f64, f64)| (value.1 - quantity.value).abs() <= algebraic;
@@ -306,18 +306,6 @@ fn of_meshes(
         order: found.and_then(|f| f.order),
         limit: found.and_then(|f| f.limit),
     }
-}
-
-/// The uncertainty by all meshes or, where only the finer three of four show an order that is
-/// believed, by these: the coarsest then lies outside the range in which the law holds (Eca and
-/// Hoekstra, section 2, ask for meshes within it).
-fn by_asymptotic(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> {
-    let all = extrapolate(values, formal)?;
-    if all.limit.is_some() || values.len() < 4 {
-        return Some(all);
-    }
-    let finer = extrapolate(&values[..3], formal)?;
-    Some(if finer.limit.is_some() { finer } else { all })
 }
 
 /// Error of the algebra: that of its state, at least the round-off of a factorisation; at first

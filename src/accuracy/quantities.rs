@@ -26,7 +26,7 @@ pub struct Quantity {
 
 impl Quantity {
     /// Whether it is a figure of a part of a state.
-    pub(super) fn is_of_part(&self) -> bool {
+    pub fn is_of_part(&self) -> bool {
         PARTS.contains(&self.kind)
     }
 }

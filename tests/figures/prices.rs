@@ -1,12 +1,12 @@
 //! What demands cost beside the cheapest uniform mesh that is as accurate, found by trial.
 
 use super::families::{Family, run};
-use brinell::accuracy::{Extent, member, quantities, reach, work};
+use brinell::accuracy::{Extent, Quantity, member, quantities, reach, work};
 use brinell::linalg::Backend;
 use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::{AccuracyDemand, Scene};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::time::Instant;
 
@@ -36,13 +36,15 @@ const POINTWISE: [&str; 3] = [
 /// The rows of a family, of which these values are known.
 pub fn of(family: &Family, known: &BTreeMap<String, f64>) -> String {
     let scene = &family.meshes[family.meshes.len() / 2].1;
-    let asked: BTreeMap<String, f64> = (known.iter())
-        .filter(|(path, _)| !POINTWISE.iter().any(|key| path.ends_with(key)))
-        .map(|(path, value)| (path.clone(), *value))
-        .collect();
-    let mut keys: Vec<&str> = asked.keys().filter_map(|p| p.rsplit('.').next()).collect();
-    keys.sort_unstable();
-    keys.dedup();
+    let has = run(scene, family.extent).map_or_else(Vec::new, |results| quantities(&results));
+    let demanded = |q: &&Quantity| !q.is_of_part() && !POINTWISE.contains(&q.kind);
+    let (mut asked, mut keys) = (BTreeMap::new(), BTreeSet::new());
+    for quantity in has.iter().filter(demanded) {
+        if let Some(value) = known.get(&quantity.path) {
+            asked.insert(quantity.path.clone(), *value);
+            keys.insert(quantity.kind);
+        }
+    }
     let tried = meshes_by_trial(scene, family.extent, &asked);
     let mut out = String::new();
     for demand in DEMANDS {
