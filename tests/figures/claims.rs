@@ -8,6 +8,7 @@ mod families;
 mod grading;
 mod held_out_first;
 mod held_out_second;
+mod held_out_third;
 mod pressed_file;
 mod prices;
 mod solids;
@@ -77,6 +78,12 @@ fn main() {
     {
         let folder = tempfile::tempdir().unwrap();
         let mut page = HELD_OUT.to_string();
+        let third = held_out_third::families(folder.path());
+        let mut priced = String::new();
+        let claims = judged("third set", &third, &mut page, Some(&mut priced));
+        by_quantity("third set", &claims, &mut page);
+        page += prices::HEAD;
+        page += &priced;
         let groups = [
             ("second set", held_out_second::families(folder.path())),
             ("first set", held_out_first::families(folder.path())),

@@ -24,7 +24,7 @@ pub const HEAD: &str = "\n## What a demand costs\n\nAll runs of a demand togethe
 const SOUGHT: [f64; 2] = [4.0, 0.4];
 const STEP: f64 = 1.2;
 /// Seconds for a demand.
-const BUDGET: f64 = 20.0;
+const BUDGET: f64 = 60.0;
 const DEMANDS: [f64; 3] = [0.1, 0.03, 0.01];
 /// Values at a point or counted in Gauss points: a demand on all does not hold for them.
 const POINTWISE: [&str; 3] = [
