@@ -242,6 +242,9 @@ pub struct State {
     pub name: String,
     /// Load factor in the program's unit.
     pub alpha: f64,
+    /// Number of increments up to the state: rows of the history.
+    #[serde(default)]
+    pub increments: usize,
     /// Total load, defined as [`YieldPoint::load`].
     pub load: f64,
     /// Whether the scene gives the load, so that it has no error.

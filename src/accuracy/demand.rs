@@ -34,8 +34,8 @@ use std::time::Instant;
 /// plane, next to no time.
 const COARSEST: f64 = 6.0;
 /// Ratio of the element sizes of neighbouring meshes, at least and at most, and where nothing is
-/// known. The runs of a plane sequence in steps of [`STEP`] take 1.6 times its last one, and the last
-/// is at most 1.4 times finer than needed.
+/// known. The runs of a plane sequence in steps of [`STEP`] take 1.6 times its last one, which is
+/// at most 1.4 times finer than needed.
 const STEPS: [f64; 2] = [1.2, 1.5];
 const STEP: f64 = 1.4;
 /// Meshes by which the last is judged, itself included: with four or more the scatter is measured.
@@ -46,8 +46,10 @@ const SPAN: f64 = 1.9;
 /// How often the increments are made finer: an error that more increments do not reduce has another
 /// source.
 const MORE_STEPS: usize = 3;
-/// Meshes in a row on which a quantity comes hardly nearer until it counts as without a limit.
-const WITHOUT_LIMIT: usize = 2;
+/// Ratio of element sizes over which a quantity comes hardly nearer until it counts as without a
+/// limit.
+const WITHOUT_LIMIT: f64 = 3.0;
+
 /// A run that was made to a demand.
 pub struct Reached {
     /// The scene with the mesh and steps that were chosen.
@@ -104,9 +106,9 @@ struct Pursuit {
     /// Element sizes of the meshes so far over those of the scene, and the seconds they took.
     sequence: Vec<(f64, f64)>,
     choices: Vec<String>,
-    /// Quantities beyond their demand: how often in a row they came hardly nearer, the last error,
-    /// and its mesh.
-    slow: BTreeMap<String, (usize, f64, f64)>,
+    /// Quantities beyond their demand: element size and stated error from which on they came hardly
+    /// nearer.
+    slow: BTreeMap<String, (f64, f64)>,
     more_steps: usize,
     work: f64,
 }
@@ -309,24 +311,21 @@ impl Pursuit {
     }
 
     /// A quantity that showed no order that is believed, and whose stated error fell more slowly
-    /// than with the lowest such, on [`WITHOUT_LIMIT`] meshes one after the other.
+    /// than with the lowest such over element sizes of [`WITHOUT_LIMIT`].
     fn without_limit(&mut self, outcome: &Outcome, ratio: f64, is_judged: bool) -> Option<String> {
         let mut slow = BTreeMap::new();
-        for missed in &outcome.missed {
-            let before = self.slow.get(&missed.path);
-            let times = match before {
-                Some((times, error, other)) if is_judged => {
-                    let enough = error * (ratio / other).powf(LEAST_ORDER);
-                    let is_slow = missed.order < Some(LEAST_ORDER) && missed.relative > enough;
-                    if is_slow { times + 1 } else { 0 }
-                }
-                _ => 0,
+        for missed in outcome.missed.iter().filter(|_| is_judged) {
+            let is_slow = |(size, error): &&(f64, f64)| {
+                let enough = error * (ratio / size).powf(LEAST_ORDER);
+                missed.order < Some(LEAST_ORDER) && missed.relative > enough
             };
-            slow.insert(missed.path.clone(), (times, missed.relative, ratio));
+            let before = self.slow.get(&missed.path).filter(is_slow).copied();
+            let since = before.unwrap_or((ratio, missed.relative));
+            slow.insert(missed.path.clone(), since);
         }
         self.slow = slow;
         let mut all = self.slow.iter();
-        let found = all.find(|(_, (times, _, _))| *times >= WITHOUT_LIMIT);
+        let found = all.find(|(_, (size, _))| size / ratio >= WITHOUT_LIMIT);
         found.map(|(path, _)| path.clone())
     }
 

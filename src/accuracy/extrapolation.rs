@@ -16,8 +16,8 @@
 //! **Three meshes** do not show the scatter. The order follows from a least-squares fit, once with
 //! equal weights and once with weights `1/h`, whichever leaves less. An order between
 //! [`LEAST_ORDER`] and the formal one is believed; else the better of the laws of first and of
-//! formal order takes its place. With `s` the standard deviation of the fit and `d` the range of the
-//! values over the number of meshes less one, the uncertainty of the finest value `q` is
+//! formal order takes its place. With `s` the standard deviation of the fit and `d` the range of
+//! the values over the number of meshes less one, the uncertainty of the finest value `q` is
 //!
 //! ```text
 //!     F |a| h^p + s + |q - q_fit|              where s < d,
@@ -30,8 +30,8 @@
 //! **Two meshes**, which leave the order open, state 3 times the error of the formal one.
 //!
 //! # Source
-//! Three meshes: L. Eca, M. Hoekstra, A procedure for the estimation of the numerical uncertainty of
-//! CFD calculations based on grid refinement studies, J. Comput. Phys. 262 (2014) 104-130,
+//! Three meshes: L. Eca, M. Hoekstra, A procedure for the estimation of the numerical uncertainty
+//! of CFD calculations based on grid refinement studies, J. Comput. Phys. 262 (2014) 104-130,
 //! doi:10.1016/j.jcp.2014.01.006. The factors: P. J. Roache, *Verification and Validation in
 //! Computational Science and Engineering*, Hermosa 1998, chapter 5. More meshes: N. R. Draper,
 //! H. Smith, *Applied Regression Analysis*, 3rd ed., Wiley 1998, sections 1.4 (confidence of the
@@ -308,9 +308,9 @@ mod tests {
         }
     }
 
-    /// Values with an error of order `p` that scatters by a share of itself: how often the limit lies
-    /// within the stated uncertainty. Two thirds where meshes near each other take a law of first
-    /// order with little scatter for one of higher order, else nearly always.
+    /// Values with an error of order `p` that scatters by a share of itself: how often the limit
+    /// lies within the stated uncertainty. Two thirds where meshes near each other take a law of
+    /// first order with little scatter for one of higher order, else nearly always.
     #[test]
     fn the_limit_is_within_the_uncertainty() {
         let mut noise = evenly();

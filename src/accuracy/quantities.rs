@@ -31,19 +31,27 @@ impl Quantity {
     }
 }
 
-/// Kinds of figures of the parts of a state: of bodies, contacts and patches.
-const PARTS: [&str; 5] = [
+/// Kinds of figures of the parts of a state: of bodies, contacts, patches and sets.
+const PARTS: [&str; 9] = [
     BODY_DENT,
     CONTACT_FORCE,
+    CONTACT_APPROACH,
+    CONTACT_AREA,
     PATCH_FORCE,
     PATCH_PRESSURE,
     PATCH_HALF_AXIS,
+    SET_DISPLACEMENT,
+    SET_FORCE,
 ];
 const BODY_DENT: &str = "body dent";
 pub(super) const CONTACT_FORCE: &str = "contact force";
+const CONTACT_APPROACH: &str = "contact approach";
+const CONTACT_AREA: &str = "contact area";
 const PATCH_FORCE: &str = "patch force";
 const PATCH_PRESSURE: &str = "patch pressure";
 const PATCH_HALF_AXIS: &str = "patch half axis";
+const SET_DISPLACEMENT: &str = "set displacement";
+const SET_FORCE: &str = "set force";
 
 /// How the error of the quantities of a key is estimated.
 fn estimated(key: &str) -> Option<Estimated> {
@@ -152,7 +160,8 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
 }
 
 /// Figures of the parts of a state: the dents of bodies if several have one, the forces of contacts
-/// if there are several, and of a solid the patches, the strongest first.
+/// if there are several, of a solid the patches, the strongest first, and the columns that the
+/// scene adds to the history.
 fn of_parts(state: &State, results: &Results) -> Vec<Quantity> {
     let mut out: Vec<Quantity> = Vec::new();
     let mut add = |part: String, kind: &'static str, value: f64| {
@@ -205,7 +214,29 @@ fn of_parts(state: &State, results: &Results) -> Vec<Quantity> {
             );
         }
     }
+    let last = state.increments.checked_sub(1);
+    let row = last.and_then(|last| results.history.get(last));
+    let columns = results.history_columns.iter();
+    for (column, &value) in columns.zip(row.iter().flat_map(|row| &row.measured)) {
+        if let Some(kind) = kind_of_column(column) {
+            add(format!("history.{column}"), kind, value);
+        }
+    }
     out
+}
+
+/// The kind of a column of the history; `None` for the approach of the loads and for forces of
+/// contacts, which are figures of the state.
+fn kind_of_column(column: &str) -> Option<&'static str> {
+    let (_, key) = column.rsplit_once('.')?;
+    let key = key.trim_end_matches(['x', 'y', 'z']).trim_end_matches('_');
+    match (key, column.starts_with("contact_")) {
+        ("displacement", _) => Some(SET_DISPLACEMENT),
+        ("approach", true) => Some(CONTACT_APPROACH),
+        ("area", true) => Some(CONTACT_AREA),
+        ("force", false) => Some(SET_FORCE),
+        _ => None,
+    }
 }
 
 /// The value of a quantity by its path.

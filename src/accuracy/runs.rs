@@ -100,7 +100,6 @@ pub(super) fn run(
     observer: &mut dyn Observer,
 ) -> Result<Results> {
     let mut bare = scene.clone();
-    bare.program.history.clear();
     for target in &mut bare.program.targets {
         target.fields = false;
     }

@@ -87,33 +87,31 @@ pub struct Companion {
     pub seconds: f64,
 }
 
-/// Parts of a state whose figures have errors of their own: what their paths have, and the figures
-/// in words.
-const PARTS: [(&str, &str); 6] = [
-    (".residual_depth_by_body.", "dents of bodies"),
-    (".contact_", "forces of contacts"),
-    (".force", "forces of patches"),
-    (".max_pressure", "their pressures"),
-    (".semi_axes.1", "their larger half axes"),
-    (".semi_axes.2", "their smaller ones"),
+/// Figures of parts of a state that have errors of their own: what their paths contain, how these
+/// end, and the figures in words.
+const PARTS: [(&str, &str, &str); 10] = [
+    (".residual_depth_by_body.", "", "dents of bodies"),
+    (".patches.", ".force", "forces of patches"),
+    (".patches.", ".max_pressure", "their pressures"),
+    (".patches.", ".semi_axes.1", "their larger half axes"),
+    (".patches.", ".semi_axes.2", "their smaller ones"),
+    (".history.", ".approach", "approaches of contacts"),
+    (".history.", ".area", "areas of contacts"),
+    (".history.", "force", "forces on sets"),
+    (".history.", "displacement", "displacements of sets"),
+    (".contact_", ".force", "forces of contacts"),
 ];
 
 impl QuantityError {
-    /// In words, what the quantity is if it is one of a part of a state: of a body, a contact or a
-    /// patch.
+    /// In words, what the quantity is if it is one of a part of a state: of a body, a contact, a
+    /// patch, or a set that the history follows.
     pub fn of_part(&self) -> Option<&'static str> {
-        let path = &self.quantity;
-        let [body, contact, patches @ ..] = PARTS;
-        if path.contains(body.0) {
-            return Some(body.1);
-        }
-        if path.contains(".patches.") {
-            let mut of = patches.into_iter();
-            return of
-                .find(|(end, _)| path.ends_with(end))
-                .map(|(_, words)| words);
-        }
-        (path.contains(contact.0) && path.ends_with(".force")).then_some(contact.1)
+        // Components end with their axis.
+        let end = self.quantity.trim_end_matches(['x', 'y', 'z']);
+        let end = end.trim_end_matches('_');
+        let mut parts = PARTS.into_iter();
+        let found = parts.find(|(part, key, _)| end.contains(part) && end.ends_with(key));
+        found.map(|(_, _, words)| words)
     }
 }
 
@@ -123,7 +121,8 @@ impl QuantityError {
 pub struct QuantityError {
     /// Path of the quantity in `summary.json`; states are given by name: `states.NAME.KEY`. Of a
     /// part of a state: `states.NAME.residual_depth_by_body.BODY`, `states.NAME.contact_1.force`,
-    /// `states.NAME.patches.1.KEY`, patches counted from 1 in the order of the summary.
+    /// `states.NAME.patches.1.KEY`, patches counted from 1 in the order of the summary, and
+    /// `states.NAME.history.COLUMN` for a column that the scene adds to the history.
     pub quantity: String,
     /// The reported value.
     #[serde(deserialize_with = "number")]

@@ -155,8 +155,8 @@ fn stopped_it_keeps_the_last_mesh() {
         &mut observer,
     )
     .unwrap();
-    // The second mesh of 4, 6, 9, ... elements across the wall.
-    assert_eq!(found.results.sizes.elements, 36);
+    // The second mesh of 3, 4, 6, ... elements across the wall.
+    assert_eq!(found.results.sizes.elements, 16);
     assert_eq!(found.results.states.len(), 2);
     let demand = demand(&found.results);
     assert!(!demand.reached && demand.reason.unwrap().contains("stopped"));

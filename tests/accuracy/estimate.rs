@@ -2,7 +2,7 @@
 //! takes few increments.
 
 use crate::support;
-use brinell::accuracy::{Effort, Extent, estimate, quantities, work};
+use brinell::accuracy::{Effort, Extent, estimate, quantities, value_of, work};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::model::Model;
@@ -258,4 +258,61 @@ fn the_default_estimate_takes_no_more_than_the_run() {
     };
     let ratio = load(&quick) / load(&full);
     assert!((0.1..10.0).contains(&ratio), "{ratio}");
+}
+
+/// What the scene follows has errors at each state: displacements of sets, which depend on the
+/// mesh, and forces on them, some of which equilibrium decides.
+#[test]
+fn columns_of_the_history_have_errors() {
+    let scene = |n: usize| {
+        support::load(
+            "thick_cylinder",
+            &[
+                "mesh.parts.0.element=quad4",
+                &format!("mesh.parts.0.ring.elements=[{n},{n}]"),
+                "program.history=[\"tube.outer\", \"tube.start\"]",
+                "program.targets=[{ yield = true }, { name = \"pressed\", load_factor = 170.0 }, \
+                 { name = \"off\", load_factor = 0.0 }]",
+            ],
+        )
+    };
+    let (results, accuracy) = estimated(&scene(12), Extent::Program);
+    let finer = support::run(&scene(60));
+    let exact = quantities(&finer);
+    let mut judged = 0;
+    for (quantity, row) in quantities(&results).iter().zip(&accuracy.quantities) {
+        if !row.quantity.contains(".history.") {
+            continue;
+        }
+        let (truth, stated) = (value_of(&exact, &row.quantity).unwrap(), row.error.unwrap());
+        // Nodes at a corner carry a share of the support there, which depends on the mesh.
+        assert!((row.value - truth).abs() <= stated, "{truth} {row:?}");
+        let words = if quantity.kind == "set force" {
+            "forces on"
+        } else {
+            "displacements of"
+        };
+        assert_eq!(row.of_part().unwrap(), format!("{words} sets"));
+        judged += usize::from(stated > 1e-4 * quantity.scale);
+        if row.quantity.ends_with("pressed.history.tube.start.force_y") {
+            assert!(stated < 1e-6 * quantity.scale, "{row:?}");
+        }
+        let most = if quantity.kind == "set force" {
+            0.1
+        } else {
+            0.05
+        };
+        assert!(stated < most * quantity.scale, "{row:?}");
+    }
+    // Both directions of the outer surface and the radial one of the plane, in three states.
+    assert!(judged >= 8, "{judged}");
+    // The pressure acts on the bore, of radius 100.
+    let pressed = value_of(
+        &quantities(&results),
+        "states.pressed.history.tube.start.force_y",
+    );
+    assert!(
+        (pressed.unwrap() + 17000.0).abs() < 1e-6 * 17000.0,
+        "{pressed:?}"
+    );
 }

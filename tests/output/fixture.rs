@@ -87,6 +87,7 @@ pub fn results(mesh: &Mesh) -> Results {
     let pressed = State {
         closed_pairs: 1,
         name: "b = 1.5 b*".into(),
+        increments: 0,
         alpha: 2.0635,
         load: 123.456,
         contact_force: 123.4,

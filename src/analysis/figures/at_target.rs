@@ -77,6 +77,7 @@ impl Reading<'_, '_> {
             name: name.to_string(),
             alpha: self.solver.at.alpha,
             load,
+            increments: 0,
             load_is_given: false,
             approach_is_given: false,
             contact_force: figures.force * self.solver.structure.model.symmetry,

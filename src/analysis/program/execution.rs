@@ -183,7 +183,8 @@ impl<'m, 'o> Run<'m, 'o> {
     fn record(&mut self, event: Event) -> bool {
         let row = match event {
             Event::Increment(row) => row,
-            Event::Target(state) => {
+            Event::Target(mut state) => {
+                state.increments = self.results.history.len();
                 self.results.states.push(*state);
                 return true;
             }
