@@ -4,8 +4,9 @@
 //! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`. If little is covered, this loses only
 //! half of the digits that the inverse of `int phi_j phi_l` would lose.
 
-use super::face::{MortarFace, Plane, Point};
-use super::{CoveredFacet, NOTHING, Sides, overlap};
+use super::face::{MortarFace, Plane};
+use super::overlap::{self, Point};
+use super::{CoveredFacet, NOTHING, Sides};
 use crate::error::{Error, Result};
 use crate::shape::MAX_FACET_NODES;
 use crate::space::{Vector, along, difference, direction, dot, length};
