@@ -3,9 +3,9 @@
 use super::chart::{Chart, Curve, Pen};
 use super::contact_frame::{ContactFrame, global};
 use super::contours::TriangleSheet;
-use super::curves::Titled;
 use super::patchwork::{Patchwork, seen};
 use super::section::SectionPlane;
+use super::titled::Titled;
 use super::window::{Window, mirrors, negligible};
 use crate::material::von_mises;
 use crate::model::Model;
