@@ -6,34 +6,30 @@ mod cycles;
 mod end_state;
 mod ending;
 mod history;
+mod incomplete;
+mod number;
 mod points;
 mod quality;
 mod quantities;
 mod ranks;
+mod stiffness;
 
 pub use accuracy::{Accuracy, Companion, Demand, EstimateMethod, QuantityError};
 pub use contact::{ContactPatch, PairState, Status};
 pub use cycles::{CycleOutcome, CycleRow, Cycles};
 pub use end_state::{EndState, LeftBy, LeftByBody};
-pub use ending::{Ending, Incomplete};
+pub use ending::Ending;
 pub use history::{HistoryRow, PathPoint};
+pub use incomplete::Incomplete;
+pub(crate) use number::number;
 pub use points::PointValues;
 pub use quality::{Quality, Tolerances};
 pub use quantities::{Estimated, Field, QUANTITIES, Quantity, Scope, Unit, value};
 pub use ranks::Ranks;
 
 use crate::space::Vector;
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize, Serializer};
 use std::borrow::Cow;
-
-/// Reads a number that was written as null, or as an empty cell, if it was not finite.
-pub(crate) fn number<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
-    // Checkpoints are binary and can hold every number.
-    if !from.is_human_readable() {
-        return f64::deserialize(from);
-    }
-    Ok(Option::<f64>::deserialize(from)?.unwrap_or(f64::NAN))
-}
 
 /// All results of a run.
 ///

@@ -23,12 +23,13 @@ mod singular;
 mod softened;
 mod tied;
 mod tied_stiffness;
+mod trace;
 mod trailing;
 
 pub(crate) use rows::{RowEntries, Rows};
 pub use sharing::sharing_factors;
 pub(crate) use softened::Softened;
-pub(crate) use tied::{Tied, Trace};
+pub(crate) use tied::Tied;
 pub use trailing::Trailing;
 
 use crate::assembly::System;

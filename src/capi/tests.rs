@@ -361,9 +361,9 @@ unsafe fn all_bits(results: *const brinell_results) -> Vec<u64> {
 }
 
 #[test]
-fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
+fn a_kind_or_symmetry_that_there_is_not_makes_no_model() {
     let mut model = null_mut();
-    // SAFETY: texts, arrays and places live through the calls, the handle is freed once.
+    // SAFETY: the place lives through the calls.
     unsafe {
         assert_eq!(brinell_model_new(4, 1, &mut model), BRINELL_INPUT);
         for (kind, symmetry) in [
@@ -379,16 +379,26 @@ fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
                 message()
             );
         }
+    }
+}
+
+/// Asserts that a call was refused with a message that holds all words.
+fn refused(status: i32, words: &[&str]) {
+    assert_eq!(status, BRINELL_INPUT);
+    for word in words {
+        assert!(message().contains(word), "{} lacks {word}", message());
+    }
+}
+
+#[test]
+fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
+    let mut model = null_mut();
+    // SAFETY: texts, arrays and places live through the calls, the handle is freed once.
+    unsafe {
         assert_eq!(
             brinell_model_new(BRINELL_AXISYMMETRIC, 1, &mut model),
             BRINELL_OK
         );
-        let refused = |status: i32, words: &[&str]| {
-            assert_eq!(status, BRINELL_INPUT);
-            for word in words {
-                assert!(message().contains(word), "{} lacks {word}", message());
-            }
-        };
         let square = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0];
         let nan = [0.0, f64::NAN];
         refused(

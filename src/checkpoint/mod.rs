@@ -20,6 +20,7 @@
 mod end_state;
 mod file;
 mod identity;
+mod names;
 mod store;
 
 pub(crate) use end_state::{END_STATE_FILE, encode as encode_end_state, read as read_end_state};
@@ -66,7 +67,7 @@ impl Checkpoints {
 
     /// Whether there is a checkpoint from which a run can continue.
     pub fn exist(&self) -> bool {
-        self.dir.join(store::CHECKPOINT).is_file()
+        self.dir.join(names::CHECKPOINT).is_file()
     }
 
     /// Deletes the checkpoints, and the directory unless it holds something else.
@@ -77,7 +78,7 @@ impl Checkpoints {
         let failed = |path: &Path, cause| Error::io("delete", path, cause);
         // The checkpoint is deleted first, because the parts depend on it: a run that is killed in
         // between leaves no checkpoint rather than one without its parts.
-        let first = self.dir.join(store::CHECKPOINT);
+        let first = self.dir.join(names::CHECKPOINT);
         match std::fs::remove_file(&first) {
             Err(cause) if cause.kind() != std::io::ErrorKind::NotFound => {
                 return Err(failed(&first, cause));
@@ -91,7 +92,7 @@ impl Checkpoints {
         };
         for entry in entries {
             let entry = entry.map_err(|cause| failed(&self.dir, cause))?;
-            if store::is_ours(&entry.file_name()) {
+            if names::is_ours(&entry.file_name()) {
                 std::fs::remove_file(entry.path()).map_err(|cause| failed(&entry.path(), cause))?;
             }
         }

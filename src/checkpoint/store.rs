@@ -1,17 +1,12 @@
 //! The directory of a run's checkpoints.
 
+use super::names::{CHECKPOINT, LOCK, PART, number_of};
 use super::{Checkpoints, Identity, file};
 use crate::error::{Error, Result};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::collections::BTreeSet;
-use std::ffi::OsStr;
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
-
-/// The file on which the parts depend.
-pub(super) const CHECKPOINT: &str = "checkpoint";
-const LOCK: &str = "lock";
-const PART: &str = "part-";
 
 /// The number of a part, with length and hash of its content.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -167,19 +162,6 @@ fn decode<T: DeserializeOwned>(path: &Path, content: &[u8]) -> Result<T> {
         ))
         .because(cause)
     })
-}
-
-fn number_of(name: &OsStr) -> Option<u32> {
-    name.to_str()?.strip_prefix(PART)?.parse().ok()
-}
-
-/// Whether a file of this name was written by this module.
-pub(super) fn is_ours(name: &OsStr) -> bool {
-    let partial = |name: &str| name.ends_with(".partial");
-    let text = name.to_str().unwrap_or_default();
-    [CHECKPOINT, LOCK].contains(&text)
-        || number_of(name).is_some()
-        || (partial(text) && (text.starts_with(PART) || text.starts_with(CHECKPOINT)))
 }
 
 #[cfg(test)]

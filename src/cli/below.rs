@@ -1,6 +1,7 @@
 //! `brinell view DIR --below FILE`: the stresses below the middle of a contact as a table.
 
-use super::{fresh, print};
+use super::fresh;
+use super::streams::print;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::output::{self, Recorded};

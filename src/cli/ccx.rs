@@ -4,8 +4,8 @@
 //! standard output only, and ends with the exit codes of ccx: 0, or 201 if there is an error, which
 //! is printed in a line that begins with ` *ERROR`.
 
-use super::commands::start_threads;
-use super::print;
+use super::streams::print;
+use super::threads::start_threads;
 use crate::analysis::Analysis;
 use crate::deck::{Deck, Note, Options};
 use crate::error::{Error, ErrorKind, Result};

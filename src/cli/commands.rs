@@ -1,9 +1,12 @@
 //! The commands that compute: the only place at which the command line calls the analysis.
 
-use super::arguments::{Arguments, Command, CommonArguments, ProgramArguments, RunArguments};
+use super::arguments::{Arguments, Command, ProgramArguments, RunArguments};
+use super::common_arguments::CommonArguments;
 use super::progress::Progress;
 use super::restart::{self, RestartArguments};
-use super::{completions, example, interrupt, new, print, report, schema, study, view};
+use super::streams::{json, print};
+use super::threads::start_threads;
+use super::{completions, example, interrupt, new, report, schema, study, view};
 use crate::accuracy::{self, Effort, Extent};
 use crate::analysis::{self, Analysis, Check};
 use crate::checkpoint::Checkpoints;
@@ -15,9 +18,7 @@ use crate::progress::Observer;
 use crate::reference;
 use crate::results::Results;
 use crate::scene::Scene;
-use crate::text::shown_json;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Executes the command of the user.
@@ -292,39 +293,4 @@ pub(super) fn prepare(common: &CommonArguments, last: Option<String>) -> Result<
     let scene = deck::load_with(&common.scene, &overrides, options)?;
     start_threads(common.threads.map(usize::from))?;
     Ok(scene)
-}
-
-/// Starts the threads (one per processor if no number is given), of which this thread is one: it
-/// works on small pieces itself instead of waking another thread and waiting for it. Later calls
-/// change nothing.
-pub(super) fn start_threads(threads: Option<usize>) -> Result<()> {
-    static STARTED: AtomicBool = AtomicBool::new(false);
-    if STARTED.swap(true, Ordering::Relaxed) {
-        return Ok(());
-    }
-    let start = |threads: usize| {
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .use_current_thread()
-            .build_global()
-    };
-    match threads {
-        Some(threads) => start(threads).map_err(|cause| {
-            Error::analysis(format!(
-                "cannot start {threads} threads: ask for fewer (--threads)"
-            ))
-            .because(cause)
-        }),
-        // If the limits of the process allow no more threads, this thread does all the work.
-        None => {
-            let _ = start(0).or_else(|_| start(1));
-            Ok(())
-        }
-    }
-}
-
-pub(super) fn json(value: &impl serde::Serialize) -> Result<String> {
-    serde_json::to_string_pretty(value)
-        .map(|text| shown_json(&text).into_owned() + "\n")
-        .map_err(|cause| Error::internal("the summary is not plain data").because(cause))
 }

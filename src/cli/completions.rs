@@ -1,7 +1,7 @@
 //! `brinell completions` and `brinell man`, made from the same definitions as the help.
 
 use super::arguments::Arguments;
-use super::print;
+use super::streams::print;
 use crate::error::{Error, Result};
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;

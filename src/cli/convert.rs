@@ -1,6 +1,7 @@
 //! `brinell convert`: converts a deck to a scene with its mesh.
 
-use super::{fresh, print};
+use super::fresh;
+use super::streams::print;
 use crate::deck::{self, Deck, Options};
 use crate::error::{Error, Result};
 use crate::mesh::{gmsh, inp};

@@ -1,6 +1,6 @@
 //! `brinell example`: the commented scenes of the project, built into the program.
 
-use super::print;
+use super::streams::print;
 use super::table::{Column, Table, page_width};
 use crate::error::{Error, Result};
 use clap::Args;

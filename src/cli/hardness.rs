@@ -1,7 +1,7 @@
 //! `brinell hardness`: the figures of a hardness test, from the results of a ball on a flat.
 
+use super::streams::{json, print, warn};
 use super::table::{Column, Table, page_width, wrap};
-use super::{commands, print, warn};
 use crate::analytical::{Indentation, contact_modulus};
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -87,7 +87,7 @@ pub(super) fn run(arguments: &HardnessArguments) -> Result<()> {
         ));
     }
     print(&match arguments.json {
-        true => commands::json(&sheet)?,
+        true => json(&sheet)?,
         false => sheet.text(),
     })
 }
@@ -155,7 +155,8 @@ impl HardnessSheet {
         })
     }
 
-    fn text(&self) -> String {
+    /// The figures of the table: name, value (`None` if unknown), unit, and what it is.
+    fn rows(&self) -> [(&'static str, Option<f64>, String, &'static str); 16] {
         let unit = |of: fn(&Units) -> &str| self.units.as_ref().map_or("", of).to_string();
         let [length, force] = [unit(|u| &u.length), unit(|u| &u.force)];
         let stress = unit(|u| &u.stress);
@@ -164,7 +165,7 @@ impl HardnessSheet {
             None => String::new(),
         };
         let none = String::new;
-        let rows = [
+        [
             (
                 "diameter of the ball D",
                 Some(self.ball_diameter),
@@ -232,14 +233,17 @@ impl HardnessSheet {
                 "E*",
             ),
         ]
-        .map(|(name, value, unit, about)| (name, value, unit.clone(), about));
+        .map(|(name, value, unit, about)| (name, value, unit.clone(), about))
+    }
+
+    fn text(&self) -> String {
         let mut table = Table::new(&[
             (Column::Text, "figure"),
             (Column::Number, "value"),
             (Column::Text, "unit"),
             (Column::Text, "what it is"),
         ]);
-        for (name, value, unit, about) in rows {
+        for (name, value, unit, about) in self.rows() {
             let value = value.map_or("unknown".to_string(), |v| significant(v, DIGITS));
             table.row([name.to_string(), value, unit, about.to_string()]);
         }

@@ -5,8 +5,8 @@ mod radii;
 mod sheet;
 mod table;
 
-use super::new::positive;
-use super::{commands, print};
+use super::streams::{json, print};
+use super::values::positive;
 use crate::analytical::{HertzContact, RelativeRadii, contact_modulus};
 use crate::error::{Error, Result};
 use crate::scene::Units;
@@ -113,7 +113,7 @@ fn units(text: &str) -> std::result::Result<Units, String> {
 pub(super) fn run(arguments: &HertzArguments) -> Result<()> {
     let sheet = arguments.sheet()?;
     print(&match arguments.json {
-        true => commands::json(&sheet)?,
+        true => json(&sheet)?,
         false => table::text(&sheet),
     })
 }

@@ -1,7 +1,7 @@
 //! Signals: the first asks the run to end at the last accepted increment, the second ends the
 //! program.
 
-use super::progress::json_line;
+use super::streams::json_line;
 use crate::error::{Error, ErrorKind, Result};
 use serde_json::json;
 use std::io::Write;

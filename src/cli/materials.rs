@@ -1,6 +1,6 @@
 //! `brinell materials`: steels and alloys that a scene can refer to by name, with their sources.
 
-use super::print;
+use super::streams::print;
 use super::table::{Column, Table, page_width};
 use crate::error::{Error, Result};
 use crate::number::{exact, trimmed};

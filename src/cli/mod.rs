@@ -10,6 +10,7 @@ mod arguments;
 mod below;
 mod ccx;
 mod commands;
+mod common_arguments;
 mod completions;
 mod convert;
 mod deck;
@@ -28,9 +29,12 @@ mod report;
 mod restart;
 mod schema;
 mod selftest;
+mod streams;
 mod study;
 mod sweep;
 mod table;
+mod threads;
+mod values;
 mod view;
 
 use crate::error::{Error, ErrorKind, Result};
@@ -106,7 +110,7 @@ fn program(mut words: Vec<OsString>) -> u8 {
             if arguments.command.progress_is_json() {
                 let message = text.trim_start_matches("error: ").trim_end();
                 let content = json!({ "message": message, "exit_code": exit_code });
-                progress::json_line(started, "error", content);
+                streams::json_line(started, "error", content);
             } else {
                 let _ = io::stderr().write_all(text.as_bytes());
             }
@@ -185,27 +189,6 @@ fn explain(error: &Error) -> String {
         text.push_str(&format!("  caused by: {cause}\n"));
     }
     text::shown(&text).into_owned()
-}
-
-/// Writes a warning to standard error; a failure to write it is ignored.
-fn warn(text: &str) {
-    let _ = writeln!(io::stderr(), "warning: {}", text::shown(text));
-}
-
-/// Writes text to standard output, with control characters written out. A reader that closes the
-/// pipe early (`| head`) is not an error.
-fn print(text: &str) -> Result<()> {
-    let text = text::shown(text);
-    let mut stdout = io::stdout().lock();
-    let written = stdout
-        .write_all(text.as_bytes())
-        .and_then(|()| stdout.flush());
-    match written {
-        Err(cause) if cause.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Error::new(ErrorKind::Io, "cannot write to standard output").because(cause))
-        }
-        _ => Ok(()),
-    }
 }
 
 #[cfg(test)]

@@ -12,17 +12,17 @@ mod punch;
 mod raceways;
 mod size;
 mod solid;
+mod text;
 
 use super::convert::{self, ConvertArguments};
-use super::{fresh, print};
+use super::fresh;
+use super::streams::print;
 use crate::error::{Error, Result};
-use crate::mesh::{Mesh, gmsh};
-use crate::number::significant;
+use crate::mesh::gmsh;
 use crate::scene::Scene;
-use asked::Asked;
 use clap::{Args, Subcommand};
-use materials::Made;
 use std::path::{Path, PathBuf};
+use text::Started;
 
 /// Arguments of `brinell new`.
 #[derive(Debug, Args)]
@@ -76,34 +76,6 @@ pub(super) enum Problem {
     Hardness(hardness::Hardness),
 }
 
-pub(super) fn positive(text: &str) -> std::result::Result<f64, String> {
-    within(text, |v| v > 0.0, "greater than 0")
-}
-
-fn not_zero(text: &str) -> std::result::Result<f64, String> {
-    within(text, |v| v != 0.0, "other than 0")
-}
-
-fn not_negative(text: &str) -> std::result::Result<f64, String> {
-    within(text, |v| v >= 0.0, "not less than 0")
-}
-
-pub(super) fn poissons_ratio(text: &str) -> std::result::Result<f64, String> {
-    within(text, |v| -1.0 < v && v < 0.5, "between -1 and 0.5")
-}
-
-/// Reads a finite number for which `holds` is true.
-fn within(
-    text: &str,
-    holds: impl Fn(f64) -> bool,
-    range: &str,
-) -> std::result::Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() && holds(value) => Ok(value),
-        _ => Err(format!("a number {range} is wanted")),
-    }
-}
-
 /// Writes the scene of a problem.
 pub(super) fn run(arguments: &NewArguments) -> Result<()> {
     let problem = match (&arguments.problem, &arguments.from) {
@@ -123,24 +95,6 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
             path.display(),
             started.note
         )),
-    }
-}
-
-/// A new scene, and its mesh if no generator makes it.
-pub(super) struct Started {
-    pub text: String,
-    mesh: Option<Mesh>,
-    /// Text to print in addition to the path of the scene.
-    note: String,
-}
-
-impl From<String> for Started {
-    fn from(text: String) -> Self {
-        Started {
-            text,
-            mesh: None,
-            note: String::new(),
-        }
     }
 }
 
@@ -195,66 +149,3 @@ fn from_deck(deck: &Path, out: Option<&PathBuf>) -> Result<()> {
     })?;
     print(&format!("run it with: brinell run {}\n", out.display()))
 }
-
-/// Rounds a load up to two digits, which are enough for a load that nobody gave.
-fn rounded_up(load: f64) -> f64 {
-    let digits = 10f64.powf(load.log10().floor() - 1.0);
-    (load / digits).ceil() * digits
-}
-
-/// Formats a number as in TOML: with a point or an exponent.
-fn toml(value: f64) -> String {
-    let text = format!("{value:?}");
-    match text.parse::<f64>() {
-        Ok(_) => text,
-        // Rust's spelling of infinity is not valid in TOML; reading the scene refuses nan and
-        // infinity alike.
-        Err(_) => "nan".to_string(),
-    }
-}
-
-/// Returns the smallest value of a figure over the bodies that may yield.
-fn weaker(made: &[Made; 2], figure: impl Fn(f64, f64) -> f64) -> Option<f64> {
-    let of = |made: &Made| {
-        Some(figure(
-            made.material.poissons_ratio,
-            made.first_yield_stress()?,
-        ))
-    };
-    made.iter().filter_map(of).reduce(f64::min)
-}
-
-/// Returns the largest load: as given, else three times the load at first yield.
-fn largest(load: Option<f64>, yield_load: Option<f64>) -> Result<f64> {
-    let by_default = yield_load.map(|load| rounded_up(3.0 * load));
-    load.or(by_default).ok_or_else(|| {
-        Error::input(
-            "nothing yields, so that no load suggests itself: give the largest one (--load)",
-        )
-    })
-}
-
-/// Returns the comment on the loads for the head of a scene, and the target at first yield if yield
-/// is reached.
-fn about_loads(load: f64, yield_load: Option<f64>, unit: &str) -> (String, &'static str) {
-    let Some(first) = yield_load else {
-        return ("# Nothing can yield.\n".to_string(), "");
-    };
-    let (yields, times) = (significant(first, 4), significant(load / first, 3));
-    let text = format!(
-        "# By Hertz the material first yields at a load of {yields} {unit};\n# the largest load is \
-         {times} times that.\n"
-    );
-    let target = match load > first {
-        true => "    { yield = true },                    # first yield\n",
-        false => "",
-    };
-    (text, target)
-}
-
-const HEAD: &str = "# Made by `brinell new`; every value may be changed.
-# Check it with `brinell check`, run it with `brinell run`.
-# Units N, mm, MPa: brinell converts nothing, any consistent ones will do.
-";
-const UNITS: &str =
-    "units = { length = \"mm\", force = \"N\", stress = \"MPa\" }   # names for the report";

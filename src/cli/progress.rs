@@ -11,21 +11,36 @@
 //! | `stopping` | `message`: Ctrl-C or another signal was heard |
 //! | `error` | `message`, `exit_code`: the last line of a run that failed |
 
-use super::arguments::ProgressKind;
 use super::forecast::Forecast;
 use super::interrupt;
 use super::remaining::Remaining;
+use super::streams::json_line;
 use crate::number::{duration, significant};
 use crate::progress::{Flow, Observer};
 use crate::results::HistoryRow;
 use crate::scene::Scene;
-use crate::text::{shown, shown_in_line, shown_json};
+use crate::text::{shown, shown_in_line};
+use clap::ValueEnum;
 use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use serde_json::{Value, json};
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::{Duration, Instant};
+
+/// How progress is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(super) enum ProgressKind {
+    /// Bars on a terminal, lines elsewhere
+    #[default]
+    Auto,
+    /// A bar per phase with elapsed time and time left
+    Bar,
+    /// A line per phase and every few seconds
+    Plain,
+    /// A JSON object per line: phases, increments, warnings, Ctrl-C, and the error at the end
+    Json,
+}
 
 /// Time between two lines if there is no terminal.
 const PAUSE: Duration = Duration::from_secs(5);
@@ -203,16 +218,6 @@ impl Progress {
 /// complete.
 fn per_cent(fraction: f64) -> String {
     format!("{:3.0}", (100.0 * fraction).floor())
-}
-
-/// Writes an event to standard error as a line of JSON.
-pub(super) fn json_line(started: Instant, event: &str, content: Value) {
-    let seconds = started.elapsed().as_secs_f64();
-    let mut line = json!({ "event": event, "seconds": seconds });
-    if let (Value::Object(line), Value::Object(content)) = (&mut line, content) {
-        line.extend(content);
-    }
-    let _ = writeln!(io::stderr(), "{}", shown_json(&line.to_string()));
 }
 
 impl Drop for Progress {

@@ -1,6 +1,6 @@
 //! Programs of which `mpirun` starts several processes: the first computes, the others help MUMPS.
 
-use super::arguments::CommonArguments;
+use super::common_arguments::CommonArguments;
 use crate::error::{Error, Result};
 #[cfg(feature = "mumps")]
 use crate::linalg::Backend;
@@ -59,7 +59,7 @@ fn with_mumps(common: &CommonArguments) -> Result<Part> {
     let world = crate::linalg::mumps::World::join()?;
     if world.rank > 0 {
         super::interrupt::leave_to_first_rank();
-        super::commands::start_threads(common.threads.map(usize::from))?;
+        super::threads::start_threads(common.threads.map(usize::from))?;
         world.serve(crate::assembly::shares::columns, crate::analysis::evaluate);
         world.end();
         return Ok(Part::Helped);

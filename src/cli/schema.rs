@@ -2,7 +2,7 @@
 
 mod page;
 
-use super::print;
+use super::streams::print;
 use crate::error::{Error, Result};
 use crate::{output, scene};
 use clap::Args;

@@ -1,9 +1,9 @@
 //! `brinell selftest`: runs hard cases on this machine and build.
 
-use super::arguments::ProgressKind;
-use super::progress::Progress;
+use super::interrupt;
+use super::progress::{Progress, ProgressKind};
+use super::streams::print;
 use super::table::{Column::*, Table, page_width};
-use super::{interrupt, print};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg;
 use crate::selftest;

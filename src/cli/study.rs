@@ -1,10 +1,11 @@
 //! `brinell accuracy SCENE`: the cost of accuracy.
 
-use super::arguments::{CommonArguments, ProgressKind};
-use super::commands::{at_once, header, json, prepare};
-use super::progress::Progress;
+use super::commands::{at_once, header, prepare};
+use super::common_arguments::CommonArguments;
+use super::interrupt;
+use super::progress::{Progress, ProgressKind};
+use super::streams::{json, print};
 use super::table::{Column::*, Table, page_width, wrap};
-use super::{interrupt, print};
 use crate::accuracy::{Knob, Plan, Price, QuantityStudy, Study, Usage, foremost, study};
 use crate::error::{Error, ErrorKind, Result};
 use crate::model::Model;

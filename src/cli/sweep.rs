@@ -7,10 +7,10 @@ mod worker;
 
 pub(super) use worker::serve as runs;
 
-use super::arguments::{CommonArguments, EstimateArguments};
-use super::commands::json;
+use super::common_arguments::{CommonArguments, EstimateArguments};
+use super::interrupt;
+use super::streams::{json, print};
 use super::table::{Column, Table, page_width};
-use super::{interrupt, print};
 use crate::deck::{self, Options};
 use crate::error::{Error, ErrorKind, Result};
 use crate::files;

@@ -1,9 +1,10 @@
 //! `brinell view`: writes the report of a result directory again, or plots its main figures in the
 //! terminal.
 
+use super::below;
 use super::report::states_table;
+use super::streams::{print, warn};
 use super::table::{page_width, wrap};
-use super::{below, print, warn};
 use crate::error::Result;
 use crate::number::{number, significant, with_unit};
 use crate::output::labels::{Labels, in_line, labelled};

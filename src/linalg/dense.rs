@@ -13,7 +13,11 @@
 //! doi:10.2514/3.2874 (static condensation); G. H. Golub, C. F. Van Loan, *Matrix Computations*,
 //! 4th ed., 2013, algorithm 4.2.7 (blocked Cholesky).
 
-use super::*;
+use super::{
+    Condensed, ContactBlock, ContactStiffness, NotDefinite, Partition, Pivot, Prediction,
+    SymmetricCsc, check, smallest_pivot_ratio,
+};
+use crate::error::{Error, Result};
 use crate::memory;
 use nalgebra::{DMatrix, DVector};
 

@@ -1,12 +1,12 @@
 //! Freedoms: one per node and axis, in local axes if a contact normal or a rotated support requires
 //! them.
 
-use super::Pair;
 use super::carried::Carried;
 use super::contact_basis::ContactBasis;
 use super::equations::Following;
 use super::followers::{Followers, Others};
 use super::frame::{ALIGNED, Frame, frame};
+use super::pairs::Pair;
 use super::pairs::ties::Tied;
 use super::rigid::RigidBodies;
 use super::springs::Spring;
@@ -89,57 +89,15 @@ impl Freedoms {
         (ties, equations, rigid): (&[Tied], &[Following], &RigidBodies),
         carried: Option<&Carried>,
     ) -> Result<(Self, Followers)> {
-        let n_nodes = mesh.n_nodes();
         let supports = Supports::resolve(scene, mesh)?;
         // All legs of the program have the same normals.
         turn_normals_into_supports(pairs, &supports);
         let supports = supports.in_leg(scene, carried.map_or(0.0, |carried| carried.at));
-        let mut normal_of = vec![None; n_nodes];
-        for pair in pairs.iter() {
-            // A master that a support holds is an obstacle: it does not move.
-            let faced = pair.faced();
-            let may_hold = scene
-                .contact
-                .get(pair.contact)
-                .is_some_and(|contact| contact.held);
-            let faced = faced.filter(|n| !may_hold || !supports.hold_along(*n, pair.normal));
-            if let Some(node) = faced {
-                normal_of[node] = Some(pair.normal);
-            }
-        }
-        // A node may be the slave of one contact and the master of another with the opposite
-        // normal: contact rows count on the slave's.
-        for pair in pairs.iter() {
-            normal_of[pair.slave] = Some(pair.normal);
-        }
-        // Other masters do not need the normal as an axis. Where nothing holds them, such an axis
-        // keeps contact rows short.
-        let mut touches: Vec<bool> = normal_of.iter().map(Option::is_some).collect();
-        for &(node, normal) in master_normals {
-            touches[node] = true;
-            if !supports.of_node.contains_key(&node) {
-                normal_of[node].get_or_insert(normal);
-            }
-        }
-        let free = match mesh.dimension {
-            2 => [Slot::Free(0), Slot::Free(0), Slot::Fixed],
-            _ => [Slot::Free(0); 3],
-        };
-        let mut freedoms = Freedoms {
-            n: 0,
-            per_node: mesh.dimension,
-            slots: vec![free; n_nodes],
-            frame_of: vec![0; n_nodes],
-            frames: vec![frame(mesh.dimension, None, &[]).unwrap_or_default()],
-            prescribed: Vec::new(),
-            owners: Vec::new(),
-            basis,
-            springs: Vec::new(),
-            first_rigid: rigid.first_node(),
-            followers: Vec::new(),
-            follower_values: Vec::new(),
-            n_followers_of_ties: 0,
-        };
+        let ContactNormals {
+            of_node: normal_of,
+            touches,
+        } = ContactNormals::new(scene, pairs, master_normals, &supports, mesh.n_nodes());
+        let mut freedoms = Freedoms::unnumbered(mesh, basis, rigid);
         for (node, normal) in normal_of.iter().enumerate() {
             if normal.is_some() && !supports.of_node.contains_key(&node) {
                 let frame = frame(mesh.dimension, *normal, &[]).unwrap_or_default();
@@ -169,6 +127,30 @@ impl Freedoms {
         freedoms.follow_equations(scene, mesh, equations, &others, &mut followers)?;
         freedoms.number(&planes);
         Ok((freedoms, followers))
+    }
+
+    /// Freedoms that are all free, in global axes and without numbers.
+    fn unnumbered(mesh: &Mesh, basis: ContactBasis, rigid: &RigidBodies) -> Self {
+        let n_nodes = mesh.n_nodes();
+        let free = match mesh.dimension {
+            2 => [Slot::Free(0), Slot::Free(0), Slot::Fixed],
+            _ => [Slot::Free(0); 3],
+        };
+        Freedoms {
+            n: 0,
+            per_node: mesh.dimension,
+            slots: vec![free; n_nodes],
+            frame_of: vec![0; n_nodes],
+            frames: vec![frame(mesh.dimension, None, &[]).unwrap_or_default()],
+            prescribed: Vec::new(),
+            owners: Vec::new(),
+            basis,
+            springs: Vec::new(),
+            first_rigid: rigid.first_node(),
+            followers: Vec::new(),
+            follower_values: Vec::new(),
+            n_followers_of_ties: 0,
+        }
     }
 
     fn set_frame(&mut self, node: usize, frame: Frame) {
@@ -337,6 +319,55 @@ impl Freedoms {
             mesh.node_label(node as usize),
             axis.join(", ")
         )
+    }
+}
+
+/// Contact normals that become the first axes of nodes.
+struct ContactNormals {
+    /// Normal at each node; `None` if its axes are the global ones or those of its supports.
+    of_node: Vec<Option<Vector>>,
+    /// Whether each node touches another body.
+    touches: Vec<bool>,
+}
+
+impl ContactNormals {
+    /// Finds the normals from the pairs, from the normals of masters that face no single node, and
+    /// from the supports of the leg.
+    fn new(
+        scene: &Scene,
+        pairs: &[Pair],
+        master_normals: &[(usize, Vector)],
+        supports: &Supports,
+        n_nodes: usize,
+    ) -> Self {
+        let mut of_node = vec![None; n_nodes];
+        for pair in pairs {
+            // A master that a support holds is an obstacle: it does not move.
+            let faced = pair.faced();
+            let may_hold = scene
+                .contact
+                .get(pair.contact)
+                .is_some_and(|contact| contact.held);
+            let faced = faced.filter(|n| !may_hold || !supports.hold_along(*n, pair.normal));
+            if let Some(node) = faced {
+                of_node[node] = Some(pair.normal);
+            }
+        }
+        // A node may be the slave of one contact and the master of another with the opposite
+        // normal: contact rows count on the slave's.
+        for pair in pairs {
+            of_node[pair.slave] = Some(pair.normal);
+        }
+        // Other masters do not need the normal as an axis. Where nothing holds them, such an axis
+        // keeps contact rows short.
+        let mut touches: Vec<bool> = of_node.iter().map(Option::is_some).collect();
+        for &(node, normal) in master_normals {
+            touches[node] = true;
+            if !supports.of_node.contains_key(&node) {
+                of_node[node].get_or_insert(normal);
+            }
+        }
+        ContactNormals { of_node, touches }
     }
 }
 

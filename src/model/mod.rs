@@ -72,6 +72,7 @@ use names::Entry;
 use rayon::prelude::*;
 pub(crate) use recipe::Recipe;
 use std::ops::Deref;
+use std::path::Path;
 
 /// A model ready to be assembled.
 #[derive(Debug, Clone)]
@@ -197,11 +198,7 @@ impl Model {
             Origin::Arrays(given) => given,
         };
         let kind = scene.kind;
-        let file = match origin {
-            Origin::Scene => scene.mesh.file.as_deref(),
-            Origin::Arrays(_) => None,
-        };
-        let rigid = fitness::prepare(scene, &mut mesh, file)?;
+        let rigid = fitness::prepare(scene, &mut mesh, origin.mesh_file(scene))?;
         let mut warnings = scene.warnings.clone();
         warnings.extend(std::mem::take(&mut mesh.notes));
         warnings.extend(scene.beyond_rows());
@@ -231,13 +228,8 @@ impl Model {
         freedoms.basis.restate(&mut pairs, &contacts);
         let stated = (&mut pairs[..], &contacts[..]);
         pairs::stated::at_control_points(scene, &mesh, &freedoms.basis, stated)?;
-        let mut loads = loads::resolve(scene, &mesh, given, (&freedoms, &contacts))?;
-        if let Some(carried) = &given.carried {
-            carried.add_cases(scene, (&mut loads, &freedoms));
-        }
-        openings::of_moved_masters(&mut loads, &freedoms, (&pairs, &contacts));
         let of_bodies = (&materials[..], &contacts[..]);
-        loads.extend(initial_strain::resolve(scene, &mesh, of_bodies, &freedoms)?);
+        let loads = load_cases(scene, &mesh, given, &freedoms, &pairs, of_bodies)?;
         check_targets(scene, &mesh)?;
         let (floating, rows) = held::resolve(
             kind,
@@ -253,7 +245,7 @@ impl Model {
         if matches!(origin, Origin::Scene) {
             warnings.extend(mesh::generate::contact_size::warning(scene));
         }
-        let mut model = Model {
+        let model = Model {
             scene: scene.clone(),
             continuum: Continuum {
                 kind,
@@ -276,16 +268,22 @@ impl Model {
             start: None,
             origin,
         };
-        let mirrors = Mirror::of_contacts(&model);
-        for (contact, mirrors) in model.contacts.iter_mut().zip(mirrors) {
+        model.completed()
+    }
+
+    /// Adds what is found on the whole model: the mirrors of its contacts, a warning about its
+    /// symmetry, and a check of the later legs of the program.
+    fn completed(mut self) -> Result<Self> {
+        let mirrors = Mirror::of_contacts(&self);
+        for (contact, mirrors) in self.contacts.iter_mut().zip(mirrors) {
             contact.mirrors = mirrors;
         }
-        let warning = plausible::of_symmetry(&model);
-        model.warnings.extend(warning);
-        if model.start_of_leg() == 0.0 {
-            model.check_later_legs()?;
+        let warning = plausible::of_symmetry(&self);
+        self.warnings.extend(warning);
+        if self.start_of_leg() == 0.0 {
+            self.check_later_legs()?;
         }
-        Ok(model)
+        Ok(self)
     }
 
     /// For each contact freedom, whether it is the motion of a rigid surface, or of bodies that
@@ -317,8 +315,18 @@ impl Deref for Model {
     }
 }
 
+impl Origin {
+    /// The mesh file that the scene names, unless the mesh was handed over in memory.
+    fn mesh_file<'s>(&self, scene: &'s Scene) -> Option<&'s Path> {
+        match self {
+            Origin::Scene => scene.mesh.file.as_deref(),
+            Origin::Arrays(_) => None,
+        }
+    }
+}
+
 fn build_mesh(scene: &Scene) -> Result<Mesh> {
-    let folder = scene.file.as_deref().and_then(std::path::Path::parent);
+    let folder = scene.file.as_deref().and_then(Path::parent);
     let made = mesh::generate::from_source(
         &scene.mesh,
         folder,
@@ -359,6 +367,26 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
         _ => return Ok(mesh),
     };
     solid.map_err(|error| scene.places.in_front(key, error.within(key)))
+}
+
+/// Load cases of the scene, of displacements carried over from an earlier leg, and of the strains
+/// that bodies bring along. Masters that loads move open or close their contacts.
+fn load_cases(
+    scene: &Scene,
+    mesh: &Mesh,
+    given: &Given,
+    freedoms: &Freedoms,
+    pairs: &[Pair],
+    (materials, contacts): (&[Material], &[ContactSurface]),
+) -> Result<Vec<LoadCase>> {
+    let mut loads = loads::resolve(scene, mesh, given, (freedoms, contacts))?;
+    if let Some(carried) = &given.carried {
+        carried.add_cases(scene, (&mut loads, freedoms));
+    }
+    openings::of_moved_masters(&mut loads, freedoms, (pairs, contacts));
+    let of_bodies = (materials, contacts);
+    loads.extend(initial_strain::resolve(scene, mesh, of_bodies, freedoms)?);
+    Ok(loads)
 }
 
 /// Checks that sets named by targets and the history exist, before a run starts.

@@ -22,6 +22,54 @@ pub(super) struct FollowingMiddle {
     pub(super) moved: Option<(usize, f64)>,
 }
 
+/// Directions along which a load moves nodes, with the values of a displacement.
+type MovedDirections<'a> = Vec<(usize, Option<OnMesh<'a>>)>;
+
+/// A load that prescribes displacements or holds a surface plane.
+struct Moving<'a> {
+    scene: &'a Scene,
+    mesh: &'a Mesh,
+    index: usize,
+    load: &'a Load,
+    entry: Entry<'a>,
+}
+
+impl<'a> Moving<'a> {
+    /// Directions along which the load moves its nodes, with the values of a displacement; a
+    /// surface that is held plane has none. `None` if the load moves nothing.
+    fn directions(&self) -> Result<Option<MovedDirections<'a>>> {
+        if let Some(d) = &self.load.displacement {
+            let given = d.components().into_iter().enumerate();
+            let given = given.filter_map(|(axis, field)| Some((axis, field?)));
+            let fields = given.map(|(axis, field)| {
+                let field = OnMesh::new(field, "displacement", self.scene, self.mesh);
+                Ok((axis, Some(field?)))
+            });
+            let fields: Result<_> = fields.collect();
+            return fields.map(Some).map_err(|error| self.within(error));
+        }
+        let is_rigid = self.scene.rigid.contains_key(&self.load.on);
+        let plane = self.load.plane_force.as_ref().filter(|_| !is_rigid);
+        Ok(plane.map(|plane| vec![(plane.direction.axis(), None)]))
+    }
+
+    /// An error of one of the load's fields, with its place in the scene.
+    fn within(&self, error: Error) -> Error {
+        let entry = &self.entry;
+        entry.refused(error.within(entry.on(&self.load.on)))
+    }
+
+    /// Says why a node cannot be moved.
+    fn refused(&self, node: usize, why: &str) -> Error {
+        self.entry.refused(Error::input(format!(
+            "load {} on `{}`: node {} {why}",
+            self.index + 1,
+            self.load.on,
+            self.mesh.node_label(node)
+        )))
+    }
+}
+
 impl Freedoms {
     /// Turns displacements prescribed at the middles of edges into those of their control points.
     /// Returns the middles for which these depend on ends that are free, or moved by another load.
@@ -134,79 +182,76 @@ impl Freedoms {
             if comes || !load.span().holds_from(start) {
                 continue;
             }
-            let entry = Entry::of_list(scene, "load", index);
-            let directions: Vec<(usize, Option<OnMesh>)> = if let Some(d) = &load.displacement {
-                let given = d.components().into_iter().enumerate();
-                let given = given.filter_map(|(axis, field)| Some((axis, field?)));
-                let fields = given.map(|(axis, field)| {
-                    let field = OnMesh::new(field, "displacement", scene, mesh);
-                    Ok((axis, Some(field?)))
-                });
-                let within = |error: Error| entry.refused(error.within(entry.on(&load.on)));
-                fields.collect::<Result<_>>().map_err(within)?
-            } else if let Some(plane) = load.plane_force
-                && !scene.rigid.contains_key(&load.on)
-            {
-                vec![(plane.direction.axis(), None)]
-            } else {
+            let moving = Moving {
+                scene,
+                mesh,
+                index,
+                load,
+                entry: Entry::of_list(scene, "load", index),
+            };
+            let Some(directions) = moving.directions()? else {
                 continue;
             };
-            let nodes = entry.nodes(mesh, &load.on)?;
+            let nodes = moving.entry.nodes(mesh, &load.on)?;
             if load.plane_force.is_some() && changes && self.all_are_held(&nodes, &directions) {
                 continue;
             }
             for node in nodes {
-                let refused = |why: String| {
-                    entry.refused(Error::input(format!(
-                        "load {} on `{}`: node {} {why}",
-                        index + 1,
-                        load.on,
-                        mesh.node_label(node)
-                    )))
-                };
-                let touches = touches[node];
                 for (direction, value) in &directions {
-                    let direction = *direction;
-                    let name = Direction::ALL[direction].name();
-                    let local = self.local_axis(node, direction).ok_or_else(|| {
-                        let has = match touches {
-                            true => "a contact normal",
-                            false => "a turned support",
-                        };
-                        refused(format!("has {has} and cannot be moved along {name}"))
-                    })?;
-                    let sign = dot(self.local(node)[local], unit(direction)).signum();
-                    if self.slots[node][local] != Slot::Free(0)
-                        || planes.contains_key(&(node, local))
-                    {
-                        return Err(refused(format!(
-                            "is already held or prescribed along {name}"
-                        )));
-                    }
-                    match value {
-                        Some(field) => {
-                            let value = field
-                                .at_node(node)
-                                .map_err(|error| entry.refused(error.within(entry.on(&load.on))))?;
-                            self.slots[node][local] =
-                                Slot::Prescribed(self.prescribed.len() as u32);
-                            self.prescribed.push(Prescribed {
-                                load: index,
-                                value: sign * value,
-                            });
-                        }
-                        None if sign < 0.0 || touches => {
-                            let why = "belongs to a contact surface, which cannot be held plane";
-                            return Err(refused(why.to_string()));
-                        }
-                        None => {
-                            planes.insert((node, local), index);
-                        }
-                    }
+                    self.prescribe(
+                        &moving,
+                        (node, *direction),
+                        value,
+                        touches[node],
+                        &mut planes,
+                    )?;
                 }
             }
         }
         Ok(planes)
+    }
+
+    /// Prescribes the displacement of a node along a direction, or puts the node into the group of
+    /// its plane if there is no value.
+    fn prescribe(
+        &mut self,
+        moving: &Moving,
+        (node, direction): (usize, usize),
+        value: &Option<OnMesh>,
+        touches: bool,
+        planes: &mut Planes,
+    ) -> Result<()> {
+        let name = Direction::ALL[direction].name();
+        let local = self.local_axis(node, direction).ok_or_else(|| {
+            let has = match touches {
+                true => "a contact normal",
+                false => "a turned support",
+            };
+            moving.refused(node, &format!("has {has} and cannot be moved along {name}"))
+        })?;
+        let sign = dot(self.local(node)[local], unit(direction)).signum();
+        if self.slots[node][local] != Slot::Free(0) || planes.contains_key(&(node, local)) {
+            let why = format!("is already held or prescribed along {name}");
+            return Err(moving.refused(node, &why));
+        }
+        match value {
+            Some(field) => {
+                let value = field.at_node(node).map_err(|error| moving.within(error))?;
+                self.slots[node][local] = Slot::Prescribed(self.prescribed.len() as u32);
+                self.prescribed.push(Prescribed {
+                    load: moving.index,
+                    value: sign * value,
+                });
+            }
+            None if sign < 0.0 || touches => {
+                let why = "belongs to a contact surface, which cannot be held plane";
+                return Err(moving.refused(node, why));
+            }
+            None => {
+                planes.insert((node, local), moving.index);
+            }
+        }
+        Ok(())
     }
 
     /// Whether nodes are all held along some directions, so that a force there goes into what holds

@@ -6,7 +6,7 @@ use super::names::Entry;
 use super::on_mesh::OnMesh;
 use super::{body_forces, heat};
 use crate::error::{Error, Result};
-use crate::material::Material;
+use crate::material::{Lame, Material};
 use crate::mesh::Mesh;
 use crate::scene::{self, Field, Scene};
 use crate::space::Vector;
@@ -70,20 +70,8 @@ pub(super) fn resolve(
         )?;
         let changes = changes(temperature, scene, mesh, &case.nodes)
             .map_err(|error| refused(error.message().to_string()))?;
-        let free: Vec<f64> = changes.iter().map(|change| expansion * change).collect();
         let law = Material::new(material, &data, scene.kind).lame();
-        let kind = (scene.kind, scene.mesh.formulation);
-        let free = FreeStrain {
-            components: 0..3,
-            nodal: free,
-        };
-        case.nodal = heat::forces(kind, mesh, (body, law), std::slice::from_ref(&free));
-        case.measures = Magnitude::Temperature;
-        case.magnitude = changes.iter().fold(0.0, |m, change| m.max(change.abs()));
-        case.free_strain = Some(free)
-            .filter(|free| !free.is_none())
-            .into_iter()
-            .collect();
+        set_temperature(&mut case, (scene, mesh), (body, law), (&changes, expansion));
     } else if let Some(a) = acceleration {
         let mass = scene.symmetry as f64 * density * volume;
         case.set_size(a.map(|a| mass * a), Magnitude::Force);
@@ -92,6 +80,28 @@ pub(super) fn resolve(
         case.magnitude = scene.symmetry as f64 * case.size();
     }
     Ok(case)
+}
+
+/// Makes a case that of a body that expands under given changes of temperature: its free strain,
+/// and the forces that would strain the body so.
+fn set_temperature(
+    case: &mut LoadCase,
+    (scene, mesh): (&Scene, &Mesh),
+    (body, law): (usize, Lame),
+    (changes, expansion): (&[f64], f64),
+) {
+    let free = FreeStrain {
+        components: 0..3,
+        nodal: changes.iter().map(|change| expansion * change).collect(),
+    };
+    let kind = (scene.kind, scene.mesh.formulation);
+    case.nodal = heat::forces(kind, mesh, (body, law), std::slice::from_ref(&free));
+    case.measures = Magnitude::Temperature;
+    case.magnitude = changes.iter().fold(0.0, |m, change| m.max(change.abs()));
+    case.free_strain = Some(free)
+        .filter(|free| !free.is_none())
+        .into_iter()
+        .collect();
 }
 
 /// Change of temperature at every node of the mesh; zero at nodes of other bodies.

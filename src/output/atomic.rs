@@ -12,7 +12,7 @@
 //! a replacement DIR is absent for an instant: a process killed at that moment leaves the old and
 //! the new result, both whole, beside DIR.
 
-use super::{STUDY_FILE, SUMMARY_FILE};
+use super::names::{STUDY_FILE, SUMMARY_FILE};
 use crate::error::{Error, Result};
 use crate::files;
 use std::ffi::{OsStr, OsString};

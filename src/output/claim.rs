@@ -1,20 +1,19 @@
 //! A result directory held for one run, from its start to the written results.
 
+use super::RunHeader;
 use super::atomic::{Staging, is_result, replace};
+use super::names::STALE_FILE;
 #[cfg(feature = "report")]
 use super::reported::finish_with_report;
 #[cfg(feature = "report")]
 use super::study::finish_study;
-use super::{RunHeader, finish_without_report};
+use super::write::finish_without_report;
 #[cfg(feature = "report")]
 use crate::accuracy::Study;
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::results::Results;
 use std::path::{Path, PathBuf};
-
-/// The file that marks results as those of an earlier run.
-pub(super) const STALE_FILE: &str = "stale.txt";
 
 /// A result directory held for a run: no other run can write to it meanwhile. Results of an earlier
 /// run in the directory are marked (`stale.txt`) until the results of this run replace them, so

@@ -19,9 +19,10 @@
 //! | `discretisation_error` | cells | Float64 | 1, see [`Fields::error`] |
 //! | `body` | cells | Int32 | 1 |
 
+use super::RunHeader;
 use super::atomic::Staging;
+use super::names::COLLECTION_FILE;
 use super::vtu::{self, DataArray, Grid, Values};
-use super::{COLLECTION_FILE, RunHeader};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::results::{Fields, Results, State};

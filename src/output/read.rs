@@ -5,8 +5,9 @@
 //! written as null (or an empty cell) and are read as NaN.
 
 use super::contact::PairRow;
+use super::names::{CONTACT_FILE, HISTORY_FILE, PATH_FILE, SUMMARY_FILE};
 use super::rows::{rows, summary};
-use super::{CONTACT_FILE, HISTORY_FILE, Labels, PATH_FILE, RunHeader, SUMMARY_FILE};
+use super::{Labels, RunHeader};
 use super::{history, record, vtu_read};
 use crate::error::{Error, Result};
 use crate::model::Model;

@@ -1,7 +1,9 @@
 //! Result directories with their report.
 
 use super::atomic::{self, Staging};
-use super::{REPORT_FILE, RunHeader, finish, frd, is_figure, read, record, report};
+use super::names::{REPORT_FILE, is_figure};
+use super::write::finish;
+use super::{RunHeader, frd, read, record, report};
 use crate::error::{Error, Result};
 use crate::model::Model;
 use crate::results::Results;

@@ -1,7 +1,9 @@
 //! `accuracy.json` and `accuracy.csv`: a study as data.
 
 use super::atomic::Staging;
-use super::{RunHeader, STUDY_FILE, work_precision};
+use super::names::STUDY_FILE;
+use super::write::is_result_file;
+use super::{RunHeader, work_precision};
 use crate::accuracy::{QuantityStudy, Study, StudyRun};
 use crate::error::Result;
 use serde_json::{Map, Value, json};
@@ -189,5 +191,5 @@ fn plot_file(path: &str) -> String {
 fn is_study_file(name: &OsStr) -> bool {
     let ours = |name: &str| name == STUDY_FILE || name == TABLE_FILE || name.ends_with(PLOT_SUFFIX);
     name.to_str()
-        .is_some_and(|name| ours(name) || super::is_result_file(OsStr::new(name)))
+        .is_some_and(|name| ours(name) || is_result_file(OsStr::new(name)))
 }

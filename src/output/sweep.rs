@@ -94,7 +94,7 @@ impl Sweep {
             let ended = before.iter().filter(same).filter(|old| old.is_finished());
             let has_results = |old: &&SweepPoint| {
                 let folder = dir.join(&old.folder);
-                folder.join(super::SUMMARY_FILE).exists() && super::stale(&folder).is_none()
+                folder.join(super::names::SUMMARY_FILE).exists() && super::stale(&folder).is_none()
             };
             if let Some(old) = ended.into_iter().find(has_results) {
                 let demand = point.demand;
@@ -157,7 +157,7 @@ impl Sweep {
     pub(crate) fn outcome(&self, dir: &Path) -> Result<Outcome<'_>> {
         let mut labels = Labels::default();
         let results = self.points.iter().map(|point| {
-            let path = dir.join(&point.folder).join(super::SUMMARY_FILE);
+            let path = dir.join(&point.folder).join(super::names::SUMMARY_FILE);
             let has_results = point.exit_code.is_some() && path.exists();
             if !has_results || super::stale(&dir.join(&point.folder)).is_some() {
                 return Ok(None);

@@ -3,6 +3,7 @@
 use crate::accuracy::{Knob, QuantityStudy, Study, foremost};
 use crate::error::{Error, Result};
 use crate::text::shown;
+use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::series::DashedLineSeries;
 
@@ -79,6 +80,18 @@ fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<PlottedCurve<'s
     out
 }
 
+/// Returns the runs that no other run beats in both time and error.
+fn front(study: &Study, quantity: &QuantityStudy) -> Vec<PlottedPoint> {
+    let point = |&i: &usize| {
+        Some((
+            study.runs[i].usage.undisturbed_seconds(),
+            quantity.errors[i]?.max(FLOOR),
+        ))
+    };
+    let points = quantity.pareto.iter().filter_map(point);
+    points.filter(|p| p.1 <= CEILING).collect()
+}
+
 /// Returns the range of some positive values, extended by an eighth of a decade on either side.
 fn range(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(l, h), v| (l.min(v), h.max(v)));
@@ -120,17 +133,7 @@ fn draw(
         .bold_line_style(BLACK.mix(0.12))
         .draw()?;
     // A front of a single run is left out: its own curve shows that point.
-    let front: Vec<PlottedPoint> = quantity
-        .pareto
-        .iter()
-        .filter_map(|&i| {
-            Some((
-                study.runs[i].usage.undisturbed_seconds(),
-                quantity.errors[i]?.max(FLOOR),
-            ))
-        })
-        .filter(|p| p.1 <= CEILING)
-        .collect();
+    let front = front(study, quantity);
     if front.len() > 1 {
         let grey = RGBColor(150, 150, 150);
         chart.draw_series(DashedLineSeries::new(front, 6, 5, grey.stroke_width(5)))?;
@@ -142,42 +145,53 @@ fn draw(
         beside.draw(&name("Pareto front", [x, y]))?;
     }
     for (i, curve) in curves.iter().enumerate() {
-        let color = COLORS[i % COLORS.len()];
-        // Runs with one knob turned are points round the run of the scene itself: a line would
-        // suggest an order.
-        let (style, radius) = match curve.is_mesh {
-            true => (color.filled(), 4),
-            false => (color.stroke_width(2), 3),
-        };
-        // If colours are used a second time, the marks differ.
-        let again = i >= COLORS.len();
-        let [x, y] = place(i + 1);
-        if curve.is_mesh {
-            let line = LineSeries::new(curve.points.iter().copied(), color.stroke_width(2));
-            chart.draw_series(line)?;
-            beside.draw(&PathElement::new(
-                [(x - 12, y), (x + 12, y)],
-                color.stroke_width(2),
-            ))?;
-        }
-        if again {
-            let marks = curve
-                .points
-                .iter()
-                .map(|&p| TriangleMarker::new(p, radius + 2, style));
-            chart.draw_series(marks)?;
-            beside.draw(&TriangleMarker::new((x, y), radius + 2, style))?;
-        } else {
-            let marks = curve.points.iter().map(|&p| Circle::new(p, radius, style));
-            chart.draw_series(marks)?;
-            beside.draw(&Circle::new((x, y), radius, style))?;
-        }
-        beside.draw(&name(curve.name, [x, y]))?;
+        draw_curve(curve, i, &mut chart, &beside)?;
     }
     root.present()?;
     drop(chart);
     drop((left, beside));
     drop(root);
+    Ok(())
+}
+
+/// Draws curve `i` in the chart, and its mark and name beside it.
+fn draw_curve<'a>(
+    curve: &PlottedCurve,
+    i: usize,
+    chart: &mut ChartContext<'a, SVGBackend<'a>, Cartesian2d<LogCoord<f64>, LogCoord<f64>>>,
+    beside: &DrawingArea<SVGBackend<'a>, Shift>,
+) -> std::result::Result<(), Box<dyn std::error::Error>> {
+    let color = COLORS[i % COLORS.len()];
+    // Runs with one knob turned are points round the run of the scene itself: a line would
+    // suggest an order.
+    let (style, radius) = match curve.is_mesh {
+        true => (color.filled(), 4),
+        false => (color.stroke_width(2), 3),
+    };
+    // If colours are used a second time, the marks differ.
+    let again = i >= COLORS.len();
+    let [x, y] = place(i + 1);
+    if curve.is_mesh {
+        let line = LineSeries::new(curve.points.iter().copied(), color.stroke_width(2));
+        chart.draw_series(line)?;
+        beside.draw(&PathElement::new(
+            [(x - 12, y), (x + 12, y)],
+            color.stroke_width(2),
+        ))?;
+    }
+    if again {
+        let marks = curve
+            .points
+            .iter()
+            .map(|&p| TriangleMarker::new(p, radius + 2, style));
+        chart.draw_series(marks)?;
+        beside.draw(&TriangleMarker::new((x, y), radius + 2, style))?;
+    } else {
+        let marks = curve.points.iter().map(|&p| Circle::new(p, radius, style));
+        chart.draw_series(marks)?;
+        beside.draw(&Circle::new((x, y), radius, style))?;
+    }
+    beside.draw(&name(curve.name, [x, y]))?;
     Ok(())
 }
 

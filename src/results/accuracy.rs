@@ -1,6 +1,6 @@
 //! Estimated errors of the figures of a run, and the outcome of a demanded accuracy.
 
-use super::number;
+use super::number::number;
 use serde::{Deserialize, Serialize};
 
 /// Estimated errors of the figures of a run.

@@ -1,6 +1,6 @@
 //! States of a contact: pairs, and in a solid model patches.
 
-use super::number;
+use super::number::number;
 use crate::space::Vector;
 use serde::{Deserialize, Deserializer, Serialize};
 

@@ -1,6 +1,6 @@
 //! The outcome of a program of cycles.
 
-use super::number;
+use super::number::number;
 #[cfg(feature = "report")]
 use crate::number::number as short;
 use serde::{Deserialize, Serialize};

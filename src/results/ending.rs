@@ -1,23 +1,7 @@
 //! The ending of a run.
 
-use super::{Demand, Results};
-use crate::error::{Error, ErrorKind};
-
-/// The reason why a run ended before its program did.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Incomplete {
-    /// The kind that decides the exit code: stopped, collapse, analysis, ...
-    pub kind: ErrorKind,
-    /// The reason in words.
-    pub why: String,
-}
-
-impl Incomplete {
-    /// Returns this ending as an error.
-    pub fn to_error(&self) -> Error {
-        Error::new(self.kind, self.why.as_str())
-    }
-}
+use super::{Demand, Incomplete, Results};
+use crate::error::ErrorKind;
 
 /// The ending of a run, with the requirements that it did not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]

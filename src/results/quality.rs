@@ -1,6 +1,6 @@
 //! The quality of a solution of the equations.
 
-use super::number;
+use super::number::number;
 use serde::{Deserialize, Serialize};
 
 /// The quality of a state: all figures are relative and dimensionless. Loads and displacements are

@@ -16,6 +16,7 @@ mod boundary;
 mod catalogue;
 mod complete;
 mod defaults;
+mod direction;
 mod document;
 mod equation;
 mod field;
@@ -39,10 +40,10 @@ mod validate;
 
 pub use accuracy::AccuracyDemand;
 pub use boundary::{
-    Contact, Direction, Displacement, History, Kirsch, Load, PlaneForce, Rotation, SlaveSide,
-    Support, Tie,
+    Contact, Displacement, History, Kirsch, Load, PlaneForce, Rotation, SlaveSide, Support, Tie,
 };
 pub use catalogue::{Listed, Published, materials};
+pub use direction::Direction;
 pub use equation::{Equation, EquationTerm, Relative};
 pub use field::{Field, NodalField, VectorField};
 pub use geometry::{

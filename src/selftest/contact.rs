@@ -1,6 +1,6 @@
 //! Contact: floating bodies, conforming surfaces, ties, events, complementarity.
 
-use super::{Cases, Family, difference, results, scene, state, worst_quality};
+use super::cases::{Cases, Family, difference, results, scene, state, worst_quality};
 use crate::analysis::Analysis;
 use crate::analytical::{HertzLine, contact_modulus};
 use crate::contact::{Tableau, solve};

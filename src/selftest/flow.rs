@@ -1,6 +1,6 @@
 //! Plastic flow: incompressible, at the limit load, in cycles, on the axis of quadratic elements.
 
-use super::{Cases, Family, difference, results, scene, state};
+use super::cases::{Cases, Family, difference, results, scene, state};
 use crate::error::{ErrorKind, Result};
 use crate::shape::Shape;
 

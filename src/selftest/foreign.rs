@@ -1,7 +1,7 @@
 //! Models as users write them: bodies one element thick, punches with arbitrary ends, stacks,
 //! unlike and coarse meshes, heat under a loose body.
 
-use super::{Cases, Family, results, scene};
+use super::cases::{Cases, Family, results, scene};
 use crate::analysis::Analysis;
 use crate::error::{Error, Result};
 use crate::linalg::Backend;

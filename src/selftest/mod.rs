@@ -3,6 +3,7 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `cases` | families and cases: how a case is run and measured |
 //! | `contact` | floating and conforming bodies, ties, events, complementarity, spreading contact, dents |
 //! | `numbers` | stiffness ratios, slivers, units, backends |
 //! | `flow` | incompressible flow, limit loads, cycles, ratchetting, the axis of quadratic elements |
@@ -11,6 +12,7 @@
 //! | `foreign` | models as they come: few elements, punches on larger bases, stacks, loose bodies |
 //! | `solids` | three dimensions: Hertz, plane strain drawn out, bodies of all stiffnesses, slivers |
 
+mod cases;
 mod contact;
 mod flow;
 mod foreign;
@@ -19,13 +21,9 @@ mod peers;
 mod restart;
 mod solids;
 
-use crate::analysis::Analysis;
-use crate::error::{Error, Result};
-use crate::linalg::{self, Backend};
-use crate::model::Model;
-use crate::progress::{Observer, Silent};
-use crate::results::{Results, State};
-use crate::scene::Scene;
+use crate::linalg;
+use crate::progress::Observer;
+use cases::Cases;
 
 /// The outcome of a family of hard cases.
 #[derive(Debug, Clone, PartialEq)]
@@ -50,36 +48,6 @@ impl Row {
     /// Whether the worst figure is within the bound.
     pub fn passed(&self) -> bool {
         self.failure.is_none() && self.worst <= self.bound
-    }
-}
-
-/// A family of cases, each of which gives a figure.
-struct Family {
-    name: &'static str,
-    figure: &'static str,
-    bound: f64,
-    source: &'static str,
-    cases: fn(&mut Cases) -> Result<()>,
-}
-
-/// The collected figures of a family.
-#[derive(Default)]
-struct Cases {
-    count: usize,
-    worst: f64,
-}
-
-impl Cases {
-    /// Adds a case with its figure (an error, zero at best).
-    fn add(&mut self, figure: f64) {
-        self.count += 1;
-        if figure.is_nan() || figure.abs() > self.worst {
-            self.worst = if figure.is_nan() {
-                f64::INFINITY
-            } else {
-                figure.abs()
-            };
-        }
     }
 }
 
@@ -155,71 +123,4 @@ fn beside_others() -> String {
     let part = PAGE.find(HEADING).map_or("", |at| &PAGE[at..]);
     // The links of that page are relative to its folder.
     format!("\n{}", part.replace("](", "](peers/"))
-}
-
-/// Parses a scene of the suite.
-fn scene(text: &str) -> Result<Scene> {
-    Scene::parse(text, "selftest")
-}
-
-/// Runs a scene without fields; a limit load or another early end is recorded in the results.
-fn results(scene: &Scene) -> Result<Results> {
-    results_by(scene, Backend::default())
-}
-
-fn results_by(scene: &Scene, backend: Backend) -> Result<Results> {
-    let mut scene = scene.clone();
-    for target in &mut scene.program.targets {
-        target.fields = false;
-    }
-    Analysis::new(Model::new(&scene)?, backend)?.run(&mut Silent)
-}
-
-fn state<'r>(results: &'r Results, name: &str) -> Result<&'r State> {
-    let found = results.states.iter().find(|s| s.name == name);
-    found.ok_or_else(|| {
-        let why = results.incomplete.as_ref().map_or("", |i| i.why.as_str());
-        Error::analysis(format!("state `{name}` was not reached: {why}"))
-    })
-}
-
-/// Returns the largest difference of a figure between the pairs of two states, over the largest
-/// value of the first state.
-fn difference(a: &State, b: &State, figure: fn(&crate::results::PairState) -> f64) -> f64 {
-    if a.pairs.len() != b.pairs.len() {
-        return f64::INFINITY;
-    }
-    let scale = a.pairs.iter().fold(0.0f64, |m, p| m.max(figure(p).abs()));
-    let pairs = a.pairs.iter().zip(&b.pairs);
-    pairs.fold(0.0f64, |m, (p, q)| m.max((figure(p) - figure(q)).abs())) / scale
-}
-
-/// Returns the worst algebraic figure of all states.
-fn worst_quality(results: &Results) -> f64 {
-    let q = &results.quality;
-    [
-        q.backward_error,
-        q.equilibrium,
-        q.complementarity,
-        q.penetration,
-        q.adhesion,
-    ]
-    .into_iter()
-    .fold(0.0, |m, v| if v.is_nan() { f64::NAN } else { v.max(m) })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Cases;
-
-    #[test]
-    fn what_is_not_a_number_is_the_worst_of_all() {
-        let mut cases = Cases::default();
-        cases.add(-1e-3);
-        cases.add(1e-4);
-        assert_eq!((cases.count, cases.worst), (2, 1e-3));
-        cases.add(f64::NAN);
-        cases.add(1.0);
-        assert_eq!((cases.count, cases.worst), (4, f64::INFINITY));
-    }
 }

@@ -1,6 +1,6 @@
 //! Numbers of very different size: stiffness ratios, slivers, units; and two backends.
 
-use super::{Cases, Family, difference, results, results_by, scene, state, worst_quality};
+use super::cases::{Cases, Family, difference, results, results_by, scene, state, worst_quality};
 use crate::analysis::Analysis;
 use crate::error::Result;
 use crate::linalg::Backend;

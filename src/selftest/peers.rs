@@ -1,6 +1,6 @@
 //! Cases on which contact codes were seen to fail silently (`data/peers`).
 
-use super::{Cases, Family, difference, results, scene};
+use super::cases::{Cases, Family, difference, results, scene};
 use crate::analytical::{DiscInPlate, HertzLine, HertzPoint, contact_modulus};
 use crate::error::Result;
 use crate::results::State;

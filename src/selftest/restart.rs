@@ -1,6 +1,6 @@
 //! Continuing from checkpoints.
 
-use super::{Cases, Family, scene};
+use super::cases::{Cases, Family, scene};
 use crate::analysis::Analysis;
 use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Result};

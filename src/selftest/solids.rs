@@ -1,6 +1,6 @@
 //! Cases in three dimensions.
 
-use super::{Cases, Family, results, scene, worst_quality};
+use super::cases::{Cases, Family, results, scene, worst_quality};
 use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::{Error, Result};
 use crate::results::{Results, State};

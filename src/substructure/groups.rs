@@ -7,7 +7,8 @@
 //! is the sum over the joints.
 
 use super::rows::{RowEntries, Rows};
-use super::tied::{SplitSlip, Tied, Trace};
+use super::tied::{SplitSlip, Tied};
+use super::trace::Trace;
 use super::{PairBlock, PairMatrix};
 use crate::classes::Classes;
 use crate::error::Result;

@@ -1,7 +1,7 @@
 //! Displacements of the contact rows in rigid motions of floating bodies, which take no force.
 
 use super::rows::Rows;
-use super::tied::Trace;
+use super::trace::Trace;
 use nalgebra::{DMatrix, DVector};
 
 /// Displacement of the rows in a rigid motion, one of an orthonormal set.

@@ -10,7 +10,7 @@
 //!
 //! Closed rows (`s = 0`) tie their followers to the leaders. For pairs `G` is one and `H` a sign.
 
-use super::Trace;
+use super::trace::Trace;
 use crate::error::{Error, Result};
 use nalgebra::{DMatrix, DVector};
 

@@ -34,22 +34,12 @@
 use super::rigid_slips::{RigidSlip, rigid_slips, take_rigid_slips};
 use super::rows::Rows;
 use super::tied_stiffness::TiedStiffness;
+use super::trace::Trace;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{ContactStiffness, blocked};
 use crate::model::Work;
 use nalgebra::{Cholesky, DMatrix, DVector, DVectorView, Dyn};
 use rayon::prelude::*;
-
-/// A rigid motion restricted to the contact freedoms.
-#[derive(Debug, Clone)]
-pub(crate) struct Trace {
-    /// Number of the part of the model that moves.
-    pub part: usize,
-    /// Displacement of each contact freedom.
-    pub values: DVector<f64>,
-    /// Amplitude of each rigid motion of the model that this trace represents.
-    pub of_motion: DVector<f64>,
-}
 
 /// Displacements of the contact freedoms with the rigid motions of floating bodies split off.
 pub(super) struct Split {
@@ -110,19 +100,10 @@ impl Tied {
         traces: &[Trace],
         part: &[usize],
     ) -> Result<(Self, DMatrix<f64>)> {
-        let (n, n_contact) = (rows.len(), stiffness.n_contact());
         let rigid = orthonormal(traces);
         let (motions, kept) = basis(&rigid, &rows, part);
         // Rigid motions on all contact freedoms, and the forces that they take.
-        let mut lifted = DMatrix::zeros(n_contact, motions.ncols());
-        let mut rigid_share = DMatrix::zeros(rigid.len(), motions.ncols());
-        let apart = DVector::zeros(n);
-        for (j, mut column) in lifted.column_iter_mut().enumerate() {
-            let column = column.as_mut_slice();
-            rows.spread(&motions.column(j).into_owned(), &apart, column);
-            let mut share = rigid_share.column_mut(j);
-            take_rigid(column, share.as_mut_slice(), &rigid, part);
-        }
+        let (lifted, rigid_share) = lift(&motions, &rows, &rigid, (part, stiffness.n_contact()));
         let forces = stiffness.times(&lifted);
 
         let (n_w, n_a) = (kept.len(), motions.ncols());
@@ -150,26 +131,7 @@ impl Tied {
         })?;
         blocked::solve_lower(&factor, &mut coupling);
         let factor = Cholesky::pack_dirty(factor);
-        // Lower triangle of S_ff - C' C.
-        let mut row_of = vec![None; n_contact];
-        for (j, &freedom) in rows.follow.iter().enumerate() {
-            row_of[freedom] = Some(j);
-        }
-        let mut matrix = blocked::outer(&coupling.transpose(), |_| n_w + n_a);
-        let columns = matrix.as_mut_slice().par_chunks_mut(n.max(1)).enumerate();
-        let columns = columns.with_min_len(blocked::at_once(n));
-        columns.for_each(|(j, column)| {
-            column.iter_mut().for_each(|entry| *entry = -*entry);
-            for (freedom, entry) in stiffness.column(rows.follow[j]) {
-                if let Some(i) = row_of[freedom] {
-                    column[i] += entry;
-                }
-            }
-        });
-        // The matrix is made symmetric to the last bit.
-        matrix.fill_upper_triangle_with_lower_triangle();
-        let mut matrix = rows.congruence(matrix);
-        matrix.fill_upper_triangle_with_lower_triangle();
+        let mut matrix = contact_matrix(stiffness, &rows, &coupling);
         let rigid_slips = rigid_slips(&rigid, &rows);
         take_rigid_slips(&mut matrix, &rigid_slips);
         let tied = Tied {
@@ -335,6 +297,55 @@ impl Tied {
         }
         v
     }
+}
+
+/// Spreads rigid motions of the leaders to all contact freedoms (`n_contact x motions`), and splits
+/// the rigid motion of each part off (amplitudes, `traces x motions`).
+fn lift(
+    motions: &DMatrix<f64>,
+    rows: &Rows,
+    rigid: &[Trace],
+    (part, n_contact): (&[usize], usize),
+) -> (DMatrix<f64>, DMatrix<f64>) {
+    let mut lifted = DMatrix::zeros(n_contact, motions.ncols());
+    let mut rigid_share = DMatrix::zeros(rigid.len(), motions.ncols());
+    let apart = DVector::zeros(rows.len());
+    for (j, mut column) in lifted.column_iter_mut().enumerate() {
+        let column = column.as_mut_slice();
+        rows.spread(&motions.column(j).into_owned(), &apart, column);
+        let mut share = rigid_share.column_mut(j);
+        take_rigid(column, share.as_mut_slice(), rigid, part);
+    }
+    (lifted, rigid_share)
+}
+
+/// The contact matrix, from the lower triangle of `S_ff - C' C` with `C` the coupling of unknowns
+/// and followers. It is symmetric to the last bit.
+fn contact_matrix(
+    stiffness: &ContactStiffness,
+    rows: &Rows,
+    coupling: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let n = rows.len();
+    let mut row_of = vec![None; stiffness.n_contact()];
+    for (j, &freedom) in rows.follow.iter().enumerate() {
+        row_of[freedom] = Some(j);
+    }
+    let mut matrix = blocked::outer(&coupling.transpose(), |_| coupling.nrows());
+    let columns = matrix.as_mut_slice().par_chunks_mut(n.max(1)).enumerate();
+    let columns = columns.with_min_len(blocked::at_once(n));
+    columns.for_each(|(j, column)| {
+        column.iter_mut().for_each(|entry| *entry = -*entry);
+        for (freedom, entry) in stiffness.column(rows.follow[j]) {
+            if let Some(i) = row_of[freedom] {
+                column[i] += entry;
+            }
+        }
+    });
+    matrix.fill_upper_triangle_with_lower_triangle();
+    let mut matrix = rows.congruence(matrix);
+    matrix.fill_upper_triangle_with_lower_triangle();
+    matrix
 }
 
 /// Makes the traces of each part orthonormal; motions that leave no trace on the contact freedoms

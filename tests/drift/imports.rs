@@ -35,7 +35,8 @@ impl Modules {
             let name = name.to_string_lossy().replace('\\', "/");
             if !is_test(&name) && name != "src/main.rs" {
                 let text = code(&path);
-                let text = text.split("#[cfg(test)]\nmod tests {").next();
+                // Tests stand at the end, whatever they are compiled for.
+                let text = text.split("\nmod tests {").next();
                 modules.insert(module_path(&name), Source::of(&name, text.unwrap_or("")));
             }
         }
@@ -137,6 +138,9 @@ impl Source {
             rest = after;
         }
         code.push_str(rest);
+        // The declaration of a module does not use it.
+        let is_used = |line: &&str| !(line.contains("mod ") && line.ends_with(';'));
+        let code = code.lines().filter(is_used).collect::<Vec<_>>().join("\n");
         Source {
             file: file.to_string(),
             code,
@@ -186,6 +190,10 @@ fn next_use(text: &str) -> Option<(&str, bool, &str, &str)> {
 /// The names that a tree of `use` binds.
 fn expand(prefix: &[String], tree: &str, is_public: bool, out: &mut Vec<Use>) {
     let tree = tree.trim();
+    // Nothing follows the last comma of a list.
+    if tree.is_empty() {
+        return;
+    }
     if let Some(open) = tree.find('{') {
         let ahead = tree[..open].split("::").map(str::trim);
         let ahead: Path = ahead
@@ -310,11 +318,11 @@ fn paths_are_followed_to_the_file_that_defines() {
         ("src/lib.rs", "pub mod a; mod b; pub use a::one::Deep;"),
         (
             "src/a/mod.rs",
-            "mod one;\nmod two;\npub use one::{Deep, Other as Another};",
+            "mod one;\nmod two;\npub use one::{Deep, Other as Another};\npub use two::two;",
         ),
         (
             "src/a/one.rs",
-            "use super::two::{self, Item};\nfn f() { two::g() }",
+            "use super::two::{\n    self, Item,\n};\nfn f() { two::g() }",
         ),
         (
             "src/a/two.rs",

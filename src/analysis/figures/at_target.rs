@@ -60,13 +60,7 @@ impl Reading<'_, '_> {
             corner_strain,
         } = stresses;
         let quality = self.quality(&displacements, internal, &reactions);
-        let pairs = pair_states(
-            self.solver.structure.model,
-            &self.solver.now.gap,
-            &self.solver.contact_forces(),
-            self.solver.tableau.open(),
-            |axis| self.distance_on_axis(axis, u),
-        );
+        let pairs = self.states_of_pairs(u);
         let model = self.solver.structure.model;
         let factors = &self.solver.at.factors;
         let deformation = model.nodal(displacements.deformation(), factors);
@@ -114,6 +108,18 @@ impl Reading<'_, '_> {
             stress_seconds,
             deformation,
         })
+    }
+
+    /// State of each contact pair, and of the points on the axis, under the displacements `u` of
+    /// all freedoms.
+    fn states_of_pairs(&self, u: &[f64]) -> Vec<PairState> {
+        pair_states(
+            self.solver.structure.model,
+            &self.solver.now.gap,
+            &self.solver.contact_forces(),
+            self.solver.tableau.open(),
+            |axis| self.distance_on_axis(axis, u),
+        )
     }
 
     /// Fields with the estimated errors of the stresses. Given are the displacements of all

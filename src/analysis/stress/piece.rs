@@ -225,6 +225,26 @@ mod tests {
         places().map(node).collect()
     }
 
+    /// Plastic states that differ from point to point, with shear out of the plane in a solid.
+    fn plastic_states(n_points: usize, is_solid: bool) -> Vec<PlasticState<6>> {
+        let state = |k: usize| {
+            let strain = 1e-4 * (k % 7) as f64;
+            let shear = if is_solid { 0.3 * strain } else { 0.0 };
+            PlasticState {
+                strain: [
+                    strain,
+                    -0.25 * strain,
+                    -0.75 * strain,
+                    0.5 * strain,
+                    shear,
+                    -shear,
+                ],
+                equivalent: strain,
+            }
+        };
+        (0..n_points).map(state).collect()
+    }
+
     /// Results of elements are the same bit for bit in any number of pieces. Sums over several
     /// pieces agree to the round-off of a sum.
     #[test]
@@ -237,24 +257,9 @@ mod tests {
             let model = Model::new(&scene).unwrap();
             let (mesh, displacements) = (&model.mesh, displacements(&model));
             let in_zone: Vec<usize> = (0..mesh.n_elements()).step_by(3).collect();
-            let stride = mesh.most_points();
-            let points = (0..stride * in_zone.len()).map(|k| {
-                let strain = 1e-4 * (k % 7) as f64;
-                let shear = if mesh.is_solid() { 0.3 * strain } else { 0.0 };
-                PlasticState {
-                    strain: [
-                        strain,
-                        -0.25 * strain,
-                        -0.75 * strain,
-                        0.5 * strain,
-                        shear,
-                        -shear,
-                    ],
-                    equivalent: strain,
-                }
-            });
+            let n_points = mesh.most_points() * in_zone.len();
             let history = History {
-                points: points.collect(),
+                points: plastic_states(n_points, mesh.is_solid()),
                 ..History::default()
             };
             let whole = Whole {

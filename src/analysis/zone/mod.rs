@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | `elements` | the zone of a model of either dimension | 4.1 |
 //! | `points` | the points: strains, flow rule, initial loads | 4.1 |
+//! | `trial_points` | the points of an element at the state that is evaluated | |
 //! | `softening` | the part of the elements' stiffness lost to plastic flow | |
 //! | `history` | plastic history of the points | |
 //! | `yielding` | which points yielded last, for checkpoints | |
@@ -24,4 +25,5 @@ pub(super) mod packed;
 pub(super) mod points;
 pub(super) mod region;
 mod softening;
+mod trial_points;
 pub(super) mod yielding;

@@ -4,6 +4,7 @@ use super::free_strain::FreeStrains;
 use super::gather::{GatheredElements, Nodal, Places};
 use super::history::{BackStrains, History, PathEnds, chunks_or_none};
 use super::local_yield;
+use super::trial_points::TrialPoints;
 use crate::element::{Components, Gradients, Kernel};
 use crate::material::{Lame, Material, Past, PlasticState, Softening};
 use crate::model::Model;
@@ -196,90 +197,75 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         let (free, factors) = (&self.free, &self.factors);
         let (back, harder, begin) = (&self.back, &self.harder, &self.begin);
         let n = elements.list.len();
+        let points = (
+            self.yields.par_chunks_mut(stride),
+            self.trial.par_chunks_mut(stride),
+            self.softening.par_chunks_mut(stride),
+            chunks_or_none(&mut self.turn, stride, n),
+            self.path_ends.par_chunks_mut(stride, n),
+        )
+            .into_par_iter()
+            .map(|(yields, states, softening, turn, path_ends)| TrialPoints {
+                yields,
+                states,
+                softening,
+                turn,
+                path_ends,
+            });
         (
             &self.gradients,
             &mut self.yielding,
             &mut self.forces,
-            self.trial.par_chunks_mut(stride),
-            self.path_ends.par_chunks_mut(stride, n),
-            self.softening.par_chunks_mut(stride),
-            chunks_or_none(&mut self.turn, stride, n),
-            self.yields.par_chunks_mut(stride),
+            points,
             self.committed.par_chunks(stride),
         )
             .into_par_iter()
             .enumerate()
             .with_min_len(GRAIN)
-            .for_each(
-                |(
-                    i,
-                    (
-                        gradients,
-                        yielding,
-                        force,
-                        trial,
-                        mut path_ends,
-                        softening,
-                        turn,
-                        yields,
-                        committed,
-                    ),
-                )| {
-                    let packed = &elements.list[i];
-                    let (material, law) = &materials[packed.body as usize];
-                    let strains_at = |nodal: &[f64], factors: &[f64]| {
-                        let mut strains = gradients.strains(&elements.displacements(i, nodal));
-                        free.take_off(i, factors, &mut strains);
-                        strains
+            .for_each(|(i, (gradients, yielding, force, mut points, committed))| {
+                let packed = &elements.list[i];
+                let (material, law) = &materials[packed.body as usize];
+                let strains_at = |nodal: &[f64], factors: &[f64]| {
+                    let mut strains = gradients.strains(&elements.displacements(i, nodal));
+                    free.take_off(i, factors, &mut strains);
+                    strains
+                };
+                let strains = strains_at(nodal, factors);
+                // The strains at the start of the path are computed only if a point of the element
+                // yields.
+                let mut begins = None;
+                let mut added = [[0.0; P]; S];
+                *yielding = 0;
+                for g in 0..gradients.n_points() {
+                    let strain = &at_point(&strains, g);
+                    let past = Past {
+                        state: &committed[g],
+                        back: back.of(i * stride + g),
+                        harder: harder.get(i * stride + g).copied().unwrap_or(0.0),
                     };
-                    let strains = strains_at(nodal, factors);
-                    // The strains at the start of the path are computed only if a point of the
-                    // element yields.
-                    let mut begins = None;
-                    let mut added = [[0.0; P]; S];
-                    *yielding = 0;
-                    for g in 0..gradients.n_points() {
-                        let strain = &at_point(&strains, g);
-                        let old = &committed[g];
-                        let past = Past {
-                            state: old,
-                            back: back.of(i * stride + g),
-                            harder: harder.get(i * stride + g).copied().unwrap_or(0.0),
-                        };
-                        // Nothing is stored for elastic points, which are the majority.
-                        if material.stays_elastic(law, strain, &past) {
-                            if yields[g] {
-                                yields[g] = false;
-                                trial[g] = *old;
-                                softening[g] = Softening::NONE;
-                            }
-                            continue;
-                        }
-                        if let (None, Some(begin)) = (&begins, begin) {
-                            begins = Some(strains_at(begin.nodal.values(), &begin.factors));
-                        }
-                        let begin = begins.as_ref().map(|begins| at_point(begins, g));
-                        let path = (begin.as_ref(), strain);
-                        let mut memory = path_ends.memory_of(g);
-                        let update = material.integrate_along(law, path, &past, &mut memory);
-                        let lost_work = memory.lost_work;
-                        path_ends.keep_lost_work(g, lost_work);
-                        trial[g] = update.state;
-                        softening[g] = update.softening;
-                        if let Some(turn) = turn.get_mut(g) {
-                            *turn = update.turn;
-                        }
-                        yields[g] = true;
-                        *yielding += 1;
-                        let change =
-                            std::array::from_fn(|k| update.state.strain[k] - old.strain[k]);
-                        put(&mut added, g, law.times(&change));
+                    if material.stays_elastic(law, strain, &past) {
+                        points.stay_elastic(g, past.state);
+                        continue;
                     }
-                    if *yielding > 0 {
-                        *force = gradients.forces(&added);
+                    if let (None, Some(begin)) = (&begins, begin) {
+                        begins = Some(strains_at(begin.nodal.values(), &begin.factors));
                     }
-                },
-            );
+                    let begin = begins.as_ref().map(|begins| at_point(begins, g));
+                    let path = (begin.as_ref(), strain);
+                    let change = points.integrate(g, (material, law), path, &past);
+                    *yielding += 1;
+                    put(&mut added, g, law.times(&change));
+                }
+                if *yielding > 0 {
+                    *force = gradients.forces(&added);
+                }
+            });
+        self.sum_forces(initial_load)
+    }
+
+    /// Sums the forces of the elements that yield to the initial loads of the committed plastic
+    /// strains, and counts what yields.
+    fn sum_forces(&mut self, initial_load: &mut Trailing) -> Evaluation {
         let mut result = Evaluation::default();
         self.active.clear();
         let sums = self.sums.start_sum(Some(&self.base));

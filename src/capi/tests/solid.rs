@@ -80,6 +80,32 @@ fn a_plastic_history_of_a_solid_from_arrays_is_the_scene_s() {
     }
 }
 
+/// All of the punch on its block but the mesh.
+const TABLES: &CStr = c"
+    materials.hard = { youngs_modulus = 2.1e6, poissons_ratio = 0.3 }
+    bodies.punch = { material = 'hard' }
+    bodies.block = { material = 'metal' }
+    contact = [{ first = 'punch.bottom', second = 'block.top' }]
+    support = [
+        { on = 'punch.left', fix = ['x'] },
+        { on = 'block.left', fix = ['x'] },
+        { on = 'punch.front', direction = [0, 1, 0] },
+        { on = 'block.front', direction = [0, 1, 0] },
+        { on = 'block.bottom', fix = ['z'] },
+    ]
+    load = [{ name = 'press', on = 'punch.top',
+        plane_force = { direction = 'z', total = -3600.0 } }]
+    program.targets = [
+        { name = 'alpha 1', load_factor = 1.0 },
+        { name = 'unloaded', load_factor = 0.0 },
+    ]
+    [materials.metal]
+    youngs_modulus = 2.1e5
+    poissons_ratio = 0.3
+    yield_stress = 300.0
+    plastic_modulus = 2000.0
+";
+
 /// Builds the punch on its block from the arrays of the scene's mesh, with the rest as text.
 ///
 /// # Safety
@@ -139,31 +165,7 @@ unsafe fn punch(mesh: &brinell_mesh) -> *mut brinell_model {
                 n,
             ));
         }
-        let tables = c"
-            materials.hard = { youngs_modulus = 2.1e6, poissons_ratio = 0.3 }
-            bodies.punch = { material = 'hard' }
-            bodies.block = { material = 'metal' }
-            contact = [{ first = 'punch.bottom', second = 'block.top' }]
-            support = [
-                { on = 'punch.left', fix = ['x'] },
-                { on = 'block.left', fix = ['x'] },
-                { on = 'punch.front', direction = [0, 1, 0] },
-                { on = 'block.front', direction = [0, 1, 0] },
-                { on = 'block.bottom', fix = ['z'] },
-            ]
-            load = [{ name = 'press', on = 'punch.top',
-                plane_force = { direction = 'z', total = -3600.0 } }]
-            program.targets = [
-                { name = 'alpha 1', load_factor = 1.0 },
-                { name = 'unloaded', load_factor = 0.0 },
-            ]
-            [materials.metal]
-            youngs_modulus = 2.1e5
-            poissons_ratio = 0.3
-            yield_stress = 300.0
-            plastic_modulus = 2000.0
-        ";
-        ok(brinell_model_tables(model, tables.as_ptr()));
+        ok(brinell_model_tables(model, TABLES.as_ptr()));
         let wrong = brinell_model_tables(model, c"materials.metal = 3".as_ptr());
         assert_eq!(wrong, BRINELL_INPUT);
         assert!(message().contains("line 1"), "{}", message());

@@ -2,7 +2,7 @@
 
 use crate::analytical::HertzContact;
 use crate::cli::materials::of_list;
-use crate::cli::new::{poissons_ratio, positive};
+use crate::cli::values::{poissons_ratio, positive};
 use crate::error::{Error, Result};
 use crate::scene::Units;
 use clap::Args;

@@ -2,8 +2,9 @@
 
 use super::materials::{First, Made, Second, section};
 use super::size::Size;
-use super::{HEAD, UNITS, positive, rounded_up, toml};
+use super::text::{HEAD, UNITS, rounded_up, toml};
 use crate::analytical::{PinInHole, Plane, ShrinkFit, ThickCylinder, contact_modulus};
+use crate::cli::values::positive;
 use crate::error::Result;
 use crate::number::significant;
 use clap::Args;
@@ -150,6 +151,32 @@ targets = [{{ name = \"fitted\", load_factor = 0.0 }}]
 /// Half of the arc over which the default load presses the shaft.
 const ARC: f64 = 30.0;
 
+/// Supports of a half model of a shaft in a bore.
+const LOOSE_SUPPORTS: &str = "\
+# Symmetry: nothing crosses the line x = 0.
+[[support]]
+on = \"shaft.start\"
+fix = [\"x\"]
+
+[[support]]
+on = \"shaft.end\"
+fix = [\"x\"]
+
+[[support]]
+on = \"ring.start\"
+fix = [\"x\"]
+
+[[support]]
+on = \"ring.end\"
+fix = [\"x\"]
+
+[[support]]
+on = \"ring.outer\"
+fix = [\"x\", \"y\"]
+
+";
+
+/// Returns the scene of a shaft in a bore with clearance.
 fn loose(fit: &Fit, radius: f64, clearance: f64, made: &[Made; 2]) -> Result<String> {
     let outer = fit.outer_radius.unwrap_or(10.0 * radius);
     let shaft = made[0].clone().kept_elastic();
@@ -189,28 +216,7 @@ first = \"shaft.outer\"
 second = \"ring.inner\"
 gap = {clearance}              # of radii, all round before the load
 
-# Symmetry: nothing crosses the line x = 0.
-[[support]]
-on = \"shaft.start\"
-fix = [\"x\"]
-
-[[support]]
-on = \"shaft.end\"
-fix = [\"x\"]
-
-[[support]]
-on = \"ring.start\"
-fix = [\"x\"]
-
-[[support]]
-on = \"ring.end\"
-fix = [\"x\"]
-
-[[support]]
-on = \"ring.outer\"
-fix = [\"x\", \"y\"]
-
-[[load]]
+{LOOSE_SUPPORTS}[[load]]
 name = \"press\"
 on = \"shaft.center\"
 force = [0.0, {total}]          # N per mm of length

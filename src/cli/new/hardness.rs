@@ -1,11 +1,13 @@
 //! The scene of a hardness test: a ball is pressed into a flat and unloaded.
 
-use super::materials::{First, Made};
+use super::asked::Asked;
+use super::materials::{First, Made, weaker};
 use super::pressed::{OnFlat, RESOLUTION};
 use super::size::Size;
-use super::{Asked, about_loads, poissons_ratio, positive, toml, weaker};
+use super::text::{about_loads, toml};
 use crate::analytical::{HertzPoint, contact_modulus};
 use crate::cli::hardness::SMALL;
+use crate::cli::values::{poissons_ratio, positive};
 use crate::error::Result;
 use clap::Args;
 

@@ -3,13 +3,15 @@
 //! stresses by which the standard rates bearings; the load for the bearing at hand has load factor
 //! 1.
 
-use super::materials::{First, Made, Second};
+use super::asked::Asked;
+use super::materials::{First, Made, Second, weaker};
 use super::pressed::{self, OnFlat};
 use super::profile::{self, Profile, Roller};
 use super::size::Size;
 use super::solid::{self, Bodies};
-use super::{Asked, Started, not_zero, positive, toml, weaker};
+use super::text::{Started, toml};
 use crate::analytical::{HertzContact, RelativeRadii, contact_modulus};
+use crate::cli::values::{not_zero, positive};
 use crate::error::{Error, Result};
 use crate::number::significant;
 use clap::Args;

@@ -1,7 +1,8 @@
 //! Materials of the bodies of a new scene.
 
-use super::{not_negative, poissons_ratio, positive, toml};
+use super::text::toml;
 use crate::cli::materials::of_list;
+use crate::cli::values::{not_negative, poissons_ratio, positive};
 use crate::error::{Error, Result};
 use crate::files;
 use crate::scene::{Material, Units};
@@ -350,6 +351,17 @@ fn table_of(made: &Made) -> String {
         }
     }
     text + "\n"
+}
+
+/// Returns the smallest value of a figure over the bodies that may yield.
+pub(super) fn weaker(made: &[Made; 2], figure: impl Fn(f64, f64) -> f64) -> Option<f64> {
+    let of = |made: &Made| {
+        Some(figure(
+            made.material.poissons_ratio,
+            made.first_yield_stress()?,
+        ))
+    };
+    made.iter().filter_map(of).reduce(f64::min)
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! The scene of a ball or a roller on a flat.
 
-use super::materials::{First, Made, Second, section};
+use super::asked::Asked;
+use super::materials::{First, Made, Second, section, weaker};
 use super::size::Size;
-use super::{Asked, HEAD, UNITS, about_loads, largest, positive, toml, weaker};
+use super::text::{HEAD, UNITS, about_loads, largest, toml};
 use crate::analytical::{HertzLine, HertzPoint, contact_modulus};
+use crate::cli::values::positive;
 use crate::error::Result;
 use clap::Args;
 

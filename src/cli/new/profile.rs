@@ -1,8 +1,9 @@
 //! The scene of a roller of finite length, with a profile along its axis, on a race (a quarter, in
 //! three dimensions): blocks whose gap has the roller's shape.
 
+use super::asked::Asked;
 use super::materials::{Made, section};
-use super::{Asked, HEAD, UNITS, toml};
+use super::text::{HEAD, UNITS, toml};
 use clap::ValueEnum;
 use std::f64::consts::PI;
 

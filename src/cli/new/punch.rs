@@ -1,7 +1,8 @@
 //! The scene of a flat punch on a block.
 
 use super::materials::{First, section};
-use super::{HEAD, UNITS, positive, toml};
+use super::text::{HEAD, UNITS, toml};
+use crate::cli::values::positive;
 use crate::error::Result;
 use crate::number::significant;
 use clap::Args;

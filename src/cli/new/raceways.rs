@@ -1,9 +1,10 @@
 //! The scene of a roller between two raceways, and its mesh.
 
-use super::materials::{First, Second, section};
+use super::materials::{First, Second, section, weaker};
 use super::size::Size;
-use super::{HEAD, Started, UNITS, about_loads, largest, positive, toml, weaker};
+use super::text::{HEAD, Started, UNITS, about_loads, largest, toml};
 use crate::analytical::{HertzLine, contact_modulus};
+use crate::cli::values::positive;
 use crate::error::Result;
 use crate::mesh::Shape;
 use crate::mesh::generate::raceways::Raceways;
@@ -15,6 +16,27 @@ const RADIUS: f64 = 5.0;
 /// Range over which elements have equal size, in half widths of the wider contact under the largest
 /// load.
 const REACH: f64 = 1.3;
+
+/// Supports of a half model of a roller between two rings.
+const SUPPORTS: &str = "\
+# Symmetry: nothing crosses the line x = 0. The roller is held by its contacts alone.
+[[support]]
+on = \"roller.symmetry\"
+fix = [\"x\"]
+
+[[support]]
+on = \"inner.symmetry\"
+fix = [\"x\"]
+
+[[support]]
+on = \"outer.symmetry\"
+fix = [\"x\"]
+
+[[support]]
+on = \"inner.bore\"
+fix = [\"x\", \"y\"]
+
+";
 
 /// A roller between the raceways of two rings.
 #[derive(Debug, Args)]
@@ -98,24 +120,7 @@ second = \"inner.raceway\"
 first = \"outer.raceway\"
 second = \"roller.outer\"
 
-# Symmetry: nothing crosses the line x = 0. The roller is held by its contacts alone.
-[[support]]
-on = \"roller.symmetry\"
-fix = [\"x\"]
-
-[[support]]
-on = \"inner.symmetry\"
-fix = [\"x\"]
-
-[[support]]
-on = \"outer.symmetry\"
-fix = [\"x\"]
-
-[[support]]
-on = \"inner.bore\"
-fix = [\"x\", \"y\"]
-
-[[load]]
+{SUPPORTS}[[load]]
 name = \"press\"
 on = \"outer.seat\"
 plane_force = {{ direction = \"y\", total = {total} }}   # N per mm; the seat moves as one

@@ -1,6 +1,6 @@
 //! The size of a round body or of a bore, by radius or diameter.
 
-use super::positive;
+use crate::cli::values::positive;
 use clap::Args;
 
 /// A radius, if one is given.

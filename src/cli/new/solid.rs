@@ -1,10 +1,12 @@
 //! Scenes of two curved bodies in three dimensions.
 
-use super::materials::{First, Made, Second, section};
+use super::asked::Asked;
+use super::materials::{First, Made, Second, section, weaker};
 use super::pressed::{Pressed, RADIUS};
 use super::size::Size;
-use super::{Asked, HEAD, UNITS, about_loads, largest, not_zero, positive, toml, weaker};
+use super::text::{HEAD, UNITS, about_loads, largest, toml};
 use crate::analytical::{HertzEllipse, contact_modulus};
+use crate::cli::values::{not_zero, positive};
 use crate::error::Result;
 use clap::Args;
 

@@ -16,6 +16,36 @@ fn report(of: &Results, out: Option<&Path>) -> String {
     results(&scene(), &header, of, 5.0, out)
 }
 
+/// An effect that is on, one that nobody asked for, and one that is off though asked for.
+fn effects() -> Vec<Effect> {
+    vec![
+        Effect {
+            name: "contact".into(),
+            on: true,
+            asked: true,
+            why: "the scene pairs cylinder.contact with half_plane.contact; ".repeat(4),
+            seconds: 0.1234,
+            memory_bytes: 1_500_000,
+        },
+        Effect {
+            name: "interference".into(),
+            on: false,
+            asked: false,
+            why: "no contact has one".into(),
+            seconds: 0.0,
+            memory_bytes: 0,
+        },
+        Effect {
+            name: "temperature".into(),
+            on: false,
+            asked: true,
+            why: "no temperature changes".into(),
+            seconds: 0.0,
+            memory_bytes: 0,
+        },
+    ]
+}
+
 fn full() -> Results {
     let name = "a state with a name that is much longer than anybody would want to read in a table";
     Results {
@@ -28,32 +58,7 @@ fn full() -> Results {
             zone_elements: 54321,
             ..Sizes::default()
         },
-        effects: vec![
-            Effect {
-                name: "contact".into(),
-                on: true,
-                asked: true,
-                why: "the scene pairs cylinder.contact with half_plane.contact; ".repeat(4),
-                seconds: 0.1234,
-                memory_bytes: 1_500_000,
-            },
-            Effect {
-                name: "interference".into(),
-                on: false,
-                asked: false,
-                why: "no contact has one".into(),
-                seconds: 0.0,
-                memory_bytes: 0,
-            },
-            Effect {
-                name: "temperature".into(),
-                on: false,
-                asked: true,
-                why: "no temperature changes".into(),
-                seconds: 0.0,
-                memory_bytes: 0,
-            },
-        ],
+        effects: effects(),
         first_yield: Some(YieldPoint {
             alpha: 0.217,
             load: 217.0,

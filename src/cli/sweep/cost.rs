@@ -2,8 +2,7 @@
 
 use super::{SweepArguments, overrides};
 use crate::analysis;
-use crate::cli::commands::json;
-use crate::cli::print;
+use crate::cli::streams::{json, print};
 use crate::cli::table::{Column, Table, page_width};
 use crate::deck::{self, Options};
 use crate::error::{Error, Result};

@@ -84,6 +84,53 @@ pub fn curved_bodies(p: &CurvedBodies, contact: EllipseSize) -> Result<Mesh> {
     Ok(mesh)
 }
 
+/// Name of a parameter for messages.
+fn key(name: &str) -> String {
+    format!("{KEY}.{name}")
+}
+
+/// Refuses parameters that make no mesh.
+fn check_parameters(p: &CurvedBodies, semi_axes: [f64; 2]) -> Result<()> {
+    for semi_axis in semi_axes {
+        limits::positive(&key("semi_axes"), semi_axis)?;
+    }
+    limits::positive(&key("fine_width"), p.fine_width)?;
+    limits::positive(&key("fine_depth"), p.fine_depth)?;
+    limits::positive(&key("far_size"), p.far_size)?;
+    limits::growths(&key("growth"), p.growth, &key("growth"), None)?;
+    limits::at_least(&key("resolution"), p.resolution, 1)
+}
+
+/// Size of the even elements along x, y or the depth, their number, and the place that the contact
+/// may reach.
+fn plan_of_line(p: &CurvedBodies, contact: EllipseSize, d: usize) -> (f64, f64, f64) {
+    let EllipseSize { semi_axes, reach } = contact;
+    let small = semi_axes[0].min(semi_axes[1]);
+    let resolution = p.resolution as f64;
+    let fine = small / resolution;
+    let (h, even) = match d {
+        2 => (fine, p.fine_depth * small),
+        _ => {
+            let h = (semi_axes[d] / resolution).min(LONGEST * fine);
+            (h, p.fine_width * semi_axes[d])
+        }
+    };
+    // The tolerance keeps round-off, and so the choice of units, from deciding whether half an
+    // element is rounded up.
+    let n = (even / h * (1.0 + ROUND_OFF)).round().max(1.0);
+    let until = match d {
+        2 => reach * p.fine_depth / p.fine_width * small,
+        _ => reach * semi_axes[d],
+    };
+    (h, n, until)
+}
+
+/// A line from 0 on, with its mirror image before it.
+fn with_mirror_image(half: &[f64]) -> Vec<f64> {
+    let mirrored = half.iter().skip(1).rev().map(|x| -x);
+    mirrored.chain(half.iter().copied()).collect()
+}
+
 /// Grid lines of both curved bodies.
 struct CurvedLayout {
     /// Coordinates along x and y by half steps, and the distance from the contact surface by half
@@ -118,43 +165,18 @@ impl CurvedLayout {
     }
 
     fn new(p: &CurvedBodies, contact: EllipseSize) -> Result<CurvedLayout> {
-        let key = |name: &str| format!("{KEY}.{name}");
-        let EllipseSize { semi_axes, reach } = contact;
-        for semi_axis in semi_axes {
-            limits::positive(&key("semi_axes"), semi_axis)?;
-        }
-        limits::positive(&key("fine_width"), p.fine_width)?;
-        limits::positive(&key("fine_depth"), p.fine_depth)?;
-        limits::positive(&key("far_size"), p.far_size)?;
-        limits::growths(&key("growth"), p.growth, &key("growth"), None)?;
-        limits::at_least(&key("resolution"), p.resolution, 1)?;
+        let semi_axes = contact.semi_axes;
+        check_parameters(p, semi_axes)?;
         let radii =
             HertzEllipse::relative_radii(p.upper, p.lower).map_err(|error| error.within(KEY))?;
-        let [large, small] = [
-            semi_axes[0].max(semi_axes[1]),
-            semi_axes[0].min(semi_axes[1]),
-        ];
+        let large = semi_axes[0].max(semi_axes[1]);
         let size = p.far_size * large;
         let resolution = p.resolution as f64;
-        let fine = small / resolution;
         let slow = (1.0 + 1.0 / resolution).min(p.growth);
         let growth = Growth::new(p.growth, None, 0.0);
         // Along x, y and the depth: element size, number of even elements, and reach.
         let plans = [0, 1, 2].map(|d| {
-            let (h, even) = match d {
-                2 => (fine, p.fine_depth * small),
-                _ => {
-                    let h = (semi_axes[d] / resolution).min(LONGEST * fine);
-                    (h, p.fine_width * semi_axes[d])
-                }
-            };
-            // The tolerance keeps round-off, and so the choice of units, from deciding whether half
-            // an element is rounded up.
-            let n = (even / h * (1.0 + ROUND_OFF)).round().max(1.0);
-            let until = match d {
-                2 => reach * p.fine_depth / p.fine_width * small,
-                _ => reach * semi_axes[d],
-            };
+            let (h, n, until) = plan_of_line(p, contact, d);
             (h, n, until.min(0.5 * size))
         });
         // Too many elements are refused before any line is allocated.
@@ -190,10 +212,8 @@ impl CurvedLayout {
         let mut candidates = n_near.map(|n| 0..n);
         for d in 0..2 {
             if !p.halved()[d] {
-                let half = lines[d].clone();
-                let mirrored = half.iter().skip(1).rev().map(|x| -x);
-                lines[d] = mirrored.chain(half.iter().copied()).collect();
-                origin[d] = half.len() - 1;
+                origin[d] = lines[d].len() - 1;
+                lines[d] = with_mirror_image(&lines[d]);
                 let middle = origin[d] / 2;
                 candidates[d] = middle - n_near[d]..middle + n_near[d];
             }

@@ -132,6 +132,36 @@ pub fn cylinder_on_half_plane(p: &CylinderOnHalfPlane, contact: ContactSize) -> 
     Ok(mesh)
 }
 
+/// Name of a parameter for messages.
+fn key(name: &str) -> String {
+    format!("{KEY}.{name}")
+}
+
+/// Refuses parameters that make no mesh, among them candidates where the circle is steep.
+fn check_parameters(p: &CylinderOnHalfPlane, half_width: f64, far_size: f64) -> Result<()> {
+    limits::positive(&key("radius"), p.radius)?;
+    limits::positive(&key("half_width"), half_width)?;
+    limits::positive(&key("fine_width"), p.fine_width)?;
+    limits::positive(&key("fine_depth"), p.fine_depth)?;
+    limits::positive(&key("far_size"), far_size)?;
+    limits::growths(&key("growth"), p.growth, &key("far_growth"), p.far_growth)?;
+    limits::at_least(&key("resolution"), p.resolution, 1)?;
+    let candidates = p.fine_width * half_width;
+    if candidates > WIDEST * p.radius {
+        return Err(Error::input(format!(
+            "{}: fine_width = {} times half_width = {half_width} is {candidates}, more than \
+             {WIDEST} of the radius {}; give a fine_width of at most {:.4}, or check radius \
+             and materials (the half width at first yield is about radius times yield stress \
+             over modulus)",
+            key("fine_width"),
+            p.fine_width,
+            p.radius,
+            WIDEST * p.radius / half_width
+        )));
+    }
+    Ok(())
+}
+
 /// Grid lines of the cylinder and of the half plane.
 struct CylinderLayout {
     /// Number of elements along x that may touch.
@@ -167,29 +197,8 @@ impl CylinderLayout {
             far_size,
         } = contact;
         let far_size = p.far_size.unwrap_or(far_size);
-        let key = |name: &str| format!("{KEY}.{name}");
-        limits::positive(&key("radius"), p.radius)?;
-        limits::positive(&key("half_width"), half_width)?;
-        limits::positive(&key("fine_width"), p.fine_width)?;
-        limits::positive(&key("fine_depth"), p.fine_depth)?;
-        limits::positive(&key("far_size"), far_size)?;
-        limits::growths(&key("growth"), p.growth, &key("far_growth"), p.far_growth)?;
-        limits::at_least(&key("resolution"), p.resolution, 1)?;
-
+        check_parameters(p, half_width, far_size)?;
         let size = far_size * half_width;
-        let candidates = p.fine_width * half_width;
-        if candidates > WIDEST * p.radius {
-            return Err(Error::input(format!(
-                "{}: fine_width = {} times half_width = {half_width} is {candidates}, more than \
-                 {WIDEST} of the radius {}; give a fine_width of at most {:.4}, or check radius \
-                 and materials (the half width at first yield is about radius times yield stress \
-                 over modulus)",
-                key("fine_width"),
-                p.fine_width,
-                p.radius,
-                WIDEST * p.radius / half_width
-            )));
-        }
         let resolution = p.resolution as f64;
         let fine = |name: &str, extent: f64| {
             let n = (extent * resolution).round();

@@ -54,15 +54,12 @@ pub fn read(path: &Path) -> Result<Mesh> {
 /// brinell does not have.
 pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
     let mut cursor = Cursor::new(text, name);
-    let mut content = Content::default();
-    let mut entities = Entities::default();
-    let mut version = None;
-    let (mut has_nodes, mut has_elements) = (false, false);
+    let mut sections = Sections::default();
     loop {
         cursor.section = "the file";
         cursor.skip_lines();
         let at = cursor.at();
-        if version.is_none() && !is_beginning(&text[at..]) {
+        if sections.version.is_none() && !is_beginning(&text[at..]) {
             return Err(cursor.error(
                 "this is not a Gmsh mesh: it should begin with $MeshFormat \
                  (a .geo file must be meshed and exported as .msh first)",
@@ -71,73 +68,92 @@ pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
         let Some(section) = cursor.section_start()? else {
             break;
         };
-        match (section, version) {
-            (b"$MeshFormat", None) => {
-                cursor.section = "$MeshFormat";
-                version = Some(read_format(&mut cursor)?);
-                cursor.section_end("$EndMeshFormat")?;
-            }
-            (b"$PhysicalNames", Some(_)) => {
-                cursor.section = "$PhysicalNames";
-                cursor.in_text(|cursor| content.read_names(cursor))?;
-                cursor.section_end("$EndPhysicalNames")?;
-            }
-            (b"$Entities", Some(Version::V4)) => {
-                cursor.section = "$Entities";
-                entities.read(&mut cursor)?;
-                cursor.section_end("$EndEntities")?;
-            }
-            (b"$PartitionedEntities", Some(Version::V4)) => {
-                cursor.section = "$PartitionedEntities";
-                entities.read_partitioned(&mut cursor)?;
-                cursor.section_end("$EndPartitionedEntities")?;
-            }
-            (b"$Nodes" | b"$ParametricNodes", Some(_)) if has_nodes => {
-                return Err(cursor.error_at(at, "a second section $Nodes"));
-            }
-            (b"$ParametricNodes", Some(Version::V2)) => {
-                cursor.section = "$ParametricNodes";
-                has_nodes = true;
-                version2::read_nodes(&mut content, &mut cursor, true)?;
-                cursor.section_end("$EndParametricNodes")?;
-            }
-            (b"$Nodes", Some(version)) => {
-                cursor.section = "$Nodes";
-                has_nodes = true;
-                match version {
-                    Version::V2 => version2::read_nodes(&mut content, &mut cursor, false)?,
-                    Version::V4 => version4::read_nodes(&mut content, &mut cursor)?,
-                }
-                cursor.section_end("$EndNodes")?;
-            }
-            (b"$Elements", Some(_)) if !has_nodes => {
-                return Err(cursor.error_at(at, "$Elements comes before $Nodes"));
-            }
-            (b"$Elements", Some(_)) if has_elements => {
-                return Err(cursor.error_at(at, "a second section $Elements"));
-            }
-            (b"$Elements", Some(version)) => {
-                cursor.section = "$Elements";
-                has_elements = true;
-                match version {
-                    Version::V2 => version2::read_elements(&mut content, &mut cursor)?,
-                    Version::V4 => {
-                        version4::read_elements(&mut content, &mut cursor, &entities)?;
-                    }
-                }
-                cursor.section_end("$EndElements")?;
-            }
-            (other, _) => cursor.skip_section(other)?,
-        }
+        sections.read(section, at, &mut cursor)?;
     }
-    for (there, section) in [(has_nodes, "$Nodes"), (has_elements, "$Elements")] {
+    for (there, section) in [
+        (sections.has_nodes, "$Nodes"),
+        (sections.has_elements, "$Elements"),
+    ] {
         if !there {
             return Err(cursor.error(format!(
                 "the file ends without a section {section}: is it truncated?"
             )));
         }
     }
-    assemble::assemble(content, &cursor)
+    assemble::assemble(sections.content, &cursor)
+}
+
+/// What the sections read so far say.
+#[derive(Default)]
+struct Sections {
+    version: Option<Version>,
+    content: Content,
+    entities: Entities,
+    has_nodes: bool,
+    has_elements: bool,
+}
+
+impl Sections {
+    /// Reads a section, of which the cursor has read the head at byte `at`.
+    fn read(&mut self, section: &[u8], at: usize, cursor: &mut Cursor) -> Result<()> {
+        let content = &mut self.content;
+        match (section, self.version) {
+            (b"$MeshFormat", None) => {
+                cursor.section = "$MeshFormat";
+                self.version = Some(read_format(cursor)?);
+                cursor.section_end("$EndMeshFormat")
+            }
+            (b"$PhysicalNames", Some(_)) => {
+                cursor.section = "$PhysicalNames";
+                cursor.in_text(|cursor| content.read_names(cursor))?;
+                cursor.section_end("$EndPhysicalNames")
+            }
+            (b"$Entities", Some(Version::V4)) => {
+                cursor.section = "$Entities";
+                self.entities.read(cursor)?;
+                cursor.section_end("$EndEntities")
+            }
+            (b"$PartitionedEntities", Some(Version::V4)) => {
+                cursor.section = "$PartitionedEntities";
+                self.entities.read_partitioned(cursor)?;
+                cursor.section_end("$EndPartitionedEntities")
+            }
+            (b"$Nodes" | b"$ParametricNodes", Some(_)) if self.has_nodes => {
+                Err(cursor.error_at(at, "a second section $Nodes"))
+            }
+            (b"$ParametricNodes", Some(Version::V2)) => {
+                cursor.section = "$ParametricNodes";
+                self.has_nodes = true;
+                version2::read_nodes(content, cursor, true)?;
+                cursor.section_end("$EndParametricNodes")
+            }
+            (b"$Nodes", Some(version)) => {
+                cursor.section = "$Nodes";
+                self.has_nodes = true;
+                match version {
+                    Version::V2 => version2::read_nodes(content, cursor, false)?,
+                    Version::V4 => version4::read_nodes(content, cursor)?,
+                }
+                cursor.section_end("$EndNodes")
+            }
+            (b"$Elements", Some(_)) if !self.has_nodes => {
+                Err(cursor.error_at(at, "$Elements comes before $Nodes"))
+            }
+            (b"$Elements", Some(_)) if self.has_elements => {
+                Err(cursor.error_at(at, "a second section $Elements"))
+            }
+            (b"$Elements", Some(version)) => {
+                cursor.section = "$Elements";
+                self.has_elements = true;
+                match version {
+                    Version::V2 => version2::read_elements(content, cursor)?,
+                    Version::V4 => version4::read_elements(content, cursor, &self.entities)?,
+                }
+                cursor.section_end("$EndElements")
+            }
+            (other, _) => cursor.skip_section(other),
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -51,7 +51,7 @@ fn refused(change: impl Fn(&mut Mesh), expected: &[&str]) {
 }
 
 #[test]
-fn each_fault_is_named() {
+fn each_fault_of_nodes_bodies_and_elements_is_named() {
     refused(
         |m| {
             *m = Mesh {
@@ -87,6 +87,14 @@ fn each_fault_is_named() {
         |m| m.connectivity[2] = 0,
         &["element 1 (quad4, body `plate`)", "node 1 twice"],
     );
+    refused(
+        |m| m.push_element(Shape::Quad4, 0, &[1, 4, 3, 0]),
+        &["element 1 ", "element 5 ", "same corners"],
+    );
+}
+
+#[test]
+fn each_fault_of_sets_and_labels_is_named() {
     refused(
         |m| {
             m.node_sets.insert("none".into(), vec![]);
@@ -127,10 +135,6 @@ fn each_fault_is_named() {
         &["element number 2 is given twice"],
     );
     refused(|m| m.element_labels = vec![1], &["1 element labels for 4"]);
-    refused(
-        |m| m.push_element(Shape::Quad4, 0, &[1, 4, 3, 0]),
-        &["element 1 ", "element 5 ", "same corners"],
-    );
 }
 
 #[test]

@@ -110,21 +110,7 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
                 taken[partner.first] = true;
                 let area = areas.get(&node).copied().unwrap_or(0.0);
                 let faced = master_nodes[partner.first];
-                let geometric = dot(difference(mesh.point(faced), x), partner.normal);
-                pairs.push(Pair {
-                    contact: entries.index,
-                    slave: node,
-                    masters: vec![(faced, 1.0)],
-                    normal: partner.normal,
-                    gap: match partner.gap {
-                        Some(gap) => gap,
-                        None => entries.stated.gap(node)?.unwrap_or(geometric),
-                    },
-                    interference: entries.stated.interference(node)?,
-                    unit_gap: 1.0,
-                    area,
-                    arc,
-                });
+                pairs.push(pair_of(entries, [node, faced], &partner, [area, arc])?);
             }
             _ => is_complete = false,
         }
@@ -143,6 +129,33 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
     }
     check(mesh, contact, &pairs, facet_length)?;
     Ok(Some(Found::new(pairs, slave, facet_length)))
+}
+
+/// The pair of a slave node and the master node that it faces, with the area of the slave and its
+/// place along the surface.
+fn pair_of(
+    entries: &ContactInput,
+    [slave, faced]: [usize; 2],
+    partner: &Partner,
+    [area, arc]: [f64; 2],
+) -> Result<Pair> {
+    let mesh = entries.mesh;
+    let apart = difference(mesh.point(faced), mesh.point(slave));
+    let geometric = dot(apart, partner.normal);
+    Ok(Pair {
+        contact: entries.index,
+        slave,
+        masters: vec![(faced, 1.0)],
+        normal: partner.normal,
+        gap: match partner.gap {
+            Some(gap) => gap,
+            None => entries.stated.gap(slave)?.unwrap_or(geometric),
+        },
+        interference: entries.stated.interference(slave)?,
+        unit_gap: 1.0,
+        area,
+        arc,
+    })
 }
 
 /// Whether fully paired facets match: each facet of either surface whose nodes all have a partner

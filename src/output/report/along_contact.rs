@@ -1,8 +1,8 @@
 //! Charts along a contact of a plane model: pressures at the states, and the shape of the dent.
 
 use super::chart::{Chart, Curve, Pen};
-use super::curves::{Titled, curve};
 use super::fields::chosen;
+use super::titled::{Titled, curve};
 use super::window::mirrors;
 use crate::model::Model;
 use crate::output::labels::{Labels, labelled};

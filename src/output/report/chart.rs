@@ -1,6 +1,6 @@
 //! Charts of curves.
 
-use super::drawing::{Drawing, axes, failed, letters, nice_step, stroke, title, units};
+use super::drawing::{Axes, Drawing, axes, failed, letters, nice_step, stroke, title, units};
 use super::theme::{CURVES, FAINT, INK, PAPER};
 use crate::error::Result;
 use crate::number::significant;
@@ -52,6 +52,49 @@ pub(super) struct Chart {
     pub legend: SeriesLabelPosition,
 }
 
+impl Curve {
+    /// Draws the curve, with its entry in the legend if it has a name.
+    fn draw<'a>(&self, chart: &mut Axes<'a>) -> Result<()> {
+        let color = match self.color {
+            Some(number) => CURVES[number % CURVES.len()],
+            None => FAINT,
+        };
+        let points: Vec<(f64, f64)> = thinned(&self.points)
+            .into_iter()
+            .map(|[x, y]| (x, y))
+            .collect();
+        let line = stroke(color, 2.0);
+        let pen = self.pen;
+        let dots = matches!(pen, Pen::Dots | Pen::Dotted | Pen::Dashed);
+        let lines = points.iter().copied();
+        let drawn = match pen {
+            Pen::Dashed => chart.draw_series(DashedLineSeries::new(
+                lines,
+                units(6.0) as u32,
+                units(4.0) as u32,
+                line,
+            )),
+            Pen::Dots => chart.draw_series(LineSeries::new([], line)),
+            _ => chart.draw_series(LineSeries::new(lines, line)),
+        }
+        .map_err(failed)?;
+        if !self.label.is_empty() {
+            let radius = if dots { units(3.5) } else { 0 };
+            drawn.label(&self.label).legend(move |at| {
+                let [a, b] = strokes(pen)
+                    .map(|ends| PathElement::new(ends.map(|x| (units(x), 0)).to_vec(), line));
+                let dot = Circle::new((units(12.0), 0), radius, color.filled());
+                EmptyElement::at(at) + a + b + dot
+            });
+        }
+        if dots {
+            let dot = |&p: &(f64, f64)| Circle::new(p, units(3.5), color.filled());
+            chart.draw_series(points.iter().map(dot)).map_err(failed)?;
+        }
+        Ok(())
+    }
+}
+
 impl Chart {
     /// Draws the chart.
     ///
@@ -74,52 +117,10 @@ impl Chart {
                 .map_err(failed)?;
             axes(&mut chart, [&self.labels[0], &self.labels[1]], true)?;
             for curve in &self.curves {
-                let color = match curve.color {
-                    Some(number) => CURVES[number % CURVES.len()],
-                    None => FAINT,
-                };
-                let points: Vec<(f64, f64)> = thinned(&curve.points)
-                    .into_iter()
-                    .map(|[x, y]| (x, y))
-                    .collect();
-                let line = stroke(color, 2.0);
-                let pen = curve.pen;
-                let dots = matches!(pen, Pen::Dots | Pen::Dotted | Pen::Dashed);
-                let lines = points.iter().copied();
-                let drawn = match pen {
-                    Pen::Dashed => chart.draw_series(DashedLineSeries::new(
-                        lines,
-                        units(6.0) as u32,
-                        units(4.0) as u32,
-                        line,
-                    )),
-                    Pen::Dots => chart.draw_series(LineSeries::new([], line)),
-                    _ => chart.draw_series(LineSeries::new(lines, line)),
-                }
-                .map_err(failed)?;
-                if !curve.label.is_empty() {
-                    let radius = if dots { units(3.5) } else { 0 };
-                    drawn.label(&curve.label).legend(move |at| {
-                        let [a, b] = strokes(pen).map(|ends| {
-                            PathElement::new(ends.map(|x| (units(x), 0)).to_vec(), line)
-                        });
-                        let dot = Circle::new((units(12.0), 0), radius, color.filled());
-                        EmptyElement::at(at) + a + b + dot
-                    });
-                }
+                curve.draw(&mut chart)?;
                 for &[x, y] in told(&curve.points).iter() {
                     let at = chart.backend_coord(&(x, y));
                     values.push_str(&self.value(&curve.label, [x, y], at));
-                }
-                if dots {
-                    let radius = units(3.5);
-                    chart
-                        .draw_series(
-                            points
-                                .iter()
-                                .map(|&p| Circle::new(p, radius, color.filled())),
-                        )
-                        .map_err(failed)?;
                 }
             }
             if self.curves.iter().any(|curve| !curve.label.is_empty()) {

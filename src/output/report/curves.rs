@@ -1,27 +1,15 @@
 //! The charts of a run, and their curves.
 
 use super::along_contact::{dent_profile, pressure_profiles};
-use super::chart::{Chart, Curve, Pen};
+use super::chart::{Chart, Pen};
 use super::contact_frame::ContactFrame;
 use super::followed;
 use super::profile;
+use super::titled::{Titled, curve, load_label};
 use crate::model::Model;
 use crate::output::labels::{Labels, capitalised, labelled};
 use crate::results::{HistoryRow, PathPoint, Results};
-use crate::scene::Unit;
 use plotters::prelude::SeriesLabelPosition;
-
-/// A chart with its title and caption.
-pub(super) struct Titled {
-    /// Short name, for the file.
-    pub name: String,
-    /// Heading above the chart.
-    pub title: String,
-    /// Caption that says what the chart shows.
-    pub caption: String,
-    /// The chart itself.
-    pub chart: Chart,
-}
 
 /// Returns all charts of a run, those about the load first.
 pub(super) fn charts(
@@ -80,10 +68,6 @@ pub(super) fn charts(
     out.extend(followed::charts(results, labels));
     out.extend(plastic_strain(results, labels));
     out
-}
-
-pub(super) fn load_label(labels: &Labels) -> String {
-    labelled("load", labels.load())
 }
 
 /// Behaviour of a figure as the load goes to zero within an increment, in which statuses do not
@@ -197,15 +181,6 @@ fn against_load(
     })
 }
 
-pub(super) fn curve(label: &str, color: usize, pen: Pen, points: Vec<[f64; 2]>) -> Curve {
-    Curve {
-        label: label.to_string(),
-        color: Some(color),
-        pen,
-        points,
-    }
-}
-
 /// Draws the dent over the load at which it was made.
 fn residual_depth(results: &Results, labels: &Labels) -> Option<Titled> {
     let deepest = results
@@ -302,14 +277,6 @@ fn plastic_strain(results: &Results, labels: &Labels) -> Option<Titled> {
             legend: SeriesLabelPosition::LowerRight,
         },
     })
-}
-
-/// Says in words what a load factor of 1 means.
-pub(super) fn factor_unit(unit: Unit) -> &'static str {
-    match unit {
-        Unit::Load => "a multiple of the scene's loads",
-        Unit::Yield => "a multiple of the yield load",
-    }
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::number::trimmed;
 use crate::text::shown;
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -162,19 +163,15 @@ pub(super) fn write(
         .map_err(failed)
 }
 
+/// The area between the axes of a chart.
+pub(super) type Axes<'a> =
+    ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
 /// Draws a chart's axes, ticks and grid.
 ///
 /// # Errors
 /// `Internal` if the plotting library fails.
-pub(super) fn axes<'a>(
-    chart: &mut ChartContext<
-        'a,
-        SVGBackend<'a>,
-        Cartesian2d<plotters::coord::types::RangedCoordf64, plotters::coord::types::RangedCoordf64>,
-    >,
-    labels: [&str; 2],
-    grid: bool,
-) -> Result<()> {
+pub(super) fn axes<'a>(chart: &mut Axes<'a>, labels: [&str; 2], grid: bool) -> Result<()> {
     // The round-off that is left of a zero is small compared with the other ticks.
     let extent = |range: std::ops::Range<f64>| 1e-9 * (range.end - range.start).abs();
     let small = [extent(chart.x_range()), extent(chart.y_range())];

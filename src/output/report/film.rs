@@ -2,15 +2,10 @@
 //! is not repeated, but referred to by its name.
 
 use super::drawing::{FINE, LETTERS, escaped};
-use super::page::Figure;
+use super::figure::{Figure, id};
 use super::states::{MAGNIFIED, of_state};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-
-/// Returns the name of a figure's drawing within the page.
-pub(super) fn id(figure: &str) -> String {
-    format!("svg-{figure}")
-}
 
 /// Returns a film for each picture that several states have in the same scale. Magnified shapes are
 /// left out, because each has its own scale.

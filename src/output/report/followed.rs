@@ -2,7 +2,7 @@
 //! with the initial unloading stiffness, and the force on each set over its displacement.
 
 use super::chart::{Chart, Pen};
-use super::curves::{Titled, curve, load_label};
+use super::titled::{Titled, curve, load_label};
 use crate::number::significant;
 use crate::output::labels::{Labels, labelled};
 use crate::results::Results;

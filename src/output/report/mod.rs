@@ -21,6 +21,7 @@
 mod along_contact;
 mod bands;
 mod camera;
+mod captioned;
 mod chart;
 mod contact_frame;
 mod contact_map;
@@ -29,8 +30,10 @@ mod curves;
 mod cycles;
 mod drawing;
 mod fields;
+mod figure;
 mod film;
 mod followed;
+mod load_factor;
 mod magnified;
 mod outer;
 mod page;
@@ -45,51 +48,25 @@ mod sketch;
 mod states;
 mod tables;
 mod theme;
+mod titled;
 mod trust;
 mod window;
 
-use super::{FIGURE_PREFIX, FIGURE_SUFFIX, REPORT_FILE, RunHeader};
+use super::RunHeader;
+use super::names::{FIGURE_PREFIX, FIGURE_SUFFIX, REPORT_FILE};
 use crate::error::Result;
 use crate::model::Model;
 use crate::results::Results;
 use crate::text::shown;
+use captioned::Captioned;
 #[cfg(feature = "cli")]
 use chart::{Chart, Curve, Pen};
 use contact_frame::ContactFrame;
-use drawing::Drawing;
-use page::{Figure, PageFigures};
+use page::PageFigures;
 #[cfg(feature = "cli")]
 use plotters::prelude::SeriesLabelPosition;
 use rayon::prelude::*;
 use std::borrow::Cow;
-
-/// A drawing with its title and caption.
-struct Captioned {
-    /// Short name, for the file and the anchor in the page.
-    name: String,
-    /// Heading; empty if there is none.
-    title: String,
-    /// Caption that says what the drawing shows.
-    caption: String,
-    drawing: Drawing,
-}
-
-impl Captioned {
-    fn figure(&self) -> Figure {
-        let label = if self.title.is_empty() {
-            &self.caption
-        } else {
-            &self.title
-        };
-        Figure {
-            name: self.name.clone(),
-            title: self.title.clone(),
-            caption: self.caption.clone(),
-            svg: self.drawing.inline(label, &film::id(&self.name)),
-            size: self.drawing.size(),
-        }
-    }
-}
 
 /// Draws a chart of some named curves and returns the text of an SVG file.
 ///

@@ -1,6 +1,7 @@
 //! The page: its sections are in the order in which a reader asks.
 
 use super::cycles;
+use super::figure::{Figure, figures};
 use super::film;
 use super::tables;
 use super::theme;
@@ -10,24 +11,10 @@ use crate::number::significant;
 use crate::output::RunHeader;
 use crate::output::labels::{Labels, capitalised};
 use crate::results::{Results, State};
-use crate::scene::{Kind, Unit};
+use crate::scene::Kind;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 const STYLE: &str = include_str!("report.css");
-
-/// A drawing in its place on the page.
-pub(super) struct Figure {
-    /// Name of the figure, which is also its anchor in the page.
-    pub name: String,
-    /// Heading; empty if there is none.
-    pub title: String,
-    /// Caption that says what the figure shows.
-    pub caption: String,
-    /// The drawing as SVG text for the page.
-    pub svg: String,
-    /// Width and height of the figure, in units.
-    pub size: [u32; 2],
-}
 
 /// The figures of a report, by section.
 #[derive(Default)]
@@ -306,28 +293,6 @@ fn cards(model: &Model, results: &Results, labels: &Labels) -> Markup {
     }
 }
 
-/// Lays out figures beside each other. Each figure is a link to itself as the target of the page;
-/// the style lets the target fill the screen, with a link back over it, so enlarging needs no
-/// script.
-pub(super) fn figures(list: &[Figure], class: &str) -> Markup {
-    html! {
-        div class=(class) {
-            @for figure in list {
-                div.frame id={ "at-" (figure.name) } {
-                    figure id={ "fig-" (figure.name) } {
-                        @if !figure.title.is_empty() { h3 { (figure.title) } }
-                        a.enlarge href={ "#fig-" (figure.name) } aria-label="Enlarge" {
-                            (PreEscaped(&figure.svg))
-                        }
-                        @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
-                        a.close href={ "#at-" (figure.name) } aria-label="Close" { "\u{d7}" }
-                    }
-                }
-            }
-        }
-    }
-}
-
 fn charts(list: &[Figure]) -> Markup {
     if list.is_empty() {
         return PreEscaped(String::new());
@@ -380,13 +345,5 @@ fn files(results: &Results) -> Markup {
             ". Small strains, no friction; after N. Endahl, Finite Element Analysis of \
              Elastoplastic Contact Problems Without Friction."
         }
-    }
-}
-
-/// Returns the meaning of a load factor, for the head of a column.
-pub(super) fn factor(unit: Unit) -> &'static str {
-    match unit {
-        Unit::Load => "load factor",
-        Unit::Yield => "load / yield load",
     }
 }

@@ -48,6 +48,16 @@ struct SeenFace {
     depth: f64,
 }
 
+/// Visible faces of one colour that lie close to each other.
+struct FaceGroup<'f> {
+    body: usize,
+    is_contact: bool,
+    shade: u8,
+    /// Mean distance of the faces from the eye.
+    depth: f64,
+    faces: Vec<&'f SeenFace>,
+}
+
 /// A perspective view under construction.
 pub(super) struct Perspective<'m> {
     model: &'m Model,
@@ -221,10 +231,9 @@ impl<'m> Perspective<'m> {
         Ok((drawing, share))
     }
 
-    /// Returns the faces as paths.
-    fn painted(&self, meshed: bool) -> (String, f64) {
-        type Key = (usize, bool, u8, [i64; 3]);
-        let mut areas: BTreeMap<Key, Vec<&SeenFace>> = BTreeMap::new();
+    /// Groups the faces, the farthest group first.
+    fn groups(&self) -> Vec<FaceGroup<'_>> {
+        let mut areas: BTreeMap<_, Vec<&SeenFace>> = BTreeMap::new();
         for face in &self.faces {
             let depth = face.depth * self.scale / self.distance;
             let cell = [face.middle[0], face.middle[1], depth];
@@ -232,18 +241,50 @@ impl<'m> Perspective<'m> {
             let key = (face.body, face.is_contact, face.shade, cell);
             areas.entry(key).or_default().push(face);
         }
-        let mut areas: Vec<(f64, Key, Vec<&SeenFace>)> = areas
+        let mut groups: Vec<FaceGroup> = areas
             .into_iter()
-            .map(|(key, faces)| {
+            .map(|((body, is_contact, shade, _), faces)| {
                 let sum: f64 = faces.iter().map(|face| face.depth).sum();
-                (sum / faces.len() as f64, key, faces)
+                FaceGroup {
+                    body,
+                    is_contact,
+                    shade,
+                    depth: sum / faces.len() as f64,
+                    faces,
+                }
             })
             .collect();
         // The eye is above: a body that lies on another hides it.
-        areas.sort_by(|a, b| {
-            let rank = |area: &(f64, Key, Vec<&SeenFace>)| self.ranks[area.1.0];
-            rank(a).cmp(&rank(b)).then(b.0.total_cmp(&a.0))
+        groups.sort_by(|a, b| {
+            let [of_a, of_b] = [a, b].map(|group| self.ranks[group.body]);
+            of_a.cmp(&of_b).then(b.depth.total_cmp(&a.depth))
         });
+        groups
+    }
+
+    /// Returns the sides of the faces that are large enough, and adds the areas of these faces and
+    /// of all faces to `areas`.
+    fn sides_of_large(&self, faces: &[&SeenFace], areas: &mut [f64; 2]) -> Vec<[usize; 2]> {
+        let mut large = Vec::new();
+        for face in faces {
+            let spots = face.nodes.iter().map(|node| self.spots[node]);
+            let Some(size) = Window::round(spots).map(|w| w.size()) else {
+                continue;
+            };
+            let area = size[0] * size[1];
+            areas[1] += area;
+            if area >= SHORTEST_SIDE * SHORTEST_SIDE {
+                areas[0] += area;
+                let next = face.nodes.iter().cycle().skip(1);
+                let sides = face.nodes.iter().copied().zip(next.copied());
+                large.extend(sides.map(|(a, b)| [a.min(b), a.max(b)]));
+            }
+        }
+        large
+    }
+
+    /// Returns the faces as paths.
+    fn painted(&self, meshed: bool) -> (String, f64) {
         let fine = f64::from(FINE);
         let mut out = format!(
             "<g stroke-width=\"{}\" stroke-linejoin=\"round\">\n",
@@ -253,8 +294,15 @@ impl<'m> Perspective<'m> {
             low: [0.0; 2],
             high: self.size.map(|x| f64::from(x) * fine),
         };
-        let (mut drawn, mut all) = (0.0, 0.0);
-        for (_, (body, is_contact, shade, _), faces) in areas {
+        let mut areas = [0.0; 2];
+        for group in self.groups() {
+            let FaceGroup {
+                body,
+                is_contact,
+                shade,
+                faces,
+                ..
+            } = group;
             let sides = || {
                 faces.iter().flat_map(|face| {
                     let next = face.nodes.iter().cycle().skip(1);
@@ -285,20 +333,7 @@ impl<'m> Perspective<'m> {
             };
             let key = |(a, b): (usize, usize)| [a.min(b), a.max(b)];
             if meshed {
-                let mut large = Vec::new();
-                for face in &faces {
-                    let spots = face.nodes.iter().map(|node| self.spots[node]);
-                    let Some(size) = Window::round(spots).map(|w| w.size()) else {
-                        continue;
-                    };
-                    let area = size[0] * size[1];
-                    all += area;
-                    if area >= SHORTEST_SIDE * SHORTEST_SIDE {
-                        drawn += area;
-                        let next = face.nodes.iter().cycle().skip(1);
-                        large.extend(face.nodes.iter().copied().zip(next.copied()).map(key));
-                    }
-                }
+                let large = self.sides_of_large(&faces, &mut areas);
                 lines(large, shaded(BODIES[body % BODIES.len()], 0.55), 0.5);
             }
             let of = |chosen: &BTreeSet<[usize; 2]>| {
@@ -315,6 +350,7 @@ impl<'m> Perspective<'m> {
             lines(of(&self.contact_sides), CONTACT, 2.5);
         }
         out.push_str("</g>\n");
+        let [drawn, all] = areas;
         (out, if all > 0.0 { drawn / all } else { 0.0 })
     }
 

@@ -2,9 +2,10 @@
 
 use super::chart::{Chart, Curve, Pen};
 use super::contact_frame::{ContactFrame, global};
-use super::curves::Titled;
+use super::contours::TriangleSheet;
 use super::patchwork::{Patchwork, seen};
 use super::section::SectionPlane;
+use super::titled::Titled;
 use super::window::{Window, mirrors, negligible};
 use crate::material::von_mises;
 use crate::model::Model;
@@ -54,21 +55,12 @@ pub(super) fn chart(
         let surface = mesh.surfaces.get(&model.contacts[contact].names[index])?;
         let body = mesh.element_body[surface.facets.first()?.element];
         let name = &mesh.bodies[body as usize];
-        let along = |sheet: &super::contours::TriangleSheet| -> Vec<[f64; 2]> {
+        let along = |sheet: &TriangleSheet| {
             let found = sheet.along(line, |point| patchwork.body(point) == body);
-            let depths = found.into_iter().map(|[s, value]| [into * s, value]);
-            let mut points: Vec<_> = depths
-                .filter(|p| (-0.05 * reach..=reach).contains(&p[0]))
-                .collect();
-            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            points
+            over_depth(found, into, reach)
         };
         let (of_shear, of_mises) = (along(&shear), along(&mises));
-        let Some(top) = of_shear
-            .iter()
-            .max_by(|a, b| a[1].total_cmp(&b[1]))
-            .copied()
-        else {
+        let Some(top) = highest(&of_shear) else {
             continue;
         };
         caption.push_str(&format!(
@@ -105,6 +97,23 @@ pub(super) fn chart(
             legend: SeriesLabelPosition::UpperRight,
         },
     })
+}
+
+/// Returns the points of a curve over the depth, down to `reach`, from positions along the normal;
+/// `into` is the sign of the way into the body.
+fn over_depth(found: Vec<[f64; 2]>, into: f64, reach: f64) -> Vec<[f64; 2]> {
+    let depths = found.into_iter().map(|[s, value]| [into * s, value]);
+    let mut points: Vec<_> = depths
+        .filter(|p| (-0.05 * reach..=reach).contains(&p[0]))
+        .collect();
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    points
+}
+
+/// Returns the point of a curve with the largest value.
+fn highest(points: &[[f64; 2]]) -> Option<[f64; 2]> {
+    let by_value = |a: &&[f64; 2], b: &&[f64; 2]| a[1].total_cmp(&b[1]);
+    points.iter().max_by(by_value).copied()
 }
 
 type Below = (usize, [[f64; 2]; 2], Patchwork);

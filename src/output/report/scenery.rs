@@ -1,7 +1,7 @@
 //! Drawings of the scene: the whole, and the surroundings of the contact; then both with the mesh.
 
-use super::Captioned;
 use super::camera::Stand;
+use super::captioned::Captioned;
 use super::contact_frame::ContactFrame;
 use super::drawing::Drawing;
 use super::perspective::Perspective;

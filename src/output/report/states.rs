@@ -1,6 +1,6 @@
 //! The pictures of the states: the choice of states and fields, and their captions.
 
-use super::Captioned;
+use super::captioned::Captioned;
 use super::contact_frame::{ContactFrame, global};
 use super::contact_map::ContactMap;
 use super::fields::{self, ShownField, StatePicture, View, chosen};

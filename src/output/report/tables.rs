@@ -1,6 +1,7 @@
 //! The tables of the page.
 
-use super::page::{Figure, factor, figures};
+use super::figure::{Figure, figures};
+use super::load_factor::{factor, factor_unit};
 use super::sketch::{BODIES, CONTACT, LOAD, SUPPORT};
 use super::theme::hex;
 use crate::model::Model;
@@ -280,7 +281,7 @@ pub(super) fn states(model: &Model, results: &Results, labels: &Labels) -> Marku
         })
         .collect();
     html! {
-        p.quiet { "A load factor is " (super::curves::factor_unit(unit)) "." }
+        p.quiet { "A load factor is " (factor_unit(unit)) "." }
         (table(&head, &rows))
     }
 }

@@ -84,10 +84,25 @@ fn a_material_that_there_is_not_is_one_problem_for_each_body() {
     }
 }
 
-/// Each row: text to replace in the good scene, its replacement, and what the message must hold.
+/// Asserts that spoilt scenes are refused. Each row holds text to replace in the good scene, its
+/// replacement, and what the message must hold.
+fn refused(cases: &[(&str, &str, &[&str])]) {
+    for (good, bad, fragments) in cases {
+        assert!(GOOD.contains(good), "the good scene has no {good}");
+        let error = Scene::parse(&GOOD.replacen(good, bad, 1), "bad.toml").unwrap_err();
+        assert_eq!(error.kind(), ErrorKind::Input, "{error}");
+        for fragment in *fragments {
+            assert!(
+                error.message().contains(fragment),
+                "{bad:?}: no {fragment:?} in {error}"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_bad_scene_is_refused_with_place_key_and_advice() {
-    let cases: &[(&str, &str, &[&str])] = &[
+    refused(&[
         (
             "yield_stress",
             "yeild_stress",
@@ -146,6 +161,12 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
                  number, 0 or more",
             ],
         ),
+    ]);
+}
+
+#[test]
+fn a_wrong_value_is_refused_with_place_key_and_what_is_expected() {
+    refused(&[
         (
             "x = [0.0, 1.0]",
             "x = [0.0]",
@@ -218,18 +239,7 @@ fn a_bad_scene_is_refused_with_place_key_and_advice() {
             "poissons_ratio = 0.5",
             &["bad.toml:10:1: materials.steel.poissons_ratio: 0.5 must lie between -1 and 0.5"],
         ),
-    ];
-    for (good, bad, fragments) in cases {
-        assert!(GOOD.contains(good), "the good scene has no {good}");
-        let error = Scene::parse(&GOOD.replacen(good, bad, 1), "bad.toml").unwrap_err();
-        assert_eq!(error.kind(), ErrorKind::Input, "{error}");
-        for fragment in *fragments {
-            assert!(
-                error.message().contains(fragment),
-                "{bad:?}: no {fragment:?} in {error}"
-            );
-        }
-    }
+    ]);
 }
 
 #[test]

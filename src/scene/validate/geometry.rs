@@ -52,12 +52,19 @@ impl Checks {
                 "is empty; give the path of a Gmsh file or a deck, relative to the scene file",
             );
         }
-        let from_file = mesh.file.is_some();
         self.require(
-            from_file || mesh.subdivisions == 0,
+            mesh.file.is_some() || mesh.subdivisions == 0,
             "mesh.subdivisions",
             "is for meshes from a file; give the generator more elements instead",
         );
+        self.declared_shapes(mesh);
+        self.sweep(scene);
+        self.bodies_of_mesh(scene);
+    }
+
+    /// Checks the shapes that are declared for surfaces of a file.
+    fn declared_shapes(&mut self, mesh: &MeshSource) {
+        let from_file = mesh.file.is_some();
         let radii = |list: &'static str, radii: Vec<f64>| (list, radii);
         for (list, radii) in [
             radii("circles", mesh.circles.iter().map(|s| s.radius).collect()),
@@ -92,8 +99,6 @@ impl Checks {
                 ),
             );
         }
-        self.sweep(scene);
-        self.bodies_of_mesh(scene);
     }
 
     fn axis(&mut self, key: &str, axis: [f64; 3]) {

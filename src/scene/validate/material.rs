@@ -217,14 +217,7 @@ impl Checks {
         if given.len() > 1 {
             self.exactly_one(key, "hardening laws", &hardening);
         }
-        if let Some(modulus) = material.kinematic_modulus {
-            let key = format!("{key}.kinematic_modulus");
-            self.at_least(key.as_str(), modulus, 0.0);
-            self.slope(key, "the modulus", modulus);
-        }
-        if let Some(rows) = &material.back_stresses {
-            self.back_stresses(&format!("{key}.back_stresses"), rows);
-        }
+        self.kinematic_hardening(key, material);
         let linear = material.kinematic_modulus.map(|_| "kinematic_modulus");
         let kinematic = linear.or(material.back_stresses.as_ref().map(|_| "back_stresses"));
         if let Some(yield_stress) = material.yield_stress {
@@ -251,6 +244,22 @@ impl Checks {
             }
             return;
         }
+        self.linear_hardening(key, material);
+    }
+
+    fn kinematic_hardening(&mut self, key: &str, material: &Material) {
+        if let Some(modulus) = material.kinematic_modulus {
+            let key = format!("{key}.kinematic_modulus");
+            self.at_least(key.as_str(), modulus, 0.0);
+            self.slope(key, "the modulus", modulus);
+        }
+        if let Some(rows) = &material.back_stresses {
+            self.back_stresses(&format!("{key}.back_stresses"), rows);
+        }
+    }
+
+    /// Checks linear isotropic hardening, by the slope against plastic or against total strain.
+    fn linear_hardening(&mut self, key: &str, material: &Material) {
         if let Some(modulus) = material.plastic_modulus {
             let key = format!("{key}.plastic_modulus");
             self.at_least(key.as_str(), modulus, 0.0);

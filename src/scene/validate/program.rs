@@ -67,6 +67,23 @@ impl Checks {
         if program.cycles > 1 {
             self.cycle(&program.targets);
         }
+        self.unit(scene);
+        self.growing(&program.targets);
+        self.followed_sets(&program.history);
+        self.targets(scene);
+        self.loaded(scene);
+        let settings = &scene.analysis;
+        self.require(
+            settings.tolerance > 1e-15 && settings.tolerance < 1e-2,
+            "analysis.tolerance",
+            format!("{:e} must lie between 1e-15 and 1e-2", settings.tolerance),
+        );
+        self.count("analysis.max_iterations", settings.max_iterations, 1);
+    }
+
+    /// Checks what the load factors of the program count in.
+    fn unit(&mut self, scene: &Scene) {
+        let program = &scene.program;
         if let Some(until) = program.interference_until {
             self.positive("program.interference_until", until);
             self.require(
@@ -86,9 +103,12 @@ impl Checks {
                 );
             }
         }
-        self.growing(&program.targets);
+    }
+
+    /// Checks the names of the sets that the history follows.
+    fn followed_sets(&mut self, history: &[String]) {
         let mut followed = BTreeSet::new();
-        for (index, name) in program.history.iter().enumerate() {
+        for (index, name) in history.iter().enumerate() {
             let key = format!("program.history.{index}");
             self.require(
                 !name.is_empty(),
@@ -98,8 +118,12 @@ impl Checks {
             let is_new = followed.insert(name.as_str());
             self.require(is_new, key, format!("\"{name}\" is there twice"));
         }
+    }
+
+    /// Checks the names and the conditions of all targets.
+    fn targets(&mut self, scene: &Scene) {
         let mut names = BTreeSet::new();
-        for (index, target) in program.targets.iter().enumerate() {
+        for (index, target) in scene.program.targets.iter().enumerate() {
             let key = format!("program.targets.{index}");
             if let Some(name) = &target.name {
                 self.require(!name.is_empty(), format!("{key}.name"), "is empty");
@@ -111,14 +135,6 @@ impl Checks {
             }
             self.target(&key, target, scene);
         }
-        self.loaded(scene);
-        let settings = &scene.analysis;
-        self.require(
-            settings.tolerance > 1e-15 && settings.tolerance < 1e-2,
-            "analysis.tolerance",
-            format!("{:e} must lie between 1e-15 and 1e-2", settings.tolerance),
-        );
-        self.count("analysis.max_iterations", settings.max_iterations, 1);
     }
 
     fn target(&mut self, key: &str, target: &Target, scene: &Scene) {

@@ -4,13 +4,15 @@
 //! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`. If little is covered, this loses only
 //! half of the digits that the inverse of `int phi_j phi_l` would lose.
 
-use super::face::{MortarFace, Plane, Point};
-use super::{CoveredFacet, NOTHING, Sides, overlap};
+use super::face::{MortarFace, Plane};
+use super::overlap::{self, Point};
+use super::{CoveredFacet, NOTHING, Sides};
 use crate::error::{Error, Result};
 use crate::shape::MAX_FACET_NODES;
 use crate::space::{Vector, along, difference, direction, dot, length};
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Ratio of the smallest to the largest diagonal entry of `R` at which a facet counts as covered.
 const SLIVER: f64 = 1e-7;
@@ -106,47 +108,123 @@ pub(super) struct OfFacet {
     pub covered: Option<CoveredFacet>,
 }
 
+/// What masters cover of a slave facet.
+struct Coverage {
+    /// Integration points of the covered part, master by master.
+    samples: Vec<CoveredPoint>,
+    /// Polygons of the covered part, in the plane of the facet.
+    polygons: Vec<Vec<Point>>,
+    /// Numbers of the master facets, and ranges of their integration points.
+    faced: Vec<(usize, Range<usize>)>,
+}
+
+impl Coverage {
+    /// Intersects a slave facet with the masters near it, in the slave's plane.
+    fn new(sides: &Sides, face: &MortarFace, plane: &Plane) -> Self {
+        let pieces = face.pieces(plane);
+        let mut out = Coverage {
+            samples: Vec::new(),
+            polygons: Vec::new(),
+            faced: Vec::new(),
+        };
+        for number in sides.near.near(face.center, face.normal, face.radius) {
+            let master = &sides.masters[number];
+            if !face.may_face(master) {
+                continue;
+            }
+            let start = out.samples.len();
+            let are_quadratic = face.is_transformed() || master.is_transformed();
+            for piece in &pieces {
+                for other in master.pieces(plane) {
+                    let common = overlap::common(piece, &other);
+                    for (point, weight) in overlap::points(&common, are_quadratic) {
+                        let found = sample(sides, [face, master], plane, point, weight);
+                        out.samples.extend(found);
+                    }
+                    out.polygons.push(common);
+                }
+            }
+            if out.samples.len() > start {
+                out.faced.push((number, start..out.samples.len()));
+            }
+        }
+        out
+    }
+
+    /// Covered area of the facet.
+    fn area(&self) -> f64 {
+        let weights = self.samples.iter().map(|s| s.root_weight * s.root_weight);
+        weights.sum()
+    }
+
+    /// Smallest gap at any integration point.
+    fn least_gap(&self) -> f64 {
+        let gaps = self.samples.iter().map(|s| dot(s.gap, s.normal));
+        gaps.fold(f64::INFINITY, f64::min)
+    }
+}
+
+/// Orthogonal factorisation `sqrt(w) phi = Q R` of the trace basis at the integration points.
+struct TraceFactor<'a> {
+    samples: &'a [CoveredPoint],
+    q: DMatrix<f64>,
+    r: DMatrix<f64>,
+}
+
+impl<'a> TraceFactor<'a> {
+    /// Factors the trace basis of `n` nodes; `None` if so little is covered that the functions are
+    /// not independent.
+    fn new(samples: &'a [CoveredPoint], n: usize) -> Option<Self> {
+        let basis = DMatrix::from_fn(samples.len(), n, |g, l| {
+            samples[g].root_weight * samples[g].slave[l]
+        });
+        let qr = basis.qr();
+        let r = qr.r();
+        let size = |pick: fn(f64, f64) -> f64, from: f64| {
+            r.diagonal().iter().map(|d| d.abs()).fold(from, pick)
+        };
+        if samples.len() < n || size(f64::min, f64::INFINITY) <= SLIVER * size(f64::max, 0.0) {
+            return None;
+        }
+        let q = qr.q();
+        Some(TraceFactor { samples, q, r })
+    }
+
+    /// Coefficients of functions at some of the points in the basis `phi`, a column for each
+    /// function: `R^-1 Q' sqrt(w) f`.
+    fn coefficients(
+        &self,
+        columns: usize,
+        range: Range<usize>,
+        of: impl Fn(&CoveredPoint, usize) -> f64,
+    ) -> DMatrix<f64> {
+        let values = DMatrix::from_fn(range.len(), columns, |g, k| {
+            let sample = &self.samples[range.start + g];
+            sample.root_weight * of(sample, k)
+        });
+        let mut out = self.q.rows(range.start, range.len()).tr_mul(&values);
+        self.r.solve_upper_triangular_mut(&mut out);
+        out
+    }
+}
+
 /// Integrates over a slave facet that faces masters, for each of its nodes.
 ///
 /// # Errors
 /// A facet that masters cover twice.
 pub(super) fn integrate(sides: &Sides, face: &MortarFace) -> Result<OfFacet> {
     let plane = Plane::new(face.center, face.normal, face.is_solid());
-    let pieces = face.pieces(&plane);
-    let mut samples = Vec::new();
-    let mut covered: Vec<Vec<Point>> = Vec::new();
-    let mut faced = Vec::new();
-    for number in sides.near.near(face.center, face.normal, face.radius) {
-        let master = &sides.masters[number];
-        if !face.may_face(master) {
-            continue;
-        }
-        let start = samples.len();
-        let are_quadratic = face.is_transformed() || master.is_transformed();
-        for piece in &pieces {
-            for other in master.pieces(&plane) {
-                let common = overlap::common(piece, &other);
-                for (point, weight) in overlap::points(&common, are_quadratic) {
-                    samples.extend(sample(sides, [face, master], &plane, point, weight));
-                }
-                covered.push(common);
-            }
-        }
-        if samples.len() > start {
-            faced.push((number, start..samples.len()));
-        }
-    }
-    let parts = || by_pieces(face, &plane, &covered);
+    let coverage = Coverage::new(sides, face, &plane);
+    let parts = || by_pieces(face, &plane, &coverage.polygons);
     let none = || OfFacet {
         nodes: Vec::new(),
         covered: Some(parts()),
     };
-    if samples.is_empty() {
+    if coverage.samples.is_empty() {
         return Ok(none());
     }
-    let n = face.nodes.len();
     let (whole, area) = whole(sides, face);
-    let covered_area: f64 = samples.iter().map(|s| s.root_weight * s.root_weight).sum();
+    let covered_area = coverage.area();
     if covered_area > (1.0 + TWICE) * area {
         let mesh = sides.entries.mesh;
         return Err(Error::input(format!(
@@ -157,35 +235,14 @@ pub(super) fn integrate(sides: &Sides, face: &MortarFace) -> Result<OfFacet> {
             mesh.place(face.nodes[0])
         )));
     }
-    let basis = DMatrix::from_fn(samples.len(), n, |g, l| {
-        samples[g].root_weight * samples[g].slave[l]
-    });
-    let qr = basis.qr();
-    let r = qr.r();
-    let size = |pick: fn(f64, f64) -> f64, from: f64| {
-        r.diagonal().iter().map(|d| d.abs()).fold(from, pick)
-    };
-    if samples.len() < n || size(f64::min, f64::INFINITY) <= SLIVER * size(f64::max, 0.0) {
+    let samples = &coverage.samples;
+    let Some(basis) = TraceFactor::new(samples, face.nodes.len()) else {
         return Ok(none());
-    }
-    let q = qr.q();
-    // Coefficients of functions at the samples in the basis `phi`: `R^-1 Q' sqrt(w) f`.
-    let coefficients = |columns: usize,
-                        range: std::ops::Range<usize>,
-                        of: &dyn Fn(&CoveredPoint, usize) -> f64| {
-        let values = DMatrix::from_fn(range.len(), columns, |g, k| {
-            let sample = &samples[range.start + g];
-            sample.root_weight * of(sample, k)
-        });
-        let mut out = q.rows(range.start, range.len()).tr_mul(&values);
-        r.solve_upper_triangular_mut(&mut out);
-        out
     };
     let all = 0..samples.len();
-    let gap = coefficients(3, all.clone(), &|s, d| s.gap[d]);
-    let normal = coefficients(3, all, &|s, d| s.normal[d]);
-    let least = samples.iter().map(|s| dot(s.gap, s.normal));
-    let least = least.fold(f64::INFINITY, f64::min);
+    let gap = basis.coefficients(3, all.clone(), |s, d| s.gap[d]);
+    let normal = basis.coefficients(3, all, |s, d| s.normal[d]);
+    let least = coverage.least_gap();
     let mut out: Vec<(usize, Integrals)> = (face.nodes.iter().enumerate())
         .map(|(l, &node)| {
             let covered = (samples.iter())
@@ -198,7 +255,7 @@ pub(super) fn integrate(sides: &Sides, face: &MortarFace) -> Result<OfFacet> {
                 gap: std::array::from_fn(|d| covered * gap[(l, d)]),
                 normal: std::array::from_fn(|d| covered * normal[(l, d)]),
                 least,
-                faced: faced.iter().map(|(number, _)| *number).collect(),
+                faced: coverage.faced.iter().map(|(number, _)| *number).collect(),
                 of_facet: covered_area,
                 largest: face.radius,
                 is_transformed: face.is_transformed(),
@@ -206,9 +263,9 @@ pub(super) fn integrate(sides: &Sides, face: &MortarFace) -> Result<OfFacet> {
             (node, integrals)
         })
         .collect();
-    for (number, range) in faced {
-        let master = &sides.masters[number];
-        let of_masters = coefficients(master.nodes.len(), range, &|s, k| s.master[k]);
+    for (number, range) in &coverage.faced {
+        let master = &sides.masters[*number];
+        let of_masters = basis.coefficients(master.nodes.len(), range.clone(), |s, k| s.master[k]);
         for (l, (_, integrals)) in out.iter_mut().enumerate() {
             for (k, &node) in master.nodes.iter().enumerate() {
                 *integrals.masters.entry(node).or_default() +=

@@ -1,6 +1,6 @@
 //! A facet for mortar integrals: projected along a direction, and mapped back.
 
-use super::overlap;
+use super::overlap::{self, Point};
 use crate::mesh::{Facet, Mesh};
 use crate::shape::{FacetReference, MAX_FACET_NODES, Place};
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
@@ -29,9 +29,6 @@ pub(super) struct Plane {
     pub normal: Vector,
     axes: [Vector; 2],
 }
-
-/// Coordinates in a plane; in plane models the second is 0.
-pub(super) type Point = [f64; 2];
 
 impl Plane {
     pub(super) fn new(origin: Vector, normal: Vector, is_solid: bool) -> Self {

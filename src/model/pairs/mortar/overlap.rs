@@ -1,7 +1,9 @@
 //! Common part of two facets, seen along a direction, and points to integrate over it.
 
-use super::face::Point;
 use crate::shape::FacetReference;
+
+/// Coordinates in a plane; in plane models the second is 0.
+pub(super) type Point = [f64; 2];
 
 /// Gauss' five points on `[-1, 1]`, exact to degree 9 (M. Abramowitz, I. A. Stegun, *Handbook of
 /// Mathematical Functions*, table 25.4).

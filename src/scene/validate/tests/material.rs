@@ -76,13 +76,14 @@ fn rows_over_temperature() {
     );
 }
 
+macro_rules! steel {
+    ($scene:ident) => {
+        $scene.materials.get_mut("steel").unwrap()
+    };
+}
+
 #[test]
-fn materials_and_bodies() {
-    macro_rules! steel {
-        ($scene:ident) => {
-            $scene.materials.get_mut("steel").unwrap()
-        };
-    }
+fn elastic_constants_and_moduli() {
     refused(
         good,
         &[
@@ -125,6 +126,15 @@ fn materials_and_bodies() {
                 },
                 "tangent_modulus: 210000 must be at least 0 and less than Young's modulus",
             ),
+        ],
+    );
+}
+
+#[test]
+fn hardening_tables() {
+    refused(
+        good,
+        &[
             (
                 |s| {
                     steel!(s).plastic_modulus = None;
@@ -162,6 +172,15 @@ fn materials_and_bodies() {
                 },
                 "hardening_table.0: plastic strain 0.001 must be 0",
             ),
+        ],
+    );
+}
+
+#[test]
+fn tensile_tests() {
+    refused(
+        good,
+        &[
             (
                 |s| tested(s, None, &[[0.001, 300.0]]),
                 "tensile_test: no row lies beyond yield",
@@ -201,6 +220,15 @@ fn materials_and_bodies() {
                 |s| tested(s, Some(300.0), &[[0.01, 400.0], [0.0101, 500.0]]),
                 "tensile_test.1: plastic strain 0.00764",
             ),
+        ],
+    );
+}
+
+#[test]
+fn bodies() {
+    refused(
+        good,
+        &[
             (
                 |s| s.bodies.get_mut("cylinder").unwrap().material = "wood".into(),
                 "bodies.cylinder.material: there is no material \"wood\"; known materials: steel",
