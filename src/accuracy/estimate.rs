@@ -77,10 +77,6 @@ pub(super) fn assess(
     } = run;
     let mut out = Accuracy::default();
     let found = run_others(levels, runs, &mut out, observer);
-    let others: Vec<(f64, Vec<Quantity>)> = (found.iter())
-        .map(|(ratio, other)| (*ratio, quantities(&other.results)))
-        .collect();
-    let has_norm = results.states.iter().any(|s| s.energy_error.is_some());
     let path = if results.incomplete.is_some() {
         let why = "the run is incomplete: no error is estimated";
         out.notes.push(why.to_string());
@@ -91,7 +87,8 @@ pub(super) fn assess(
         let others = found.iter().map(|(_, other)| other);
         path_errors(run, others, runs, &mut out, observer)
     };
-    out.method = match others.is_empty() {
+    let has_norm = results.states.iter().any(|s| s.energy_error.is_some());
+    out.method = match found.is_empty() {
         false => EstimateMethod::CoarserMeshes,
         true if has_norm && results.incomplete.is_none() => EstimateMethod::EnergyNorm,
         _ => EstimateMethod::None,
@@ -103,26 +100,54 @@ pub(super) fn assess(
     let formal = formal_order("approach", results.sizes.degree);
     unresolved.find_nearly_closed(results, &elsewhere, formal);
     out.notes.extend(unresolved.notes());
-    for quantity in &quantities(results) {
-        let algebraic = algebraic_error(run, quantity);
-        let mesh = match out.method {
+    let sources = ErrorSources {
+        run,
+        method: out.method,
+        others: (found.iter())
+            .map(|(ratio, other)| (*ratio, quantities(&other.results)))
+            .collect(),
+        path,
+        unresolved,
+    };
+    let all = quantities(results);
+    out.quantities = all.iter().map(|quantity| sources.of(quantity)).collect();
+    if extent == Extent::Program {
+        out.notes.extend(said_by_load(scene, &out.quantities));
+        out.notes.extend(path::beyond_asked(scene, &out.quantities));
+    }
+    out.seconds = start.elapsed().as_secs_f64();
+    out
+}
+
+/// What is known of the errors of a run: from where those of its quantities follow.
+struct ErrorSources<'r> {
+    run: &'r Judged<'r>,
+    method: EstimateMethod,
+    /// Element sizes of the other meshes over that of the run, with their quantities.
+    others: Vec<(f64, Vec<Quantity>)>,
+    path: PathErrors,
+    unresolved: Unresolved,
+}
+
+impl ErrorSources<'_> {
+    /// The errors of a quantity of the run.
+    fn of(&self, quantity: &Quantity) -> QuantityError {
+        let algebraic = algebraic_error(self.run, quantity);
+        let mesh = match self.method {
+            _ if self.unresolved.hides(quantity) => OfMeshes::default(),
             EstimateMethod::CoarserMeshes => {
-                let degree = results.sizes.degree;
-                of_meshes(quantity, degree, algebraic, &others)
+                let degree = self.run.results.sizes.degree;
+                of_meshes(quantity, degree, algebraic, &self.others)
             }
             EstimateMethod::EnergyNorm => OfMeshes {
-                error: by_energy_norm(run, quantity),
+                error: by_energy_norm(self.run, quantity),
                 ..OfMeshes::default()
             },
             EstimateMethod::None => OfMeshes::default(),
         };
-        let path = path.of(&quantity.path);
-        let mesh = match unresolved.hides(quantity) {
-            true => OfMeshes::default(),
-            false => mesh,
-        };
+        let path = self.path.of(&quantity.path);
         let error = mesh.error.map(|e| e + path.unwrap_or(0.0) + algebraic);
-        out.quantities.push(QuantityError {
+        QuantityError {
             quantity: quantity.path.clone(),
             value: quantity.value,
             error,
@@ -134,14 +159,8 @@ pub(super) fn assess(
             algebraic,
             order: mesh.order,
             extrapolated: mesh.limit,
-        });
+        }
     }
-    if extent == Extent::Program {
-        out.notes.extend(said_by_load(scene, &out.quantities));
-        out.notes.extend(path::beyond_asked(scene, &out.quantities));
-    }
-    out.seconds = start.elapsed().as_secs_f64();
-    out
 }
 
 /// The error of a quantity where no other mesh was run: the energy norm of the stress error, of the

@@ -80,7 +80,7 @@ fn main() {
         let mut page = HELD_OUT.to_string();
         let third = held_out_third::families(folder.path());
         let mut priced = String::new();
-        let claims = judged("third set", &third, &mut page, Some(&mut priced));
+        let claims = judged("third set", &third, &mut page, Some((&mut priced, 60.0)));
         by_quantity("third set", &claims, &mut page);
         page += prices::HEAD;
         page += &priced;
@@ -120,7 +120,7 @@ fn main() {
     let mut page = HEAD.to_string();
     let mut priced = String::new();
     for (group, families) in &groups {
-        let claims = judged(group, families, &mut page, Some(&mut priced));
+        let claims = judged(group, families, &mut page, Some((&mut priced, 20.0)));
         if *group != "calibration" {
             by_quantity(group, &claims, &mut page);
         }
@@ -130,12 +130,13 @@ fn main() {
     std::fs::write("data/accuracy/claims.md", page).unwrap();
 }
 
-/// The claims of a group's families and the prices of demands on them.
+/// The claims of a group's families and the prices of demands on them, with so many seconds for
+/// each.
 fn judged(
     group: &str,
     families: &[Family],
     page: &mut String,
-    mut priced: Option<&mut String>,
+    mut priced: Option<(&mut String, f64)>,
 ) -> Vec<Claim> {
     write!(page, "\n## Families: {group}\n\n| family {COLUMNS}").unwrap();
     let mut all = Vec::new();
@@ -145,8 +146,8 @@ fn judged(
         let row = row(&claims.iter().collect::<Vec<_>>());
         writeln!(page, "| {} | {row} |", family.name).unwrap();
         eprintln!("{}: {row}", family.name);
-        if let Some(priced) = &mut priced {
-            **priced += &prices::of(family, &known);
+        if let Some((priced, budget)) = &mut priced {
+            **priced += &prices::of(family, &known, *budget);
         }
         all.extend(claims);
     }
