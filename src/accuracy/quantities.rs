@@ -31,8 +31,8 @@ impl Quantity {
     }
 }
 
-/// Kinds of figures of the parts of a state: of bodies, contacts, patches and sets.
-const PARTS: [&str; 9] = [
+/// Kinds of figures of the parts of a state: of bodies, contacts, patches, sets and places.
+const PARTS: [&str; 12] = [
     BODY_DENT,
     CONTACT_FORCE,
     CONTACT_APPROACH,
@@ -40,6 +40,9 @@ const PARTS: [&str; 9] = [
     PATCH_FORCE,
     PATCH_PRESSURE,
     PATCH_HALF_AXIS,
+    PLACE_DISPLACEMENT,
+    PLACE_PRESSURE,
+    PLACE_STRESS,
     SET_DISPLACEMENT,
     SET_FORCE,
 ];
@@ -50,6 +53,9 @@ const CONTACT_AREA: &str = "contact area";
 const PATCH_FORCE: &str = "patch force";
 const PATCH_PRESSURE: &str = "patch pressure";
 const PATCH_HALF_AXIS: &str = "patch half axis";
+const PLACE_DISPLACEMENT: &str = "displacement at a place";
+const PLACE_PRESSURE: &str = "pressure at a place";
+const PLACE_STRESS: &str = "stress at a place";
 const SET_DISPLACEMENT: &str = "set displacement";
 const SET_FORCE: &str = "set force";
 
@@ -148,6 +154,7 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
             .iter()
             .flat_map(|state| of_parts(state, results)),
     );
+    out.extend(at_places(results));
     let mut scales: BTreeMap<&str, f64> = BTreeMap::new();
     for quantity in &out {
         let scale = scales.entry(quantity.kind).or_insert(0.0);
@@ -223,6 +230,32 @@ fn of_parts(state: &State, results: &Results) -> Vec<Quantity> {
         }
     }
     out
+}
+
+/// Values at the places of the scene's reference values.
+fn at_places(results: &Results) -> Vec<Quantity> {
+    let rows = (1..).zip(&results.reference);
+    let known = rows.filter_map(|(number, row)| {
+        let (state, key) = row.quantity.strip_prefix("states.")?.rsplit_once('.')?;
+        let kind = match key {
+            "pressure" => PLACE_PRESSURE,
+            _ if key.starts_with("displacement_") => PLACE_DISPLACEMENT,
+            _ if key.starts_with("stress_") => PLACE_STRESS,
+            _ => return None,
+        };
+        Some(Quantity {
+            path: format!("reference.{number}.{}", row.quantity),
+            state: Some(state.to_string()),
+            kind,
+            value: row.computed,
+            scale: 0.0,
+            reading: 0.0,
+            least: 0.0,
+        })
+    });
+    known
+        .filter(|quantity| quantity.value.is_finite())
+        .collect()
 }
 
 /// The kind of a column of the history; `None` for the approach of the loads and for forces of

@@ -89,7 +89,7 @@ impl Runs {
     }
 }
 
-/// Runs a scene without fields.
+/// Runs a scene without fields, unless it names places whose values are read from them.
 ///
 /// # Errors
 /// Errors of the run; one that ended before its program did is one.
@@ -100,8 +100,9 @@ pub(super) fn run(
     observer: &mut dyn Observer,
 ) -> Result<Results> {
     let mut bare = scene.clone();
+    let has_places = scene.reference.iter().any(|entry| entry.at.is_some());
     for target in &mut bare.program.targets {
-        target.fields = false;
+        target.fields &= has_places;
     }
     let (_, results) = analyse(Model::new(&bare)?, backend, extent, observer)?;
     match &results.incomplete {

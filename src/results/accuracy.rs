@@ -89,7 +89,10 @@ pub struct Companion {
 
 /// Figures of parts of a state that have errors of their own: what their paths contain, how these
 /// end, and the figures in words.
-const PARTS: [(&str, &str, &str); 10] = [
+const PARTS: [(&str, &str, &str); 13] = [
+    ("reference.", ".pressure", "pressures at places"),
+    ("reference.", ".displacement", "displacements at places"),
+    ("reference.", "", "stresses at places"),
     (".residual_depth_by_body.", "", "dents of bodies"),
     (".patches.", ".force", "forces of patches"),
     (".patches.", ".max_pressure", "their pressures"),
@@ -104,7 +107,7 @@ const PARTS: [(&str, &str, &str); 10] = [
 
 impl QuantityError {
     /// In words, what the quantity is if it is one of a part of a state: of a body, a contact, a
-    /// patch, or a set that the history follows.
+    /// patch, a set that the history follows, or a place.
     pub fn of_part(&self) -> Option<&'static str> {
         // Components end with their axis.
         let end = self.quantity.trim_end_matches(['x', 'y', 'z']);
@@ -122,7 +125,8 @@ pub struct QuantityError {
     /// Path of the quantity in `summary.json`; states are given by name: `states.NAME.KEY`. Of a
     /// part of a state: `states.NAME.residual_depth_by_body.BODY`, `states.NAME.contact_1.force`,
     /// `states.NAME.patches.1.KEY`, patches counted from 1 in the order of the summary, and
-    /// `states.NAME.history.COLUMN` for a column that the scene adds to the history.
+    /// `states.NAME.history.COLUMN` for a column that the scene adds to the history. Of a place of
+    /// the scene's reference values: `reference.1.states.NAME.stress_xx`, counted from 1.
     pub quantity: String,
     /// The reported value.
     #[serde(deserialize_with = "number")]

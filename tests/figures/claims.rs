@@ -1,6 +1,6 @@
-//! The page data/accuracy/claims.md: stated errors beside true ones over families of meshes, and
-//! what demands cost. Run with `cargo run --release --example claims`. With `-- solids` the page
-//! data/accuracy/claims_solids.md, of solids.
+//! The page data/accuracy/claims.md: stated errors beside true ones over families of meshes. Run
+//! with `cargo run --release --example claims`. With `-- default` the page claims_default.md, of
+//! families that were held out, with what demands cost; with `-- solids` claims_solids.md.
 
 mod calibration;
 #[path = "../accuracy/families.rs"]
@@ -80,7 +80,7 @@ fn main() {
         let mut page = HELD_OUT.to_string();
         let third = held_out_third::families(folder.path());
         let mut priced = String::new();
-        let claims = judged("third set", &third, &mut page, Some((&mut priced, 60.0)));
+        let claims = judged("third set", &third, &mut page, Some(&mut priced));
         by_quantity("third set", &claims, &mut page);
         page += prices::HEAD;
         page += &priced;
@@ -118,25 +118,21 @@ fn main() {
         ("unseen", unseen::families(folder.path())),
     ];
     let mut page = HEAD.to_string();
-    let mut priced = String::new();
     for (group, families) in &groups {
-        let claims = judged(group, families, &mut page, Some((&mut priced, 20.0)));
+        let claims = judged(group, families, &mut page, None);
         if *group != "calibration" {
             by_quantity(group, &claims, &mut page);
         }
     }
-    page += prices::HEAD;
-    page += &priced;
     std::fs::write("data/accuracy/claims.md", page).unwrap();
 }
 
-/// The claims of a group's families and the prices of demands on them, with so many seconds for
-/// each.
+/// The claims of a group's families and, where asked for, the prices of demands on them.
 fn judged(
     group: &str,
     families: &[Family],
     page: &mut String,
-    mut priced: Option<(&mut String, f64)>,
+    mut priced: Option<&mut String>,
 ) -> Vec<Claim> {
     write!(page, "\n## Families: {group}\n\n| family {COLUMNS}").unwrap();
     let mut all = Vec::new();
@@ -146,8 +142,8 @@ fn judged(
         let row = row(&claims.iter().collect::<Vec<_>>());
         writeln!(page, "| {} | {row} |", family.name).unwrap();
         eprintln!("{}: {row}", family.name);
-        if let Some((priced, budget)) = &mut priced {
-            **priced += &prices::of(family, &known, *budget);
+        if let Some(priced) = &mut priced {
+            **priced += &prices::of(family, &known);
         }
         all.extend(claims);
     }

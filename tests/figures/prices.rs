@@ -23,6 +23,8 @@ pub const HEAD: &str = "\n## What a demand costs\n\nAll runs of a demand togethe
 /// Element sizes of the meshes among which the cheapest is sought, over the scene's.
 const SOUGHT: [f64; 2] = [4.0, 0.4];
 const STEP: f64 = 1.2;
+/// Seconds for a demand.
+const BUDGET: f64 = 60.0;
 const DEMANDS: [f64; 3] = [0.1, 0.03, 0.01];
 /// Values at a point or counted in Gauss points: a demand on all does not hold for them.
 const POINTWISE: [&str; 3] = [
@@ -31,8 +33,8 @@ const POINTWISE: [&str; 3] = [
     "max_equivalent_plastic_strain",
 ];
 
-/// The rows of a family, of which these values are known, with so many seconds for a demand.
-pub fn of(family: &Family, known: &BTreeMap<String, f64>, budget: f64) -> String {
+/// The rows of a family, of which these values are known.
+pub fn of(family: &Family, known: &BTreeMap<String, f64>) -> String {
     let scene = &family.meshes[family.meshes.len() / 2].1;
     let has = run(scene, family.extent).map_or_else(Vec::new, |results| quantities(&results));
     let demanded = |q: &&Quantity| !q.is_of_part() && !POINTWISE.contains(&q.kind);
@@ -50,7 +52,7 @@ pub fn of(family: &Family, known: &BTreeMap<String, f64>, budget: f64) -> String
         let mut demanded = scene.clone();
         demanded.accuracy = Some(AccuracyDemand::try_from(all.join(", ")).unwrap());
         let (backend, begun) = (Backend::default(), Instant::now());
-        let found = reach(&demanded, backend, family.extent, Some(budget), &mut Silent);
+        let found = reach(&demanded, backend, family.extent, Some(BUDGET), &mut Silent);
         let results = match found {
             Ok(found) => found.results,
             Err(error) => {
