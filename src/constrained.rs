@@ -95,13 +95,13 @@ pub struct ConstrainedStructure {
     /// The matrix `T` of the contact problem.
     contact_matrix: Arc<DMatrix<f64>>,
     tableau: Tableau,
-    state: State,
+    state: LoadedState,
     way: Option<Way>,
 }
 
 /// Load of a state with its gaps and forces.
 #[derive(Clone)]
-struct State {
+struct LoadedState {
     load: Vec<f64>,
     /// Load condensed on the contact freedoms.
     condensed: DVector<f64>,
@@ -175,7 +175,7 @@ impl ConstrainedStructure {
         let mut structure = ConstrainedStructure {
             norm: linalg::norm(&stiffness),
             stiffness: Arc::new(stiffness),
-            state: State {
+            state: LoadedState {
                 load: vec![0.0; n],
                 condensed: DVector::zeros(partition.contact.len()),
                 gap: Arc::new(gaps.to_vec()),
@@ -230,7 +230,7 @@ impl ConstrainedStructure {
         let (mut gap, mut force) = (vec![0.0; q.len()], vec![0.0; q.len()]);
         contact::solve(&mut self.tableau, q.as_slice(), &mut gap, &mut force)
             .map_err(pushed_away)?;
-        self.state = State {
+        self.state = LoadedState {
             load: load.to_vec(),
             condensed,
             gap: Arc::new(gap),

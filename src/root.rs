@@ -16,25 +16,25 @@ const PATIENCE: usize = 3;
 /// is below the spacing of doubles.
 const GOLDEN_STEPS: usize = 80;
 
-/// Accuracy at which a search for a root ends.
+/// Tolerance at which a search for a root ends.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Accuracy {
+pub(crate) struct RootTolerance {
     /// Absolute value of the function that counts as zero.
     pub value: f64,
     /// Width of the bracket relative to the size of its ends.
     pub place: f64,
 }
 
-impl Accuracy {
+impl RootTolerance {
     /// Goes on until no double lies within the bracket: the same root in whatever way it is found.
-    pub(crate) const ROUND_OFF: Accuracy = Accuracy {
+    pub(crate) const ROUND_OFF: RootTolerance = RootTolerance {
         value: f64::NEG_INFINITY,
         place: 0.0,
     };
 
     /// Uses one accuracy for the value and the place.
     pub(crate) const fn both(accuracy: f64) -> Self {
-        Accuracy {
+        RootTolerance {
             value: accuracy,
             place: accuracy,
         }
@@ -47,11 +47,15 @@ impl Accuracy {
 /// is closer to a change of sign.
 pub(crate) fn of(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let ends = [(low, f(low)), (high, f(high))];
-    between(ends, Accuracy::ROUND_OFF, f)
+    between(ends, RootTolerance::ROUND_OFF, f)
 }
 
 /// Finds a root as [`try_between`] does, for a function that cannot fail.
-pub(crate) fn between(ends: [(f64, f64); 2], accuracy: Accuracy, f: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn between(
+    ends: [(f64, f64); 2],
+    accuracy: RootTolerance,
+    f: impl Fn(f64) -> f64,
+) -> f64 {
     let Ok(root) = try_between(ends, accuracy, |x| Ok::<_, Infallible>(f(x)));
     root
 }
@@ -59,15 +63,15 @@ pub(crate) fn between(ends: [(f64, f64); 2], accuracy: Accuracy, f: impl Fn(f64)
 /// Finds the root of `f` between two places, each given with its value; the values have opposite
 /// signs.
 ///
-/// Except with [`Accuracy::ROUND_OFF`], the result is the last place at which `f` was evaluated. If
-/// the signs are not opposite, the end nearer to a change of sign is returned. NaN counts as
-/// positive.
+/// Except with [`RootTolerance::ROUND_OFF`], the result is the last place at which `f` was
+/// evaluated. If the signs are not opposite, the end nearer to a change of sign is returned. NaN
+/// counts as positive.
 ///
 /// # Errors
 /// The first error that the function returns.
 pub(crate) fn try_between<E>(
     mut ends: [(f64, f64); 2],
-    accuracy: Accuracy,
+    accuracy: RootTolerance,
     mut f: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {
     if ends[1].1 < ends[0].1 {
@@ -188,7 +192,7 @@ mod tests {
                 calls.set(calls.get() + 1);
                 f(x)
             };
-            let accuracy = Accuracy::both(1e-15);
+            let accuracy = RootTolerance::both(1e-15);
             let x = between([(0.0, f(0.0)), (1.0, f(1.0))], accuracy, counted);
             (x, calls.get())
         };

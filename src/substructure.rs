@@ -38,7 +38,7 @@ use crate::error::Result;
 use crate::linalg::{self, Backend, ContactStiffness, Partition, Recovered, ZonePart};
 use crate::memory;
 use crate::model::{Model, Work};
-use groups::Groups;
+use groups::TiedGroups;
 use nalgebra::DMatrix;
 use sharing::{Condensation, HeldFactor};
 use singular::name_freedom;
@@ -51,7 +51,7 @@ pub struct Substructure {
     /// Whether the factor was made for this structure, rather than taken over from an earlier run.
     is_new: bool,
     n_pairs: usize,
-    tied: Option<Groups>,
+    tied: Option<TiedGroups>,
     contact_matrix: PairMatrix,
 }
 
@@ -337,13 +337,13 @@ impl Substructure {
     /// Number of multiplications that combining leaders and followers of the contact rows took, in
     /// two products with the weights by which leaders carry followers.
     pub fn tying_multiplications(&self) -> usize {
-        self.tied.as_ref().map_or(0, Groups::multiplications)
+        self.tied.as_ref().map_or(0, TiedGroups::multiplications)
     }
 
     /// Bytes held by the dense contact matrices: `T`, its swept copy in the tableau, and factor and
     /// coupling of the tied structure.
     pub fn contact_bytes(&self) -> u64 {
-        let tied = self.tied.as_ref().map_or(0, Groups::n_entries);
+        let tied = self.tied.as_ref().map_or(0, TiedGroups::n_entries);
         (size_of::<f64>() * (2 * self.contact_matrix.n_entries() + tied)) as u64
     }
 }
@@ -353,14 +353,14 @@ fn tie(
     model: &Model,
     partition: &Partition,
     stiffness: ContactStiffness,
-) -> Result<(Groups, PairMatrix)> {
-    let contact = groups::Contact {
+) -> Result<(TiedGroups, PairMatrix)> {
+    let contact = groups::GroupedRows {
         rows: &model.rows.entries,
         freedoms: &partition.contact,
         part: &model.floating.part_of_contact,
         rigid: &model.rigid_contact(),
     };
-    Groups::new(stiffness, &model.floating.motions, contact)
+    TiedGroups::new(stiffness, &model.floating.motions, contact)
 }
 
 /// Cost of the dense part of contact, known from the model alone. A group of `p` rows and `m`

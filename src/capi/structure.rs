@@ -100,11 +100,11 @@ unsafe fn read_matrix(matrix: &brinell_matrix) -> Result<SymmetricCsc> {
     stiffness_from_csc(n, starts, rows, values, triangle)
 }
 
-type Rows = (Vec<Vec<(usize, f64)>>, Vec<f64>);
+type ConstraintRows = (Vec<Vec<(usize, f64)>>, Vec<f64>);
 
 /// # Safety
 /// The arrays are as long as the structure says.
-unsafe fn read_rows(rows: &brinell_rows, n: usize) -> Result<Rows> {
+unsafe fn read_rows(rows: &brinell_rows, n: usize) -> Result<ConstraintRows> {
     if rows.n_rows == 0 {
         return Ok((Vec::new(), Vec::new()));
     }

@@ -24,7 +24,7 @@ pub(super) struct CommonArguments {
     pub scene: PathBuf,
     /// The solver that factors the stiffness matrix
     #[arg(long, value_enum, value_name = "SOLVER", default_value_t)]
-    pub solver: Solver,
+    pub solver: BackendName,
     /// Number of threads, at most 16 for each processor (or 64); by default as many as there are
     /// processors
     #[arg(long, value_name = "N", value_parser = threads)]
@@ -95,7 +95,7 @@ pub(super) enum Estimate {
 
 /// A backend, by the name that users know.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Solver {
+pub(super) enum BackendName {
     /// Sparse Cholesky of SuiteSparse
     Cholmod,
     /// Sparse Cholesky in Rust
@@ -106,24 +106,24 @@ pub(super) enum Solver {
     Dense,
 }
 
-impl Default for Solver {
+impl Default for BackendName {
     fn default() -> Self {
         match Backend::default() {
-            Backend::Cholmod => Solver::Cholmod,
-            Backend::Faer => Solver::Faer,
-            Backend::Mumps => Solver::Mumps,
-            Backend::Dense => Solver::Dense,
+            Backend::Cholmod => BackendName::Cholmod,
+            Backend::Faer => BackendName::Faer,
+            Backend::Mumps => BackendName::Mumps,
+            Backend::Dense => BackendName::Dense,
         }
     }
 }
 
-impl From<Solver> for Backend {
-    fn from(solver: Solver) -> Self {
+impl From<BackendName> for Backend {
+    fn from(solver: BackendName) -> Self {
         match solver {
-            Solver::Cholmod => Backend::Cholmod,
-            Solver::Faer => Backend::Faer,
-            Solver::Mumps => Backend::Mumps,
-            Solver::Dense => Backend::Dense,
+            BackendName::Cholmod => Backend::Cholmod,
+            BackendName::Faer => Backend::Faer,
+            BackendName::Mumps => Backend::Mumps,
+            BackendName::Dense => Backend::Dense,
         }
     }
 }

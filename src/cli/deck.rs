@@ -1,6 +1,6 @@
 //! A report of how a deck was converted.
 
-use super::table::{Column, Table, page_width, wrap};
+use super::table::{ColumnAlignment, Table, page_width, wrap};
 use crate::deck::{Deck, Note};
 
 /// Lists the keywords that were understood, and those that were taken otherwise, ignored or
@@ -8,9 +8,9 @@ use crate::deck::{Deck, Note};
 pub(super) fn account(deck: &Deck) -> String {
     let account = deck.account();
     let mut table = Table::new(&[
-        (Column::Text, "understood"),
-        (Column::Number, "times"),
-        (Column::Text, "first at"),
+        (ColumnAlignment::Text, "understood"),
+        (ColumnAlignment::Number, "times"),
+        (ColumnAlignment::Text, "first at"),
     ]);
     for (keyword, (times, place)) in &account.understood {
         table.row([format!("*{keyword}"), times.to_string(), place.clone()]);

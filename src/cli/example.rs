@@ -1,7 +1,7 @@
 //! `brinell example`: the commented scenes of the project, built into the program.
 
 use super::streams::print;
-use super::table::{Column, Table, page_width};
+use super::table::{ColumnAlignment, Table, page_width};
 use crate::error::{Error, Result};
 use clap::Args;
 
@@ -48,7 +48,10 @@ const EXAMPLES: &[Example] = examples![
 /// Prints an example or the list of examples.
 pub(super) fn run(arguments: &ExampleArguments) -> Result<()> {
     let Some(name) = &arguments.name else {
-        let mut table = Table::new(&[(Column::Text, "example"), (Column::Text, "what")]);
+        let mut table = Table::new(&[
+            (ColumnAlignment::Text, "example"),
+            (ColumnAlignment::Text, "what"),
+        ]);
         for (name, text) in EXAMPLES {
             table.row([name.to_string(), title(text).to_string()]);
         }

@@ -27,7 +27,7 @@ const LEAST: f64 = 0.01;
 const BYTES: f64 = 40.0;
 
 /// The data of a run on which predictions are based.
-pub(super) struct Forecast {
+pub(super) struct TimeForecast {
     started: Instant,
     freedoms: f64,
     pairs: f64,
@@ -39,9 +39,9 @@ pub(super) struct Forecast {
     last_end: f64,
 }
 
-impl Forecast {
+impl TimeForecast {
     pub fn new(started: Instant) -> Self {
-        Forecast {
+        TimeForecast {
             started,
             freedoms: 0.0,
             pairs: 0.0,
@@ -132,7 +132,7 @@ mod tests {
 
     #[test]
     fn the_assembly_tells_the_speed_of_the_machine() {
-        let mut forecast = Forecast::new(Instant::now());
+        let mut forecast = TimeForecast::new(Instant::now());
         forecast.model(1_000_000, 100);
         let before = forecast.seconds("factorisation");
         // The terms are 2.5 s for the part that grows with the freedoms and 7.75 s for the fill.
@@ -143,7 +143,7 @@ mod tests {
 
     #[test]
     fn every_phase_has_a_prediction() {
-        let mut forecast = Forecast::new(Instant::now());
+        let mut forecast = TimeForecast::new(Instant::now());
         let phases = [
             "mesh and model",
             "assembly",
@@ -175,7 +175,7 @@ mod tests {
         ] {
             let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
             let scene = Scene::load(root.join(format!("data/scenes/{name}.toml"))).unwrap();
-            let mut forecast = Forecast::new(Instant::now());
+            let mut forecast = TimeForecast::new(Instant::now());
             forecast.scene(&scene);
             let freedoms = crate::model::Model::new(&scene).unwrap().freedoms.n as f64;
             let ratio = forecast.freedoms / freedoms;

@@ -1,7 +1,7 @@
 //! `brinell hardness`: the figures of a hardness test, from the results of a ball on a flat.
 
 use super::streams::{json, print, warn};
-use super::table::{Column, Table, page_width, wrap};
+use super::table::{ColumnAlignment, Table, page_width, wrap};
 use crate::analytical::{Indentation, contact_modulus};
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -238,10 +238,10 @@ impl HardnessSheet {
 
     fn text(&self) -> String {
         let mut table = Table::new(&[
-            (Column::Text, "figure"),
-            (Column::Number, "value"),
-            (Column::Text, "unit"),
-            (Column::Text, "what it is"),
+            (ColumnAlignment::Text, "figure"),
+            (ColumnAlignment::Number, "value"),
+            (ColumnAlignment::Text, "unit"),
+            (ColumnAlignment::Text, "what it is"),
         ]);
         for (name, value, unit, about) in self.rows() {
             let value = value.map_or("unknown".to_string(), |v| significant(v, DIGITS));

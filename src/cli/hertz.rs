@@ -150,7 +150,7 @@ impl ContactGiven {
     fn load(
         &self,
         contact: &HertzContact,
-        bodies: &[bodies::Body; 2],
+        bodies: &[bodies::ContactingBody; 2],
         length: Option<f64>,
     ) -> Result<f64> {
         if let Some(load) = self.load {

@@ -1,7 +1,7 @@
 //! `brinell materials`: steels and alloys that a scene can refer to by name, with their sources.
 
 use super::streams::print;
-use super::table::{Column, Table, page_width};
+use super::table::{ColumnAlignment, Table, page_width};
 use crate::error::{Error, Result};
 use crate::number::{exact, trimmed};
 use crate::scene::{Listed, Published, closest, materials};
@@ -45,12 +45,12 @@ pub(super) fn of_list(name: &str) -> Result<&'static Listed> {
 
 fn list() -> String {
     let mut table = Table::new(&[
-        (Column::Text, "material"),
-        (Column::Number, "E\n[MPa]"),
-        (Column::Number, "nu"),
-        (Column::Number, "yield\nstress\n[MPa]"),
-        (Column::Number, "tangent\nmodulus\n[MPa]"),
-        (Column::Text, "what"),
+        (ColumnAlignment::Text, "material"),
+        (ColumnAlignment::Number, "E\n[MPa]"),
+        (ColumnAlignment::Number, "nu"),
+        (ColumnAlignment::Number, "yield\nstress\n[MPa]"),
+        (ColumnAlignment::Number, "tangent\nmodulus\n[MPa]"),
+        (ColumnAlignment::Text, "what"),
     ]);
     for (name, listed) in materials() {
         let cell = |figure: Option<&Published>| match figure {
@@ -78,10 +78,10 @@ fn list() -> String {
 fn details(name: &str, listed: &Listed) -> String {
     let mut text = format!("{name}: {}\n\n", listed.what);
     let mut table = Table::new(&[
-        (Column::Text, "key"),
-        (Column::Number, "value"),
-        (Column::Text, "unit"),
-        (Column::Text, "source"),
+        (ColumnAlignment::Text, "key"),
+        (ColumnAlignment::Number, "value"),
+        (ColumnAlignment::Text, "unit"),
+        (ColumnAlignment::Text, "source"),
     ]);
     for (key, unit, Published(value, source)) in listed.figures() {
         table.row([

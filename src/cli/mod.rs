@@ -100,8 +100,8 @@ fn program(mut words: Vec<OsString>) -> u8 {
         return ccx::run(arguments, started);
     }
     let ended = ranks::join(arguments.command.common()).and_then(|part| match part {
-        ranks::Part::First(_ranks) => commands::execute(&arguments, started),
-        ranks::Part::Helped => Ok(()),
+        ranks::ProcessRole::First(_ranks) => commands::execute(&arguments, started),
+        ranks::ProcessRole::Helped => Ok(()),
     });
     match ended {
         Ok(()) => 0,
@@ -167,13 +167,13 @@ pub fn check_command_line(
 pub fn new_scene(words: impl IntoIterator<Item = OsString>) -> Result<String> {
     #[derive(Parser)]
     #[command(name = "new", no_binary_name = true, disable_help_flag = true)]
-    struct Line {
+    struct CommandLine {
         #[command(subcommand)]
-        problem: new::Problem,
+        problem: new::ContactProblem,
         #[arg(long, global = true)]
         out: Option<PathBuf>,
     }
-    let line = Line::try_parse_from(words).map_err(|problem| {
+    let line = CommandLine::try_parse_from(words).map_err(|problem| {
         let text = problem.to_string();
         Error::input(text.trim_start_matches("error: ").trim_end())
     })?;

@@ -28,7 +28,7 @@ use text::Started;
 #[derive(Debug, Args)]
 pub(super) struct NewArguments {
     #[command(subcommand)]
-    pub problem: Option<Problem>,
+    pub problem: Option<ContactProblem>,
     /// A deck of Abaqus or CalculiX (.inp) to start from, in place of a problem: writes scene and
     /// mesh like `brinell convert`
     #[arg(long, value_name = "DECK")]
@@ -40,7 +40,7 @@ pub(super) struct NewArguments {
 
 /// The problems. Units are N, mm and MPa.
 #[derive(Debug, Subcommand)]
-pub(super) enum Problem {
+pub(super) enum ContactProblem {
     /// A ball is pressed on a flat and unloaded (axisymmetric)
     #[command(
         after_help = "Example: brinell new ball-on-flat --radius 5 --load 20 --out ball.toml && \
@@ -103,27 +103,27 @@ pub(super) fn run(arguments: &NewArguments) -> Result<()> {
 ///
 /// # Errors
 /// `Input` if the numbers make no scene; `Io` if a file exists already or cannot be written.
-pub(super) fn start(problem: &Problem, out: Option<&Path>) -> Result<Started> {
+pub(super) fn start(problem: &ContactProblem, out: Option<&Path>) -> Result<Started> {
     let mesh_path = out.map(|out| out.with_extension("msh"));
     let started: Started = match problem {
-        Problem::RollerBetweenRaceways(bearing) => {
+        ContactProblem::RollerBetweenRaceways(bearing) => {
             let name = mesh_path.as_deref().and_then(Path::file_name);
             let name = name.and_then(|name| name.to_str()).ok_or_else(|| {
                 Error::input("a mesh belongs to this scene: give --out FILE, it goes beside it")
             })?;
             raceways::scene(bearing, name)?
         }
-        Problem::BallOnFlat(ball) if ball.three_dimensional => {
+        ContactProblem::BallOnFlat(ball) if ball.three_dimensional => {
             solid::ball_on_flat(&ball.pressed)?.into()
         }
-        Problem::BallOnFlat(ball) => pressed::scene(&ball.pressed, true)?.into(),
-        Problem::BallInGroove(groove) => solid::ball_in_groove(groove)?.into(),
-        Problem::CrossedCylinders(crossed) => solid::crossed_cylinders(crossed)?.into(),
-        Problem::RollerOnFlat(pressed) => pressed::scene(pressed, false)?.into(),
-        Problem::ShaftInBore(fit) => fit::scene(fit)?.into(),
-        Problem::Punch(given) => punch::scene(given)?.into(),
-        Problem::Iso76(asked) => iso76::scene(asked)?,
-        Problem::Hardness(test) => hardness::scene(test)?.into(),
+        ContactProblem::BallOnFlat(ball) => pressed::scene(&ball.pressed, true)?.into(),
+        ContactProblem::BallInGroove(groove) => solid::ball_in_groove(groove)?.into(),
+        ContactProblem::CrossedCylinders(crossed) => solid::crossed_cylinders(crossed)?.into(),
+        ContactProblem::RollerOnFlat(pressed) => pressed::scene(pressed, false)?.into(),
+        ContactProblem::ShaftInBore(fit) => fit::scene(fit)?.into(),
+        ContactProblem::Punch(given) => punch::scene(given)?.into(),
+        ContactProblem::Iso76(asked) => iso76::scene(asked)?,
+        ContactProblem::Hardness(test) => hardness::scene(test)?.into(),
     };
     Scene::parse(&started.text, "the new scene")?;
     if let Some(out) = out {

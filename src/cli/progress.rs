@@ -11,7 +11,7 @@
 //! | `stopping` | `message`: Ctrl-C or another signal was heard |
 //! | `error` | `message`, `exit_code`: the last line of a run that failed |
 
-use super::forecast::Forecast;
+use super::forecast::TimeForecast;
 use super::interrupt;
 use super::remaining::Remaining;
 use super::streams::json_line;
@@ -53,7 +53,7 @@ pub(super) struct Progress {
     quiet: bool,
     started: Instant,
     phase: Option<Phase>,
-    forecast: Forecast,
+    forecast: TimeForecast,
 }
 
 /// The current phase.
@@ -124,7 +124,7 @@ impl Progress {
             quiet,
             started,
             phase: None,
-            forecast: Forecast::new(started),
+            forecast: TimeForecast::new(started),
         }
     }
 

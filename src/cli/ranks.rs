@@ -13,15 +13,15 @@ const LAUNCHERS: [[&str; 2]; 2] = [
 ];
 
 /// The part of this process in a command.
-pub(super) enum Part {
+pub(super) enum ProcessRole {
     /// The process does all the work, alone or with the help of others.
-    First(Ranks),
+    First(RankGuard),
     /// The process has helped until the end and has nothing left to do.
     Helped,
 }
 
 /// The ranks of a run; the other ranks are released when it is dropped.
-pub(super) struct Ranks {
+pub(super) struct RankGuard {
     #[cfg(feature = "mumps")]
     world: Option<crate::linalg::mumps::World>,
 }
@@ -32,7 +32,7 @@ pub(super) struct Ranks {
 /// `Input` for several processes that would each compute everything and write the same files, and
 /// for ranks of another version.
 #[cfg_attr(not(feature = "mumps"), allow(unused_variables))]
-pub(super) fn join(common: Option<&CommonArguments>) -> Result<Part> {
+pub(super) fn join(common: Option<&CommonArguments>) -> Result<ProcessRole> {
     #[cfg(feature = "mumps")]
     if let Some(common) = common
         && Backend::Mumps == common.solver.into()
@@ -43,10 +43,10 @@ pub(super) fn join(common: Option<&CommonArguments>) -> Result<Part> {
     let started = LAUNCHERS.map(|names| Some([number(names[0])?, number(names[1])?]));
     let several = started.into_iter().flatten().find(|[size, _]| *size > 1);
     let Some([size, rank]) = several else {
-        return Ok(Part::First(Ranks::alone()));
+        return Ok(ProcessRole::First(RankGuard::alone()));
     };
     if rank > 0 {
-        return Ok(Part::Helped);
+        return Ok(ProcessRole::Helped);
     }
     Err(Error::input(format!(
         "{size} processes were started, and each would compute the same and write the same files: \
@@ -55,29 +55,29 @@ pub(super) fn join(common: Option<&CommonArguments>) -> Result<Part> {
 }
 
 #[cfg(feature = "mumps")]
-fn with_mumps(common: &CommonArguments) -> Result<Part> {
+fn with_mumps(common: &CommonArguments) -> Result<ProcessRole> {
     let world = crate::linalg::mumps::World::join()?;
     if world.rank > 0 {
         super::interrupt::leave_to_first_rank();
         super::threads::start_threads(common.threads.map(usize::from))?;
         world.serve(crate::assembly::shares::columns, crate::analysis::evaluate);
         world.end();
-        return Ok(Part::Helped);
+        return Ok(ProcessRole::Helped);
     }
     world.meet().inspect_err(|_| world.end())?;
-    Ok(Part::First(Ranks { world: Some(world) }))
+    Ok(ProcessRole::First(RankGuard { world: Some(world) }))
 }
 
-impl Ranks {
+impl RankGuard {
     fn alone() -> Self {
-        Ranks {
+        RankGuard {
             #[cfg(feature = "mumps")]
             world: None,
         }
     }
 }
 
-impl Drop for Ranks {
+impl Drop for RankGuard {
     fn drop(&mut self) {
         #[cfg(feature = "mumps")]
         if let Some(world) = self.world {

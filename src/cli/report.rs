@@ -1,6 +1,6 @@
 //! The printed summaries.
 
-use super::table::{Column::*, Table, page_width, wrap};
+use super::table::{ColumnAlignment::*, Table, page_width, wrap};
 use crate::accuracy::for_a_tenth;
 use crate::analysis::Check;
 use crate::linalg::Prediction;
@@ -353,7 +353,7 @@ impl Report {
     }
 
     fn first_yield(&mut self, first: &YieldPoint, bodies: &[String], contact: bool) {
-        let mut columns: Vec<(super::table::Column, String, String)> = Vec::new();
+        let mut columns: Vec<(super::table::ColumnAlignment, String, String)> = Vec::new();
         let labels = &self.labels;
         for quantity in QUANTITIES.iter().filter(|q| q.scope.holds(contact, true)) {
             let heading = match quantity.key {

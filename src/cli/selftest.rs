@@ -3,7 +3,7 @@
 use super::interrupt;
 use super::progress::{Progress, ProgressKind};
 use super::streams::print;
-use super::table::{Column::*, Table, page_width};
+use super::table::{ColumnAlignment::*, Table, page_width};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg;
 use crate::selftest;

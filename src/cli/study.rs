@@ -5,7 +5,7 @@ use super::common_arguments::CommonArguments;
 use super::interrupt;
 use super::progress::{Progress, ProgressKind};
 use super::streams::{json, print};
-use super::table::{Column::*, Table, page_width, wrap};
+use super::table::{ColumnAlignment::*, Table, page_width, wrap};
 use crate::accuracy::{Knob, Plan, Price, QuantityStudy, Study, Usage, foremost, study};
 use crate::error::{Error, ErrorKind, Result};
 use crate::model::Model;

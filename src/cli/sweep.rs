@@ -10,12 +10,12 @@ pub(super) use worker::serve as runs;
 use super::common_arguments::{CommonArguments, EstimateArguments};
 use super::interrupt;
 use super::streams::{json, print};
-use super::table::{Column, Table, page_width};
+use super::table::{ColumnAlignment, Table, page_width};
 use crate::deck::{self, Options};
 use crate::error::{Error, ErrorKind, Result};
 use crate::files;
 use crate::number::{number, seconds};
-use crate::output::sweep::{Outcome, Sweep, SweepPoint, folder};
+use crate::output::sweep::{Sweep, SweepOutcome, SweepPoint, folder};
 use crate::scene::Field;
 use clap::{Args, ValueEnum};
 use points::{Points, Shard, Varied, varied};
@@ -382,7 +382,7 @@ fn ask_to_stop(id: u32) {
 #[cfg(not(unix))]
 fn ask_to_stop(_: u32) {}
 
-fn table(sweep: &Sweep, outcome: &Outcome<'_>, shown: &[String]) -> Table {
+fn table(sweep: &Sweep, outcome: &SweepOutcome<'_>, shown: &[String]) -> Table {
     let short = |key: &String| {
         let last = key.rsplit('.').next().unwrap_or(key);
         let is_alone = sweep
@@ -398,15 +398,20 @@ fn table(sweep: &Sweep, outcome: &Outcome<'_>, shown: &[String]) -> Table {
         }
     };
     let failed = |point: &SweepPoint| point.exit_code != Some(0);
-    let mut columns: Vec<(Column, String)> = Vec::new();
-    columns.extend(sweep.keys.iter().map(|key| (Column::Number, short(key))));
+    let mut columns: Vec<(ColumnAlignment, String)> = Vec::new();
+    columns.extend(
+        sweep
+            .keys
+            .iter()
+            .map(|key| (ColumnAlignment::Number, short(key))),
+    );
     columns.extend(
         shown
             .iter()
-            .map(|path| (Column::Number, outcome.heading(path))),
+            .map(|path| (ColumnAlignment::Number, outcome.heading(path))),
     );
     let with_notes = sweep.points.iter().any(failed);
-    columns.extend(with_notes.then(|| (Column::Text, "note".to_string())));
+    columns.extend(with_notes.then(|| (ColumnAlignment::Text, "note".to_string())));
     let mut table = Table::new(&columns);
     for (index, point) in sweep.points.iter().enumerate() {
         let figures = shown.iter().map(|path| match outcome.figure(index, path) {
@@ -424,7 +429,7 @@ fn table(sweep: &Sweep, outcome: &Outcome<'_>, shown: &[String]) -> Table {
 }
 
 /// Describes how many factorisations the points took, if several ran.
-fn shared(sweep: &Sweep, outcome: &Outcome<'_>) -> String {
+fn shared(sweep: &Sweep, outcome: &SweepOutcome<'_>) -> String {
     let of_points = (0..sweep.points.len()).filter_map(|point| outcome.factorizations(point));
     let of_points: Vec<usize> = of_points.collect();
     match of_points.len() {

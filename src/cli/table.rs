@@ -16,7 +16,7 @@ const LEAST: usize = 10;
 
 /// Alignment of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Column {
+pub(super) enum ColumnAlignment {
     /// Aligned to the left; wrapped if the page is too narrow.
     Text,
     /// Aligned to the right, for numbers.
@@ -31,12 +31,12 @@ pub(super) fn page_width() -> usize {
 
 /// A table with a heading per column; a heading may have line breaks.
 pub(super) struct Table {
-    columns: Vec<(Column, String)>,
+    columns: Vec<(ColumnAlignment, String)>,
     rows: Vec<Vec<String>>,
 }
 
 impl Table {
-    pub fn new<Heading: ToString>(columns: &[(Column, Heading)]) -> Self {
+    pub fn new<Heading: ToString>(columns: &[(ColumnAlignment, Heading)]) -> Self {
         let named = columns.iter().map(|(kind, name)| (*kind, name.to_string()));
         Table {
             columns: named.collect(),
@@ -95,7 +95,7 @@ impl Table {
         let page = page.saturating_sub(INDENT + GAP * widths.len().saturating_sub(1));
         while widths.iter().sum::<usize>() > page {
             let widest = (0..widths.len())
-                .filter(|&c| self.columns[c].0 == Column::Text && widths[c] > LEAST)
+                .filter(|&c| self.columns[c].0 == ColumnAlignment::Text && widths[c] > LEAST)
                 .max_by_key(|&c| widths[c]);
             let Some(widest) = widest else { break };
             widths[widest] -= 1;
@@ -115,11 +115,11 @@ impl Table {
                 let part = cell.get(line).map_or("", String::as_str);
                 let pad = " ".repeat(widths[column].saturating_sub(length(part)));
                 match self.columns[column].0 {
-                    Column::Text => {
+                    ColumnAlignment::Text => {
                         set.push_str(part);
                         set.push_str(&pad);
                     }
-                    Column::Number => {
+                    ColumnAlignment::Number => {
                         set.push_str(&pad);
                         set.push_str(part);
                     }
@@ -185,7 +185,10 @@ mod tests {
 
     #[test]
     fn columns_are_aligned_by_kind() {
-        let mut table = Table::new(&[(Column::Text, "name"), (Column::Number, "max\npressure")]);
+        let mut table = Table::new(&[
+            (ColumnAlignment::Text, "name"),
+            (ColumnAlignment::Number, "max\npressure"),
+        ]);
         table.row(["yield".to_string(), "1.5".to_string()]);
         table.row(["β".to_string(), "10.25".to_string()]);
         assert_eq!(
@@ -203,9 +206,9 @@ mod tests {
     #[test]
     fn text_gives_way_until_the_page_is_wide_enough() {
         let mut table = Table::new(&[
-            (Column::Text, "effect"),
-            (Column::Text, "why"),
-            (Column::Number, "seconds"),
+            (ColumnAlignment::Text, "effect"),
+            (ColumnAlignment::Text, "why"),
+            (ColumnAlignment::Number, "seconds"),
         ]);
         let why = "because of this ".repeat(20);
         table.row(["contact".to_string(), why.clone(), "1.5".to_string()]);
@@ -219,9 +222,9 @@ mod tests {
     #[test]
     fn numbers_that_do_not_fit_are_a_second_table() {
         let mut table = Table::new(&[
-            (Column::Text, "state"),
-            (Column::Number, "pressure\n[MPa]"),
-            (Column::Number, "width\n[mm]"),
+            (ColumnAlignment::Text, "state"),
+            (ColumnAlignment::Number, "pressure\n[MPa]"),
+            (ColumnAlignment::Number, "width\n[mm]"),
         ]);
         table.row(["pressed", "1234.5", "0.5"].map(String::from));
         let first =
@@ -233,7 +236,10 @@ mod tests {
 
     #[test]
     fn an_empty_heading_takes_no_line() {
-        let mut table = Table::new(&[(Column::Text, "effect"), (Column::Text, "")]);
+        let mut table = Table::new(&[
+            (ColumnAlignment::Text, "effect"),
+            (ColumnAlignment::Text, ""),
+        ]);
         table.row(["contact".to_string(), "on".to_string()]);
         assert_eq!(
             table.render(WIDTH),
@@ -250,7 +256,7 @@ mod tests {
 
     #[test]
     fn short_rows_are_filled_up() {
-        let mut table = Table::new(&[(Column::Text, "a"), (Column::Number, "b")]);
+        let mut table = Table::new(&[(ColumnAlignment::Text, "a"), (ColumnAlignment::Number, "b")]);
         table.row(["x".to_string()]);
         assert_eq!(table.render(WIDTH), "  a  b\n  ----\n  x\n");
     }

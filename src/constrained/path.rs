@@ -1,7 +1,7 @@
 //! Load path of a structure, from one change of contact to the next.
 
 use super::held::pushed_away;
-use super::{ConstrainedStructure, State};
+use super::{ConstrainedStructure, LoadedState};
 use crate::contact::{Change, Path, PathEnd};
 use crate::error::{Error, Result};
 use nalgebra::DVector;
@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// A piece of the load path, with the state at its start.
 pub(super) struct Way {
     path: Path,
-    start: State,
+    start: LoadedState,
     rate: Vec<f64>,
     condensed_rate: DVector<f64>,
     /// Whether the path stands at an event whose statuses have not been settled yet.

@@ -93,9 +93,9 @@ impl Adjust {
     fn written(&self) -> String {
         match self {
             Adjust::Within(distance) => exact(*distance).to_string(),
-            Adjust::Nodes(super::data::Target::Set(name)) => name.clone(),
-            Adjust::Nodes(super::data::Target::Label(label)) => label.to_string(),
-            Adjust::Nodes(super::data::Target::All) => "all".to_string(),
+            Adjust::Nodes(super::data::EntitySelection::Set(name)) => name.clone(),
+            Adjust::Nodes(super::data::EntitySelection::Label(label)) => label.to_string(),
+            Adjust::Nodes(super::data::EntitySelection::All) => "all".to_string(),
         }
     }
 }

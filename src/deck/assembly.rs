@@ -12,10 +12,10 @@
 mod flat;
 mod placement;
 
-use super::fields::Fields;
+use super::fields::LineFields;
 use super::instances::Instances;
 use super::keyword::{Keyword, no_such};
-use super::source::{Line, Source};
+use super::source::{DeckLines, Line};
 use crate::error::Result;
 use placement::Placement;
 
@@ -48,20 +48,20 @@ pub(super) fn frames(keyword: &Keyword) -> bool {
 }
 
 /// A keyword with its data lines.
-struct Block {
+struct KeywordBlock {
     keyword: Keyword,
     lines: Vec<Line>,
 }
 
-impl Block {
+impl KeywordBlock {
     /// The values of one of the block's lines.
-    fn fields<'a>(&'a self, source: &'a Source, line: Line) -> Fields<'a> {
+    fn fields<'a>(&'a self, source: &'a DeckLines, line: Line) -> LineFields<'a> {
         let place = self.keyword.at(source.file(line), line.place);
-        Fields::new(source.bytes(line), place)
+        LineFields::new(source.bytes(line), place)
     }
 
     /// Requires the block to have no more than `n` data lines.
-    fn no_more(&self, source: &Source, n: usize) -> Result<()> {
+    fn no_more(&self, source: &DeckLines, n: usize) -> Result<()> {
         self.lines.get(n).map_or(Ok(()), |&line| {
             let place = self.fields(source, line).place;
             Err(place.error("this line is one too many; take it out"))
@@ -77,7 +77,7 @@ impl Block {
 struct PartBlocks {
     keyword: Keyword,
     name: String,
-    blocks: Vec<Block>,
+    blocks: Vec<KeywordBlock>,
 }
 
 /// An instance of a part with its placement, and the blocks that belong to this instance alone.
@@ -86,13 +86,13 @@ struct Instance {
     name: String,
     part: usize,
     placement: Placement,
-    blocks: Vec<Block>,
+    blocks: Vec<KeywordBlock>,
 }
 
 /// An item outside of parts, in the order of the deck.
 enum Item {
     Instance(usize),
-    Block(Block),
+    Block(KeywordBlock),
 }
 
 /// The rest of a deck, from its first part on.
@@ -113,7 +113,7 @@ impl Assembled {
     /// # Errors
     /// `Input` for parts, instances and assemblies that begin or end at a wrong place, share a
     /// name, or are not defined.
-    pub(super) fn read(source: &mut Source, first: Keyword) -> Result<Assembled> {
+    pub(super) fn read(source: &mut DeckLines, first: Keyword) -> Result<Assembled> {
         let mut out = Assembled::default();
         let mut open = Vec::new();
         let mut next = Some(first);
@@ -122,7 +122,7 @@ impl Assembled {
             while let Some(line) = source.next_data()? {
                 lines.push(line);
             }
-            out.take(source, &mut open, Block { keyword, lines })?;
+            out.take(source, &mut open, KeywordBlock { keyword, lines })?;
             next = match source.next()? {
                 Some(line) => Some(Keyword::read(source, line)?),
                 None => None,
@@ -144,7 +144,12 @@ impl Assembled {
 
     /// Assigns a block to the part or instance it belongs to; `open` holds the keywords whose end
     /// is still to come.
-    fn take(&mut self, source: &Source, open: &mut Vec<Keyword>, block: Block) -> Result<()> {
+    fn take(
+        &mut self,
+        source: &DeckLines,
+        open: &mut Vec<Keyword>,
+        block: KeywordBlock,
+    ) -> Result<()> {
         let files = &source.files;
         let keyword = &block.keyword;
         let inside = open.last().map_or("", |keyword| keyword.name.as_str());
@@ -197,7 +202,7 @@ impl Assembled {
         Ok(())
     }
 
-    fn begin_part(&mut self, source: &Source, block: &Block) -> Result<()> {
+    fn begin_part(&mut self, source: &DeckLines, block: &KeywordBlock) -> Result<()> {
         let (keyword, files) = (&block.keyword, &source.files);
         keyword.allow(files, &["NAME"])?;
         let name = keyword.require(files, "NAME")?.to_string();
@@ -214,7 +219,7 @@ impl Assembled {
         Ok(())
     }
 
-    fn begin_assembly(&mut self, source: &Source, block: &Block) -> Result<()> {
+    fn begin_assembly(&mut self, source: &DeckLines, block: &KeywordBlock) -> Result<()> {
         let (keyword, files) = (&block.keyword, &source.files);
         keyword.allow(files, &["NAME"])?;
         if self.name.is_some() {
@@ -225,7 +230,7 @@ impl Assembled {
         block.no_more(source, 0)
     }
 
-    fn begin_instance(&mut self, source: &Source, block: &Block) -> Result<()> {
+    fn begin_instance(&mut self, source: &DeckLines, block: &KeywordBlock) -> Result<()> {
         let (keyword, files) = (&block.keyword, &source.files);
         keyword.allow(files, &["NAME", "PART"])?;
         let name = keyword.require(files, "NAME")?.to_string();
@@ -264,7 +269,7 @@ impl Assembled {
     ///
     /// # Errors
     /// `Input` if numbers have too many digits to be offset.
-    pub(super) fn instances(&self, source: &Source, before: Option<u64>) -> Result<Instances> {
+    pub(super) fn instances(&self, source: &DeckLines, before: Option<u64>) -> Result<Instances> {
         let of_parts = self.parts.iter().flat_map(|part| &part.blocks);
         let of_instances = self.instances.iter().flat_map(|of| &of.blocks);
         let outside = self.items.iter().filter_map(|item| match item {

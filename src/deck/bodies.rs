@@ -1,9 +1,9 @@
 //! Assignment of elements to bodies: the connected parts of each section.
 
 use super::Deck;
-use super::data::{Member, Target};
+use super::data::{EntitySelection, Member};
 use super::sets::What;
-use super::source::Place;
+use super::source::LinePlace;
 use crate::classes::Classes;
 use crate::error::{Error, Result};
 use crate::space::Space;
@@ -83,9 +83,9 @@ impl Deck {
             let mut groups: HashMap<Vec<u32>, u32> = HashMap::new();
             let mut all = Vec::new();
             for (number, (name, members)) in self.sets.elements.iter().enumerate() {
-                let set = Target::Set(name.to_string());
+                let set = EntitySelection::Set(name.to_string());
                 let elements = self.indices(What::Elements, &set, (self.end, "ELSET"))?;
-                let is_row = |(member, _): &(Member, Place)| matches!(member, Member::Rows(..));
+                let is_row = |(member, _): &(Member, LinePlace)| matches!(member, Member::Rows(..));
                 if !members.iter().all(is_row) {
                     groups.entry(elements.clone()).or_insert(number as u32);
                 }
@@ -103,7 +103,7 @@ impl Deck {
         }
         for (number, section) in self.properties.sections.iter().enumerate() {
             let at = (section.place, "SOLID SECTION");
-            let set = Target::Set(section.elements.clone());
+            let set = EntitySelection::Set(section.elements.clone());
             self.refuse_boundary_section(&set, at)?;
             for element in self.indices(What::Elements, &set, at)? {
                 if out[element as usize] != NONE {
@@ -220,7 +220,7 @@ impl Deck {
             let Some((_, place)) = members.first() else {
                 continue;
             };
-            let set = Target::Set(name.to_string());
+            let set = EntitySelection::Set(name.to_string());
             let elements = self.indices(What::Elements, &set, (*place, "ELSET"))?;
             let Some(&first) = elements.first() else {
                 continue;

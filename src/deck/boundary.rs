@@ -7,11 +7,11 @@
 
 use super::Deck;
 use super::bodies::unsupported;
-use super::data::{Member, Target};
+use super::data::{EntitySelection, Member};
 use super::facets::Face;
 use super::keyword::plain;
 use super::sets::At;
-use super::source::Place;
+use super::source::LinePlace;
 use crate::error::Result;
 use crate::space::Space;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -22,7 +22,7 @@ pub(super) struct BoundaryElements {
     /// Nodes of each boundary element, as numbered in the deck.
     nodes: BTreeMap<u64, Vec<u64>>,
     /// Place at which each type is named first.
-    types: BTreeMap<String, Place>,
+    types: BTreeMap<String, LinePlace>,
 }
 
 /// The number of nodes of a type of lines or shells, which are boundary elements unless a section
@@ -44,7 +44,7 @@ impl BoundaryElements {
         self.nodes.insert(label, nodes);
     }
 
-    pub(super) fn note_type(&mut self, name: &str, place: Place) {
+    pub(super) fn note_type(&mut self, name: &str, place: LinePlace) {
         self.types.entry(name.to_string()).or_insert(place);
     }
 
@@ -62,7 +62,7 @@ impl BoundaryElements {
 impl Deck {
     /// Turns plane elements in a mesh with solids into boundary elements. Returns the first element
     /// of each type.
-    pub(super) fn take_faces_of_solids(&mut self) -> Vec<(String, Place)> {
+    pub(super) fn take_faces_of_solids(&mut self) -> Vec<(String, LinePlace)> {
         let elements = &self.elements;
         let is_face: Vec<bool> = (elements.types.iter())
             .map(|of| of.space != Space::Solid)
@@ -70,7 +70,7 @@ impl Deck {
         if !is_face.contains(&true) || !is_face.contains(&false) {
             return Vec::new();
         }
-        let mut found: Vec<(String, Place)> = Vec::new();
+        let mut found: Vec<(String, LinePlace)> = Vec::new();
         for element in (0..is_face.len()).filter(|&element| is_face[element]) {
             let nodes = &elements.nodes[elements.offsets[element]..elements.offsets[element + 1]];
             self.boundary.add(elements.labels[element], nodes.to_vec());
@@ -92,7 +92,7 @@ impl Deck {
                 match member {
                     Member::Rows(first, last) if is_face.get(first) == Some(&true) => {
                         let of = labels[first..last].iter();
-                        members.extend(of.map(|&l| (Member::Of(Target::Label(l)), place)));
+                        members.extend(of.map(|&l| (Member::Of(EntitySelection::Label(l)), place)));
                     }
                     Member::Rows(first, last) => {
                         members.push((Member::Rows(kept[first], kept[last]), place));
@@ -106,7 +106,7 @@ impl Deck {
     }
 
     /// The boundary elements in a set of elements.
-    pub(super) fn boundary_of(&self, target: &Target) -> BTreeSet<u64> {
+    pub(super) fn boundary_of(&self, target: &EntitySelection) -> BTreeSet<u64> {
         let mut out = BTreeSet::new();
         if !self.boundary.nodes.is_empty() {
             self.collect_boundary(target, &mut BTreeSet::new(), &mut out);
@@ -116,17 +116,17 @@ impl Deck {
 
     fn collect_boundary(
         &self,
-        target: &Target,
+        target: &EntitySelection,
         seen: &mut BTreeSet<String>,
         out: &mut BTreeSet<u64>,
     ) {
         let name = match target {
-            Target::Label(label) => {
+            EntitySelection::Label(label) => {
                 out.extend(Some(*label).filter(|label| self.boundary.has(*label)));
                 return;
             }
-            Target::Set(name) => name,
-            Target::All => {
+            EntitySelection::Set(name) => name,
+            EntitySelection::All => {
                 out.extend(self.boundary.nodes.keys());
                 return;
             }
@@ -192,7 +192,7 @@ impl Deck {
     ///
     /// # Errors
     /// `Unsupported`, at the section.
-    pub(super) fn refuse_boundary_section(&self, set: &Target, at: At) -> Result<()> {
+    pub(super) fn refuse_boundary_section(&self, set: &EntitySelection, at: At) -> Result<()> {
         let Some(&line) = self.boundary_of(set).first() else {
             return Ok(());
         };

@@ -1,10 +1,10 @@
 //! Equations that hold a surface plane, and local axes of nodes.
 
 use super::Deck;
-use super::data::{Equation, Transform};
+use super::data::{LinearEquation, Transform};
 use super::history::Key;
 use super::sets::What;
-use super::source::Place;
+use super::source::LinePlace;
 use crate::error::Result;
 use crate::space::{Vector, along, cross, difference, direction, dot, length};
 use std::collections::BTreeMap;
@@ -16,7 +16,7 @@ pub(super) struct HeldPlane {
     pub(super) leader: Key,
     /// The nodes that share the displacement, the leader included.
     pub(super) nodes: Vec<u32>,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 impl Deck {
@@ -25,7 +25,7 @@ impl Deck {
     ///
     /// # Errors
     /// `Input` for names and numbers that are not defined.
-    pub(super) fn held_planes(&self) -> Result<(Vec<HeldPlane>, Vec<&Equation>)> {
+    pub(super) fn held_planes(&self) -> Result<(Vec<HeldPlane>, Vec<&LinearEquation>)> {
         let mut out: BTreeMap<Key, HeldPlane> = BTreeMap::new();
         let mut others = Vec::new();
         for equation in &self.properties.equations {
@@ -50,7 +50,7 @@ impl Deck {
 
     /// The leading node with its axis, and the nodes that follow, if the equation has this simple
     /// form.
-    fn follows(&self, equation: &Equation) -> Result<Option<(Key, Vec<u32>)>> {
+    fn follows(&self, equation: &LinearEquation) -> Result<Option<(Key, Vec<u32>)>> {
         let [(of, freedom, a), (to, other, b)] = &equation.terms[..] else {
             return Ok(None);
         };
@@ -73,7 +73,7 @@ impl Deck {
         let mut out = BTreeMap::new();
         for transform in &self.properties.transforms {
             let at = (transform.place, "TRANSFORM");
-            let set = super::data::Target::Set(transform.nodes.clone());
+            let set = super::data::EntitySelection::Set(transform.nodes.clone());
             for node in self.indices(What::Nodes, &set, at)? {
                 let x = self.point(node as usize);
                 let axes = axes_at(transform, x).ok_or_else(|| {

@@ -3,7 +3,7 @@
 
 use super::element_type::ElementType;
 use super::expansion::Expansion;
-use super::source::{Files, Place};
+use super::source::{Files, LinePlace};
 use crate::scene::{ResultItem, Totals};
 use std::collections::BTreeMap;
 
@@ -13,12 +13,12 @@ pub(super) struct Nodes {
     pub(super) labels: Vec<u64>,
     /// Coordinates, three per node.
     pub(super) coordinates: Vec<f64>,
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<LinePlace>,
 }
 
 /// Elements of a deck, in the order of the deck.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Elements {
+pub(super) struct DeckElements {
     pub(super) labels: Vec<u64>,
     pub(super) types: Vec<ElementType>,
     /// Index in `nodes` at which each element's nodes begin, followed by the end of the last
@@ -26,10 +26,10 @@ pub(super) struct Elements {
     pub(super) offsets: Vec<usize>,
     /// Numbers of the nodes of all elements, one element after the other.
     pub(super) nodes: Vec<u64>,
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<LinePlace>,
 }
 
-impl Elements {
+impl DeckElements {
     /// Keeps only the elements that are wanted, selected by index.
     pub(super) fn retain(&mut self, wanted: impl Fn(usize) -> bool) {
         let old = std::mem::take(self);
@@ -47,7 +47,7 @@ impl Elements {
 
 /// A named set or surface, a single node or element by its number, or all of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Target {
+pub(super) enum EntitySelection {
     Label(u64),
     Set(String),
     All,
@@ -56,7 +56,7 @@ pub(super) enum Target {
 /// A member of a set of nodes or elements.
 #[derive(Debug, Clone)]
 pub(super) enum Member {
-    Of(Target),
+    Of(EntitySelection),
     /// A range of numbers: first, last, and step.
     Range(u64, u64, u64),
     /// A range of rows of the deck's nodes or elements: first row, and the row after the last.
@@ -126,17 +126,17 @@ impl<T> Named<T> {
 }
 
 /// Members of a set, with their places.
-pub(super) type Members = Vec<(Member, Place)>;
+pub(super) type Members = Vec<(Member, LinePlace)>;
 
 /// A part of a surface.
 #[derive(Debug, Clone)]
 pub(super) enum SurfacePart {
     /// One face, by its number, of each of some elements.
-    Face(Target, usize),
+    Face(EntitySelection, usize),
     /// The faces of some elements that belong to no other element.
-    Free(Target),
+    Free(EntitySelection),
     /// The faces all of whose nodes are among the given ones.
-    OfNodes(Target),
+    OfNodes(EntitySelection),
 }
 
 /// Sets and surfaces of a deck.
@@ -144,17 +144,17 @@ pub(super) enum SurfacePart {
 pub(super) struct Sets {
     pub(super) nodes: Named<Members>,
     pub(super) elements: Named<Members>,
-    pub(super) surfaces: Named<Vec<(SurfacePart, Place)>>,
+    pub(super) surfaces: Named<Vec<(SurfacePart, LinePlace)>>,
 }
 
 /// A material, with its curves by temperature.
 #[derive(Debug, Clone, Default)]
 pub(super) struct MaterialData {
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
     /// Young's modulus and Poisson's ratio by temperature, ascending.
     pub(super) elastic: Vec<(f64, [f64; 2])>,
     /// Rows of plastic strain and yield stress by temperature, ascending.
-    pub(super) plastic: Vec<(f64, Hardening)>,
+    pub(super) plastic: Vec<(f64, HardeningRows)>,
     /// Whether hardening is linear kinematic, that is moves the yield surface.
     pub(super) is_kinematic: bool,
     pub(super) density: Option<f64>,
@@ -162,7 +162,7 @@ pub(super) struct MaterialData {
 }
 
 /// Rows of plastic strain and yield stress.
-pub(super) type Hardening = Vec<[f64; 2]>;
+pub(super) type HardeningRows = Vec<[f64; 2]>;
 
 /// The material and thickness of a set of elements.
 #[derive(Debug, Clone)]
@@ -171,13 +171,13 @@ pub(super) struct Section {
     pub(super) material: String,
     /// Thickness of a plane body.
     pub(super) thickness: Option<f64>,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// Law of the pressure between surfaces in contact.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Interaction {
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
     /// Pressure over overlap for soft contact; `None` for hard contact.
     pub(super) stiffness: Option<f64>,
 }
@@ -188,7 +188,7 @@ pub(super) enum Adjust {
     /// Slave nodes within a distance of the master surface.
     Within(f64),
     /// Slave nodes of a set.
-    Nodes(Target),
+    Nodes(EntitySelection),
 }
 
 /// Two surfaces that may touch.
@@ -200,7 +200,7 @@ pub(super) struct ContactPair {
     pub(super) adjust: Option<Adjust>,
     /// Whether all nodes of the slave surface were moved onto the master surface.
     pub(super) is_closed: bool,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// Two surfaces that are tied together.
@@ -210,7 +210,7 @@ pub(super) struct TiedPair {
     pub(super) master: String,
     /// Largest distance between the surfaces.
     pub(super) tolerance: Option<f64>,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// The distance of two surfaces, regardless of the positions of their nodes.
@@ -219,7 +219,7 @@ pub(super) struct Clearance {
     pub(super) slave: String,
     pub(super) master: String,
     pub(super) value: f64,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// A contact pair whose overlap is to be resolved gradually.
@@ -227,7 +227,7 @@ pub(super) struct Clearance {
 pub(super) struct Resolved {
     pub(super) slave: String,
     pub(super) master: String,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// A function of time, piecewise linear, and constant outside its rows.
@@ -243,10 +243,10 @@ pub(super) struct Amplitude {
 
 /// A linear equation `sum coefficient u = 0`.
 #[derive(Debug, Clone)]
-pub(super) struct Equation {
+pub(super) struct LinearEquation {
     /// Terms: nodes, degree of freedom counted from 1, and coefficient.
-    pub(super) terms: Vec<(Target, usize, f64)>,
-    pub(super) place: Place,
+    pub(super) terms: Vec<(EntitySelection, usize, f64)>,
+    pub(super) place: LinePlace,
 }
 
 /// Nodes that move like a rigid body, by a displacement and a rotation.
@@ -255,12 +255,12 @@ pub(super) struct Rigid {
     pub(super) nodes: RigidNodes,
     /// The node whose displacement is the body's displacement at this point, and whose degrees of
     /// freedom from 4 on are the body's rotations.
-    pub(super) reference: Target,
+    pub(super) reference: EntitySelection,
     /// The node whose displacement is the body's rotation.
-    pub(super) rotation: Option<Target>,
+    pub(super) rotation: Option<EntitySelection>,
     /// Axes along which the nodes follow the body.
     pub(super) follows: [bool; 3],
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
     pub(super) keyword: &'static str,
 }
 
@@ -283,7 +283,7 @@ pub(super) struct Transform {
     /// vectors.
     pub(super) is_cylindrical: bool,
     pub(super) points: [[f64; 3]; 2],
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// Materials, sections, contact and constraints of a deck.
@@ -296,14 +296,14 @@ pub(super) struct Properties {
     pub(super) ties: Vec<TiedPair>,
     pub(super) clearances: Vec<Clearance>,
     pub(super) resolved: Vec<Resolved>,
-    pub(super) equations: Vec<Equation>,
+    pub(super) equations: Vec<LinearEquation>,
     pub(super) transforms: Vec<Transform>,
     pub(super) rigid: Vec<Rigid>,
 }
 
 /// The kind of a condition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(super) enum ConditionKind {
     /// A prescribed value of degrees of freedom.
     Boundary,
     /// A force on each node along a degree of freedom.
@@ -316,9 +316,9 @@ pub(super) enum Kind {
     Volume,
 }
 
-impl Kind {
+impl ConditionKind {
     /// Number of kinds.
-    pub(super) const COUNT: usize = Kind::Volume as usize + 1;
+    pub(super) const COUNT: usize = ConditionKind::Volume as usize + 1;
 }
 
 /// A load that acts on the volume of elements.
@@ -334,8 +334,8 @@ pub(super) enum VolumeLoad {
 /// A line of `*BOUNDARY`, `*CLOAD`, `*DLOAD`, `*DSLOAD` or `*TEMPERATURE`.
 #[derive(Debug, Clone)]
 pub(super) struct Condition {
-    pub(super) kind: Kind,
-    pub(super) on: Target,
+    pub(super) kind: ConditionKind,
+    pub(super) on: EntitySelection,
     /// First and last degree of freedom, counted from 1. For a pressure the number of the face
     /// twice, or 0 for a surface; for a volume load its index twice.
     pub(super) range: [usize; 2],
@@ -343,7 +343,7 @@ pub(super) struct Condition {
     pub(super) amplitude: Option<String>,
     /// Whether the value is the one with which the step before ended.
     pub(super) is_fixed: bool,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// A contact pair that a step switches on or off.
@@ -352,7 +352,7 @@ pub(super) struct ContactChange {
     pub(super) slave: String,
     pub(super) master: String,
     pub(super) is_on: bool,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// The kind of entity to which requested results belong.
@@ -378,7 +378,7 @@ pub(super) struct OutputRequest {
     pub(super) totals: Totals,
     /// Whether vectors are given along x, y, z even at nodes with local axes.
     pub(super) is_global: bool,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// The times at which results are requested, in addition to the end of a step.
@@ -401,8 +401,8 @@ pub(super) struct TimePoints {
 
 /// A step with its conditions.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Step {
-    pub(super) place: Place,
+pub(super) struct DeckStep {
+    pub(super) place: LinePlace,
     pub(super) period: f64,
     /// Number of increments that the step would take, if it gives one.
     pub(super) increments: usize,
@@ -415,17 +415,17 @@ pub(super) struct Step {
     pub(super) schedule: Option<Schedule>,
     /// For each kind, the place at which the step declares that conditions replace those of earlier
     /// steps.
-    pub(super) renewed: [Option<Place>; Kind::COUNT],
+    pub(super) renewed: [Option<LinePlace>; ConditionKind::COUNT],
     /// Whether conditions of each kind have been given, whose `OP` is that of the first keyword.
-    pub(super) is_begun: [bool; Kind::COUNT],
+    pub(super) is_begun: [bool; ConditionKind::COUNT],
 }
 
 /// Conditions and steps of a deck.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Program {
+pub(super) struct DeckProgram {
     /// Conditions that are given before the first step.
     pub(super) initial: Vec<Condition>,
-    pub(super) steps: Vec<Step>,
+    pub(super) steps: Vec<DeckStep>,
     /// All loads that act on volumes; conditions refer to them by index.
     pub(super) volume_loads: Vec<VolumeLoad>,
     pub(super) amplitudes: Named<Amplitude>,
@@ -466,7 +466,13 @@ pub struct Account {
 impl Account {
     /// Adds a remark to one of the lists, unless the list has a remark with the same keyword and
     /// text.
-    pub(super) fn add(list: &mut Vec<Note>, files: &Files, place: Place, key: &str, text: &str) {
+    pub(super) fn add(
+        list: &mut Vec<Note>,
+        files: &Files,
+        place: LinePlace,
+        key: &str,
+        text: &str,
+    ) {
         let is_there = |note: &Note| note.keyword == key && note.text == text;
         if !list.iter().any(is_there) {
             list.push(Note {

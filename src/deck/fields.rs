@@ -25,16 +25,16 @@ impl Where<'_> {
 
 /// The values of a line, read one after the other.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Fields<'t> {
+pub(super) struct LineFields<'t> {
     rest: &'t [u8],
     /// Whether the last value was followed by a comma, or no value has been read yet.
     goes_on: bool,
     pub(super) place: Where<'t>,
 }
 
-impl<'t> Fields<'t> {
+impl<'t> LineFields<'t> {
     pub(super) fn new(line: &'t [u8], place: Where<'t>) -> Self {
-        Fields {
+        LineFields {
             rest: line,
             goes_on: !line.is_empty(),
             place,
@@ -320,7 +320,7 @@ mod tests {
                     format!("{value:e}"),
                     format!("{value:.6e}"),
                 ] {
-                    let mut fields = Fields::new(text.as_bytes(), PLACE);
+                    let mut fields = LineFields::new(text.as_bytes(), PLACE);
                     let read = fields.number("a number").unwrap();
                     assert_eq!(
                         read.to_bits(),
@@ -334,20 +334,20 @@ mod tests {
 
     #[test]
     fn values_are_separated_by_commas_and_may_be_left_out() {
-        let mut names = Fields::new(b"\"a, b\", \"c, d", PLACE);
+        let mut names = LineFields::new(b"\"a, b\", \"c, d", PLACE);
         for word in ["a, b", "\"c", "d"] {
             assert_eq!(names.text("a name").unwrap(), word);
         }
-        let mut fields = Fields::new(b"1.5-2, -2.+101, 3, 0., 0", PLACE);
+        let mut fields = LineFields::new(b"1.5-2, -2.+101, 3, 0., 0", PLACE);
         assert_eq!(fields.number("x").unwrap(), 0.015);
         assert_eq!(fields.number("x").unwrap(), -2e101);
         assert_eq!(fields.number("x").unwrap(), 3.0);
         fields.end().unwrap();
         for surplus in ["0., 0.5", "000", "1"] {
-            let end = Fields::new(surplus.as_bytes(), PLACE).end();
+            let end = LineFields::new(surplus.as_bytes(), PLACE).end();
             assert!(end.is_err(), "{surplus}");
         }
-        let mut fields = Fields::new(b"12, 1.5D+2 ,, -.5 , \"my set\",", PLACE);
+        let mut fields = LineFields::new(b"12, 1.5D+2 ,, -.5 , \"my set\",", PLACE);
         assert_eq!(fields.label("a number").unwrap(), 12);
         assert_eq!(fields.number("x").unwrap(), 150.0);
         assert_eq!(fields.number_or("y", 3.0).unwrap(), 3.0);
@@ -361,7 +361,7 @@ mod tests {
             ("1.5", "the node is `1.5`; give a whole number"),
             ("99999999999999999999", "the node is `99999999999999999999`"),
         ] {
-            let error = Fields::new(line.as_bytes(), PLACE).label("the node");
+            let error = LineFields::new(line.as_bytes(), PLACE).label("the node");
             let error = error.unwrap_err().to_string();
             let start = format!("a.inp, line 7: *NODE: {message}");
             assert!(error.starts_with(&start), "{error}");
@@ -369,7 +369,7 @@ mod tests {
         for line in [
             "nan", "inf", "1e999", "1,5e", "--1", "1e", "1-", "+-1", "1--2", "1e-2-3",
         ] {
-            let mut fields = Fields::new(line.as_bytes(), PLACE);
+            let mut fields = LineFields::new(line.as_bytes(), PLACE);
             let first = fields.number("x");
             assert!(first.is_err() || fields.number("y").is_err(), "{line}");
         }

@@ -10,11 +10,11 @@
 
 use super::Deck;
 use super::bodies::unsupported;
-use super::data::{Amplitude, Condition, Kind, Step, Target};
+use super::data::{Amplitude, Condition, ConditionKind, DeckStep, EntitySelection};
 use super::facets::Face;
 use super::series::Series;
 use super::sets::What;
-use super::source::Place;
+use super::source::LinePlace;
 use crate::error::Result;
 use crate::interpolation::interpolate;
 use crate::scene::span::Span;
@@ -29,10 +29,10 @@ pub(super) type Key = Face;
 
 /// The history of one key.
 #[derive(Debug, Clone)]
-pub(super) struct Entry {
+pub(super) struct KeyHistory {
     pub(super) series: Series,
     /// The line that gave the value last.
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
     /// The steps over which a displacement is given.
     pub(super) span: Span,
     /// Whether the displacement stays where the node was at the beginning of the span.
@@ -41,10 +41,10 @@ pub(super) struct Entry {
     runs_on: Vec<(f64, String)>,
 }
 
-impl Entry {
+impl KeyHistory {
     /// A history that follows from other values because of a line of the deck.
-    pub(super) fn new(series: Series, place: Place) -> Self {
-        Entry {
+    pub(super) fn new(series: Series, place: LinePlace) -> Self {
+        KeyHistory {
             series,
             place,
             span: Span::WHOLE,
@@ -59,11 +59,11 @@ pub(super) struct GivenDisplacements {
     /// Displacements given in all steps.
     pub(super) whole: Map,
     /// Displacements given from a later step on, or no longer given in one.
-    pub(super) in_steps: Vec<(Key, Entry)>,
+    pub(super) in_steps: Vec<(Key, KeyHistory)>,
 }
 
 /// Histories by key.
-pub(super) type Map = BTreeMap<Key, Entry>;
+pub(super) type Map = BTreeMap<Key, KeyHistory>;
 
 /// The time interval of a step.
 struct Interval {
@@ -78,16 +78,16 @@ struct StepGiven<'d> {
     values: Vec<(f64, Option<&'d str>)>,
     /// Whether the value with which the step before ended stays.
     is_fixed: bool,
-    place: Place,
+    place: LinePlace,
 }
 
-impl Kind {
+impl ConditionKind {
     fn keyword(self) -> &'static str {
         match self {
-            Kind::Boundary => "BOUNDARY",
-            Kind::Force => "CLOAD",
-            Kind::Pressure | Kind::Volume => "DLOAD",
-            Kind::Temperature => "TEMPERATURE",
+            ConditionKind::Boundary => "BOUNDARY",
+            ConditionKind::Force => "CLOAD",
+            ConditionKind::Pressure | ConditionKind::Volume => "DLOAD",
+            ConditionKind::Temperature => "TEMPERATURE",
         }
     }
 }
@@ -111,7 +111,7 @@ impl Deck {
     /// `Input` for undefined names and numbers, and for values that are too large.
     pub(super) fn displacements(&self) -> Result<GivenDisplacements> {
         let mut ended = Vec::new();
-        let all = self.histories_of(Kind::Boundary, &mut ended)?;
+        let all = self.histories_of(ConditionKind::Boundary, &mut ended)?;
         let (whole, begun): (Map, Map) =
             (all.into_iter()).partition(|(_, entry)| entry.span.is_whole());
         ended.extend(begun);
@@ -126,18 +126,18 @@ impl Deck {
     ///
     /// # Errors
     /// As for [`Deck::displacements`].
-    pub(super) fn histories(&self, kind: Kind) -> Result<Map> {
+    pub(super) fn histories(&self, kind: ConditionKind) -> Result<Map> {
         self.histories_of(kind, &mut Vec::new())
     }
 
     /// The histories of all keys of one kind. Those of displacements that are released are added to
     /// `ended`.
-    fn histories_of(&self, kind: Kind, ended: &mut Vec<(Key, Entry)>) -> Result<Map> {
+    fn histories_of(&self, kind: ConditionKind, ended: &mut Vec<(Key, KeyHistory)>) -> Result<Map> {
         let mut map = Map::new();
         let initial = self.program.initial.iter();
         for condition in initial.filter(|condition| condition.kind == kind) {
             for key in self.keys(condition)? {
-                let entry = Entry::new(Series::starting(condition.value), condition.place);
+                let entry = KeyHistory::new(Series::starting(condition.value), condition.place);
                 map.insert(key, entry);
             }
         }
@@ -161,17 +161,17 @@ impl Deck {
 
     fn go_through(
         &self,
-        kind: Kind,
-        (number, step): (usize, &Step),
+        kind: ConditionKind,
+        (number, step): (usize, &DeckStep),
         time: &Interval,
         map: &mut Map,
-        ended: &mut Vec<(Key, Entry)>,
+        ended: &mut Vec<(Key, KeyHistory)>,
     ) -> Result<()> {
         let mut given = self.given(kind, step)?;
         let is_renewed = step.renewed[kind as usize];
-        if kind == Kind::Boundary {
+        if kind == ConditionKind::Boundary {
             // A node that stayed where it was begins a history when it gets a value.
-            let ends = |key: &Key, entry: &Entry| match given.get(key) {
+            let ends = |key: &Key, entry: &KeyHistory| match given.get(key) {
                 Some(given) => entry.stays && !given.is_fixed,
                 None => is_renewed.is_some() && number > 0,
             };
@@ -190,7 +190,7 @@ impl Deck {
                 continue;
             }
             match (is_renewed, kind) {
-                (Some(_), Kind::Temperature) => {
+                (Some(_), ConditionKind::Temperature) => {
                     entry.runs_on.clear();
                     entry.series.push(time.end, entry.series.at(0.0));
                 }
@@ -202,8 +202,8 @@ impl Deck {
             }
         }
         for (key, given) in given {
-            let mut entry = Entry::new(Series::starting(0.0), given.place);
-            if number > 0 && kind == Kind::Boundary {
+            let mut entry = KeyHistory::new(Series::starting(0.0), given.place);
+            if number > 0 && kind == ConditionKind::Boundary {
                 entry.series = Series::default();
                 entry.span.since = Some(time.start);
                 entry.stays = given.is_fixed;
@@ -217,7 +217,11 @@ impl Deck {
     }
 
     /// The values that a step gives, key by key.
-    fn given<'d>(&self, kind: Kind, step: &'d Step) -> Result<BTreeMap<Key, StepGiven<'d>>> {
+    fn given<'d>(
+        &self,
+        kind: ConditionKind,
+        step: &'d DeckStep,
+    ) -> Result<BTreeMap<Key, StepGiven<'d>>> {
         let mut out: BTreeMap<Key, StepGiven> = BTreeMap::new();
         for condition in step.conditions.iter().filter(|c| c.kind == kind) {
             let value = (condition.value, condition.amplitude.as_deref());
@@ -227,7 +231,7 @@ impl Deck {
                     is_fixed: false,
                     place: condition.place,
                 });
-                if matches!(kind, Kind::Boundary | Kind::Temperature) {
+                if matches!(kind, ConditionKind::Boundary | ConditionKind::Temperature) {
                     given.values.clear();
                 }
                 given.values.push(value);
@@ -245,18 +249,18 @@ impl Deck {
     pub(super) fn keys(&self, condition: &Condition) -> Result<Vec<Key>> {
         let at = (condition.place, condition.kind.keyword());
         let [first, last] = condition.range;
-        if condition.kind == Kind::Volume {
+        if condition.kind == ConditionKind::Volume {
             let bodies = self.whole_bodies(&condition.on, at)?;
             return Ok(bodies.into_iter().map(|body| (body, first as u8)).collect());
         }
-        if condition.kind != Kind::Pressure {
+        if condition.kind != ConditionKind::Pressure {
             let dimension = self.dimension();
             let nodes = self.indices(What::Nodes, &condition.on, at)?;
             let freedoms = first - 1..last.min(dimension);
             let of_node = |&node: &u32| freedoms.clone().map(move |freedom| (node, freedom as u8));
             let mut keys: Vec<Key> = nodes.iter().flat_map(of_node).collect();
             keys.extend(self.rotations_among(&nodes, [first, last])?);
-            if condition.kind == Kind::Force && first > 3 && keys.is_empty() {
+            if condition.kind == ConditionKind::Force && first > 3 && keys.is_empty() {
                 let message = format!(
                     "degree of freedom {first}: moments act on the reference node of a *RIGID \
                      BODY or *COUPLING alone; press with forces along 1, 2 and 3"
@@ -266,7 +270,9 @@ impl Deck {
             return Ok(keys);
         }
         match &condition.on {
-            Target::Set(name) if first == 0 => self.surface(name, (condition.place, "DSLOAD")),
+            EntitySelection::Set(name) if first == 0 => {
+                self.surface(name, (condition.place, "DSLOAD"))
+            }
             on => {
                 let elements = self.indices(What::Elements, on, at)?;
                 let facet = |element: u32| self.facet(element, first, at);
@@ -279,7 +285,7 @@ impl Deck {
     ///
     /// # Errors
     /// `Unsupported` if the set contains only a part of a body.
-    fn whole_bodies(&self, on: &Target, at: (Place, &str)) -> Result<Vec<u32>> {
+    fn whole_bodies(&self, on: &EntitySelection, at: (LinePlace, &str)) -> Result<Vec<u32>> {
         let bodies = self.bodies()?;
         let mut counts = vec![[0usize; 2]; bodies.names.len()];
         for &body in &bodies.of_element {
@@ -313,11 +319,11 @@ impl Deck {
     /// Continues a history to the end of a step that gives values for its key.
     fn apply(
         &self,
-        kind: Kind,
+        kind: ConditionKind,
         number: usize,
         given: &StepGiven,
         time: &Interval,
-        entry: &mut Entry,
+        entry: &mut KeyHistory,
     ) -> Result<()> {
         entry.place = given.place;
         entry.runs_on.clear();
@@ -371,7 +377,7 @@ impl Deck {
     }
 
     /// Continues a history through a step that does not give values for its key.
-    fn run_on(&self, entry: &mut Entry, time: &Interval) -> Result<()> {
+    fn run_on(&self, entry: &mut KeyHistory, time: &Interval) -> Result<()> {
         let amplitude = |name: &str| self.program.amplitudes.get(name);
         let laws = entry.runs_on.iter();
         let laws: Vec<(f64, &Amplitude)> = laws

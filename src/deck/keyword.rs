@@ -1,7 +1,7 @@
 //! A keyword with its parameters, and the treatment of every known keyword.
 
 use super::fields::{Where, comma};
-use super::source::{Files, Line, Place, Source};
+use super::source::{DeckLines, Files, Line, LinePlace};
 use crate::error::{Error, Result};
 use crate::scene::closest;
 
@@ -237,7 +237,7 @@ pub(super) struct Keyword {
     pub(super) name: String,
     /// Names in capitals without blanks, and values as written.
     parameters: Vec<(String, Option<String>)>,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// A message that a name does not exist, with the name that may be meant, or else with advice.
@@ -269,8 +269,8 @@ impl Keyword {
     /// next.
     ///
     /// # Errors
-    /// The errors of [`Source::next`].
-    pub(super) fn read(source: &mut Source, line: Line) -> Result<Keyword> {
+    /// The errors of [`DeckLines::next`].
+    pub(super) fn read(source: &mut DeckLines, line: Line) -> Result<Keyword> {
         let mut text = String::from_utf8_lossy(source.bytes(line)).into_owned();
         while text.ends_with(',') && text.len() < LONGEST {
             let Some(next) = source.next_data()? else {
@@ -282,7 +282,7 @@ impl Keyword {
     }
 
     /// Parses a keyword line that begins with an asterisk, with its continuations joined.
-    fn parse(text: &str, place: Place) -> Keyword {
+    fn parse(text: &str, place: LinePlace) -> Keyword {
         let mut rest = Some(text.trim_start_matches('*'));
         let mut parts = std::iter::from_fn(|| {
             let text = rest?;
@@ -336,7 +336,7 @@ impl Keyword {
     }
 
     /// The place of one of the keyword's data lines, for messages.
-    pub(super) fn at<'t>(&'t self, file: &'t str, place: Place) -> Where<'t> {
+    pub(super) fn at<'t>(&'t self, file: &'t str, place: LinePlace) -> Where<'t> {
         Where {
             file,
             line: place.line(),
@@ -443,11 +443,11 @@ mod tests {
     #[test]
     fn case_and_blanks_mean_nothing() {
         let line = "*solidsection , ELSET = \"My set\", m a t e rial=Steel";
-        let keyword = Keyword::parse(line, Place::default());
+        let keyword = Keyword::parse(line, LinePlace::default());
         assert_eq!(keyword.name, "SOLID SECTION");
         assert_eq!(keyword.get("ELSET"), Some("My set"));
         assert_eq!(keyword.get("MATERIAL"), Some("Steel"));
-        let unknown = Keyword::parse("*NODES", Place::default());
+        let unknown = Keyword::parse("*NODES", LinePlace::default());
         let message = unknown.what_for().unwrap_err();
         assert!(message.contains("did you mean *NODE?"), "{message}");
     }

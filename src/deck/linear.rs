@@ -6,7 +6,7 @@
 //! elimination, with the largest coefficient of a column or row as the pivot).
 
 use super::history::Key;
-use super::source::Place;
+use super::source::LinePlace;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Share of the largest coefficient of a column below which a coefficient counts as round-off.
@@ -16,15 +16,15 @@ const ROUND_OFF: f64 = 1e-11;
 const LARGE_ENOUGH: f64 = 0.1;
 
 /// Coefficients of displacements, by node and axis.
-pub(super) type Terms = BTreeMap<Key, f64>;
+pub(super) type FreedomCoefficients = BTreeMap<Key, f64>;
 
 /// An equation from a line of the deck.
 #[derive(Debug, Clone)]
 pub(super) struct LinearRow {
-    pub(super) terms: Terms,
+    pub(super) terms: FreedomCoefficients,
     /// The term that follows the others if its coefficient is large enough.
     pub(super) first: Option<Key>,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
     pub(super) keyword: &'static str,
 }
 
@@ -33,8 +33,8 @@ pub(super) struct LinearRow {
 pub(super) struct Follows {
     pub(super) key: Key,
     /// Coefficients `a_k` of `u_key = sum_k a_k u_k`.
-    pub(super) of: Terms,
-    pub(super) place: Place,
+    pub(super) of: FreedomCoefficients,
+    pub(super) place: LinePlace,
 }
 
 /// The result of the reduction of all equations.
@@ -194,7 +194,7 @@ mod tests {
         LinearRow {
             terms: terms.iter().map(|&(node, c)| ((node, 0), c)).collect(),
             first: terms.first().map(|term| (term.0, 0)),
-            place: Place::default(),
+            place: LinePlace::default(),
             keyword: "EQUATION",
         }
     }

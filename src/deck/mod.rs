@@ -60,10 +60,10 @@ use crate::labels::LabelIndex;
 use crate::shape::Shape;
 use crate::space::Vector;
 use boundary::BoundaryElements;
-use data::{Elements, Nodes, Program, Properties, Sets};
+use data::{DeckElements, DeckProgram, Nodes, Properties, Sets};
 use instances::Instances;
 use reader::Reader;
-use source::{Files, Place, Source};
+use source::{DeckLines, Files, LinePlace};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -74,19 +74,19 @@ pub struct Deck {
     heading: Vec<String>,
     files: Files,
     nodes: Nodes,
-    elements: Elements,
+    elements: DeckElements,
     /// Boundary elements, which have no stiffness: sets of them stand for faces.
     boundary: BoundaryElements,
     sets: Sets,
     properties: Properties,
-    program: Program,
+    program: DeckProgram,
     account: Account,
     /// Instances of parts, which determine the numbering of nodes and elements.
     instances: Instances,
     /// First place at which large deformation is requested.
-    nlgeom: Option<Place>,
+    nlgeom: Option<LinePlace>,
     /// Place of the end of the deck.
-    end: Place,
+    end: LinePlace,
     node_index: LabelIndex,
     element_index: LabelIndex,
     /// Indices of the nodes of all elements, one element after the other.
@@ -103,7 +103,7 @@ impl Deck {
     pub fn read(path: &Path) -> Result<Deck> {
         let text = files::read("read the deck", path, None)?;
         let name = path.display().to_string();
-        Reader::new(Source::new(Cow::Owned(text), &name, path.parent())).read()
+        Reader::new(DeckLines::new(Cow::Owned(text), &name, path.parent())).read()
     }
 
     /// Reads a deck from the bytes of a file; `name` stands for the file in messages. Paths of
@@ -120,7 +120,7 @@ impl Deck {
     /// # Errors
     /// As for [`Deck::read`].
     pub fn parse(text: &[u8], name: &str) -> Result<Deck> {
-        Reader::new(Source::new(Cow::Borrowed(text), name, None)).read()
+        Reader::new(DeckLines::new(Cow::Borrowed(text), name, None)).read()
     }
 
     /// The account of what was understood, interpreted differently, ignored, and refused.
@@ -133,9 +133,9 @@ impl Deck {
         if self.nodes.labels.len().max(self.elements.labels.len()) >= u32::MAX as usize {
             return Err(Error::input("more nodes or elements than can be numbered"));
         }
-        let twice = |what: &str, labels: &[u64], places: &[Place], label: u64| {
+        let twice = |what: &str, labels: &[u64], places: &[LinePlace], label: u64| {
             let mut all = labels.iter().zip(places).filter(|(l, _)| **l == label);
-            let place = all.nth(1).map_or(Place::default(), |(_, place)| *place);
+            let place = all.nth(1).map_or(LinePlace::default(), |(_, place)| *place);
             let place = self.files.show(place);
             let label = self.instances.shown(label);
             Error::input(format!(
@@ -168,7 +168,7 @@ impl Deck {
     }
 
     /// An error at a line, for a keyword.
-    fn error(&self, place: Place, keyword: &str, message: impl std::fmt::Display) -> Error {
+    fn error(&self, place: LinePlace, keyword: &str, message: impl std::fmt::Display) -> Error {
         let place = self.files.show(place);
         Error::input(format!("{place}: *{keyword}: {message}"))
     }

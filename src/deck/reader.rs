@@ -11,15 +11,15 @@ mod volume;
 
 use super::assembly::{self, Assembled};
 use super::data::{Account, Condition, Rigid};
-use super::fields::Fields;
+use super::fields::LineFields;
 use super::keyword::{Keyword, Use};
-use super::source::{Line, Source};
-use super::{Deck, Place};
+use super::source::{DeckLines, Line};
+use super::{Deck, LinePlace};
 use crate::error::Result;
 
 /// A deck that is being read.
 pub(super) struct Reader<'t> {
-    source: Source<'t>,
+    source: DeckLines<'t>,
     deck: Deck,
     /// The material to which the next keywords belong.
     material: Option<String>,
@@ -39,7 +39,7 @@ pub(super) struct Reader<'t> {
 }
 
 impl<'t> Reader<'t> {
-    pub(super) fn new(source: Source<'t>) -> Self {
+    pub(super) fn new(source: DeckLines<'t>) -> Self {
         Reader {
             source,
             deck: Deck::default(),
@@ -200,17 +200,17 @@ impl<'t> Reader<'t> {
         }
     }
 
-    fn ignore(&mut self, keyword: &Keyword, place: Place, why: &str) {
+    fn ignore(&mut self, keyword: &Keyword, place: LinePlace, why: &str) {
         let list = &mut self.deck.account.ignored;
         Account::add(list, &self.source.files, place, &keyword.name, why);
     }
 
-    fn refuse(&mut self, keyword: &Keyword, place: Place, why: &str) {
+    fn refuse(&mut self, keyword: &Keyword, place: LinePlace, why: &str) {
         let list = &mut self.deck.account.refused;
         Account::add(list, &self.source.files, place, &keyword.name, why);
     }
 
-    fn take(&mut self, keyword: &Keyword, place: Place, how: &str) {
+    fn take(&mut self, keyword: &Keyword, place: LinePlace, how: &str) {
         let list = &mut self.deck.account.taken;
         Account::add(list, &self.source.files, place, &keyword.name, how);
     }
@@ -235,8 +235,8 @@ impl<'t> Reader<'t> {
 }
 
 /// The values of a data line.
-fn fields<'a>(source: &'a Source, keyword: &'a Keyword, line: Line) -> Fields<'a> {
-    Fields::new(
+fn fields<'a>(source: &'a DeckLines, keyword: &'a Keyword, line: Line) -> LineFields<'a> {
+    LineFields::new(
         source.bytes(line),
         keyword.at(source.file(line), line.place),
     )

@@ -14,16 +14,16 @@
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, `*RIGID BODY`, `*KINEMATIC`.
 
 use super::Deck;
-use super::data::{RigidNodes, Target};
+use super::data::{EntitySelection, RigidNodes};
 use super::history::Key;
-use super::linear::{LinearRow, Terms};
+use super::linear::{FreedomCoefficients, LinearRow};
 use super::sets::{At, What};
-use super::source::Place;
+use super::source::LinePlace;
 use crate::error::Result;
 use crate::space::difference;
 
 /// A rigid body, with nodes given by their indices.
-pub(super) struct RigidBody {
+pub(super) struct DeckRigidBody {
     /// Nodes of the body in ascending order, without the reference node and the rotation node.
     nodes: Vec<u32>,
     reference: u32,
@@ -31,7 +31,7 @@ pub(super) struct RigidBody {
     /// such node.
     rotation: u32,
     follows: [bool; 3],
-    place: Place,
+    place: LinePlace,
     keyword: &'static str,
 }
 
@@ -40,7 +40,7 @@ impl Deck {
     ///
     /// # Errors
     /// `Input` for undefined names and numbers, and for a reference that is not a single node.
-    pub(super) fn rigid_bodies(&self) -> Result<Vec<RigidBody>> {
+    pub(super) fn rigid_bodies(&self) -> Result<Vec<DeckRigidBody>> {
         let all = self.properties.rigid.iter().enumerate();
         all.map(|(number, rigid)| {
             let at = (rigid.place, rigid.keyword);
@@ -51,10 +51,11 @@ impl Deck {
             };
             let mut nodes = match &rigid.nodes {
                 RigidNodes::Set(name) => {
-                    self.indices(What::Nodes, &Target::Set(name.clone()), at)?
+                    self.indices(What::Nodes, &EntitySelection::Set(name.clone()), at)?
                 }
                 RigidNodes::Elements(name) => {
-                    let elements = self.indices(What::Elements, &Target::Set(name.clone()), at)?;
+                    let elements =
+                        self.indices(What::Elements, &EntitySelection::Set(name.clone()), at)?;
                     let nodes = elements.iter().map(|e| self.element_nodes(*e as usize));
                     nodes.flatten().copied().collect()
                 }
@@ -63,7 +64,7 @@ impl Deck {
             nodes.sort_unstable();
             nodes.dedup();
             nodes.retain(|node| *node != reference && *node != rotation);
-            Ok(RigidBody {
+            Ok(DeckRigidBody {
                 nodes,
                 reference,
                 rotation,
@@ -75,7 +76,7 @@ impl Deck {
         .collect()
     }
 
-    fn one_node(&self, target: &Target, at: At) -> Result<u32> {
+    fn one_node(&self, target: &EntitySelection, at: At) -> Result<u32> {
         match self.indices(What::Nodes, target, at)?[..] {
             [node] => Ok(node),
             ref nodes => {
@@ -114,7 +115,7 @@ impl Deck {
     }
 }
 
-impl RigidBody {
+impl DeckRigidBody {
     /// The equations of the body's nodes along the axes of the model.
     pub(super) fn rows(&self, deck: &Deck) -> impl Iterator<Item = (u32, usize, LinearRow)> {
         let dimension = deck.dimension();
@@ -125,7 +126,7 @@ impl RigidBody {
             axes.map(move |axis| {
                 let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
                 // The component of the cross product: w_next r_last - w_last r_next.
-                let mut terms = Terms::from([((self.reference, axis as u8), -1.0)]);
+                let mut terms = FreedomCoefficients::from([((self.reference, axis as u8), -1.0)]);
                 for (of, c) in [(next, -r[last]), (last, r[next])] {
                     // In the plane only the rotation about the normal exists.
                     if dimension == 3 || of == 2 {

@@ -1,9 +1,9 @@
 //! Resolution of names and numbers into indices of nodes, elements and faces.
 
-use super::data::{Account, Member, Members, Named, SurfacePart, Target};
+use super::data::{Account, EntitySelection, Member, Members, Named, SurfacePart};
 use super::facets::Face;
 use super::keyword::no_such;
-use super::source::Place;
+use super::source::LinePlace;
 use super::{Deck, element_type};
 use crate::error::Result;
 use crate::labels::LabelIndex;
@@ -27,7 +27,7 @@ impl What {
 }
 
 /// The place at which a name or number is used: line and keyword.
-pub(super) type At<'k> = (Place, &'k str);
+pub(super) type At<'k> = (LinePlace, &'k str);
 
 impl Deck {
     fn table(&self, what: What) -> (&Named<Members>, &LabelIndex, &[u64]) {
@@ -45,7 +45,7 @@ impl Deck {
     ///
     /// # Errors
     /// `Input` for an undefined number or name, at the line that uses it.
-    pub(super) fn indices(&self, what: What, target: &Target, at: At) -> Result<Vec<u32>> {
+    pub(super) fn indices(&self, what: What, target: &EntitySelection, at: At) -> Result<Vec<u32>> {
         let mut out = Vec::new();
         self.collect(what, target, at, &mut BTreeSet::new(), &mut out)?;
         out.sort_unstable();
@@ -56,7 +56,7 @@ impl Deck {
     fn collect(
         &self,
         what: What,
-        target: &Target,
+        target: &EntitySelection,
         at: At,
         seen: &mut BTreeSet<String>,
         out: &mut Vec<u32>,
@@ -64,14 +64,16 @@ impl Deck {
         let [thing, key] = what.words();
         let (sets, index, _) = self.table(what);
         let name = match target {
-            Target::Label(label) if what == What::Elements && self.boundary.has(*label) => {
+            EntitySelection::Label(label)
+                if what == What::Elements && self.boundary.has(*label) =>
+            {
                 return Ok(());
             }
             // An undefined number within a set has been reported before.
-            Target::Label(label) if !seen.is_empty() && index.get(*label).is_none() => {
+            EntitySelection::Label(label) if !seen.is_empty() && index.get(*label).is_none() => {
                 return Ok(());
             }
-            Target::Label(label) => {
+            EntitySelection::Label(label) => {
                 let found = index.get(*label).ok_or_else(|| {
                     let (shown, hint) = (self.instances.shown(*label), self.instances.hint(*label));
                     self.error(at.0, at.1, format!("there is no {thing} {shown}{hint}"))
@@ -79,8 +81,8 @@ impl Deck {
                 out.push(found);
                 return Ok(());
             }
-            Target::Set(name) => name,
-            Target::All => {
+            EntitySelection::Set(name) => name,
+            EntitySelection::All => {
                 out.extend(0..self.table(what).2.len() as u32);
                 return Ok(());
             }
@@ -101,7 +103,7 @@ impl Deck {
                     self.range(what, [*first, *last, *step], at, out)?;
                 }
                 Member::NodesOf(name) => {
-                    let of = Target::Set(name.clone());
+                    let of = EntitySelection::Set(name.clone());
                     for element in self.indices(What::Elements, &of, at)? {
                         out.extend_from_slice(self.element_nodes(element as usize));
                     }
@@ -161,10 +163,12 @@ impl Deck {
             };
             for (name, members) in sets.iter() {
                 let absent = members.iter().filter_map(|(member, place)| match member {
-                    Member::Of(Target::Label(label)) if is_absent(*label) => Some((*label, *place)),
+                    Member::Of(EntitySelection::Label(label)) if is_absent(*label) => {
+                        Some((*label, *place))
+                    }
                     _ => None,
                 });
-                let absent: Vec<(u64, Place)> = absent.collect();
+                let absent: Vec<(u64, LinePlace)> = absent.collect();
                 let Some(&(label, place)) = absent.first() else {
                     continue;
                 };
@@ -193,7 +197,7 @@ impl Deck {
     ///
     /// # Errors
     /// `Input` if nothing of a surface is left.
-    fn leave_out_of_surfaces(&mut self, notes: &mut Vec<(Place, &str, String)>) -> Result<()> {
+    fn leave_out_of_surfaces(&mut self, notes: &mut Vec<(LinePlace, &str, String)>) -> Result<()> {
         let mut surfaces = std::mem::take(&mut self.sets.surfaces);
         let mut wrong = None;
         surfaces.for_each_named(|name, parts| {
@@ -204,7 +208,7 @@ impl Deck {
                     SurfacePart::Face(on, _) | SurfacePart::Free(on) => (What::Elements, on),
                     SurfacePart::OfNodes(on) => (What::Nodes, on),
                 };
-                let Target::Label(label) = on else {
+                let EntitySelection::Label(label) = on else {
                     return true;
                 };
                 let is_line = what == What::Elements && self.boundary.has(*label);
@@ -242,7 +246,7 @@ impl Deck {
             let [thing, key] = what.words();
             for (name, members) in self.table(what).0.iter() {
                 let other = members.iter().find_map(|(member, place)| match member {
-                    Member::Of(Target::Set(other)) => Some((other, *place)),
+                    Member::Of(EntitySelection::Set(other)) => Some((other, *place)),
                     _ => None,
                 });
                 let Some((other, place)) = other else {
@@ -254,7 +258,7 @@ impl Deck {
                     continue;
                 }
                 let mut found = Vec::new();
-                let on = Target::Set(name.to_string());
+                let on = EntitySelection::Set(name.to_string());
                 self.collect(what, &on, (place, key), &mut BTreeSet::new(), &mut found)?;
                 if found.is_empty() && (what == What::Nodes || self.boundary_of(&on).is_empty()) {
                     let message = format!(
@@ -271,7 +275,7 @@ impl Deck {
     /// Collects the names, in capitals, of all sets that a set contains.
     fn reach(&self, what: What, name: &str, reached: &mut BTreeSet<String>) {
         for (member, _) in self.table(what).0.get(name).into_iter().flatten() {
-            if let Member::Of(Target::Set(other)) = member
+            if let Member::Of(EntitySelection::Set(other)) = member
                 && reached.insert(other.to_uppercase())
             {
                 self.reach(what, other, reached);

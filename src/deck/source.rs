@@ -10,7 +10,7 @@ const MOST_FILES: usize = 1000;
 
 /// The place of a line in one of the deck's files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub(super) struct Place {
+pub(super) struct LinePlace {
     file: u32,
     line: u32,
 }
@@ -21,7 +21,7 @@ pub(super) struct Files(Vec<String>);
 
 impl Files {
     /// The place in words: `FILE, line N`.
-    pub(super) fn show(&self, place: Place) -> String {
+    pub(super) fn show(&self, place: LinePlace) -> String {
         format!("{}, line {}", self.name(place), place.line)
     }
 
@@ -30,12 +30,12 @@ impl Files {
         self.0.first().map_or("", String::as_str)
     }
 
-    fn name(&self, place: Place) -> &str {
+    fn name(&self, place: LinePlace) -> &str {
         self.0.get(place.file as usize).map_or("", String::as_str)
     }
 }
 
-impl Place {
+impl LinePlace {
     /// The number of the line, for lists that concern one file.
     pub(super) fn line(self) -> u32 {
         self.line
@@ -45,7 +45,7 @@ impl Place {
 /// A line that is neither blank nor a comment.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Line {
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
     /// Index of the text that holds the bytes of the line.
     text: u32,
     start: usize,
@@ -57,7 +57,7 @@ pub(super) struct Line {
 pub(super) struct Anew {
     text: Vec<u8>,
     /// The place in the deck of each line, and the end of the line in `text`.
-    ends: Vec<(Place, usize)>,
+    ends: Vec<(LinePlace, usize)>,
 }
 
 impl Anew {
@@ -67,7 +67,7 @@ impl Anew {
     }
 
     /// Ends the current line, which corresponds to the given place in the deck.
-    pub(super) fn end_line(&mut self, place: Place) {
+    pub(super) fn end_line(&mut self, place: LinePlace) {
         self.ends.push((place, self.text.len()));
     }
 }
@@ -105,7 +105,7 @@ fn with_line_feeds(text: Cow<[u8]>) -> Cow<[u8]> {
 }
 
 /// The lines of a deck. `*INCLUDE` is resolved here, so that readers never see it.
-pub(super) struct Source<'t> {
+pub(super) struct DeckLines<'t> {
     texts: Vec<Cow<'t, [u8]>>,
     pub(super) files: Files,
     /// The directory to which relative paths refer.
@@ -116,10 +116,10 @@ pub(super) struct Source<'t> {
     anew: Option<std::vec::IntoIter<Line>>,
 }
 
-impl<'t> Source<'t> {
+impl<'t> DeckLines<'t> {
     pub(super) fn new(text: Cow<'t, [u8]>, name: &str, folder: Option<&Path>) -> Self {
         let text = with_line_feeds(text);
-        Source {
+        DeckLines {
             open: vec![Open::new(0, &text)],
             texts: vec![text],
             files: Files(vec![name.to_string()]),
@@ -140,17 +140,19 @@ impl<'t> Source<'t> {
     }
 
     /// The place up to which the deck has been read.
-    pub(super) fn here(&self) -> Place {
-        self.open.last().map_or(Place::default(), |open| Place {
-            file: open.file,
-            line: open.line,
-        })
+    pub(super) fn here(&self) -> LinePlace {
+        self.open
+            .last()
+            .map_or(LinePlace::default(), |open| LinePlace {
+                file: open.file,
+                line: open.line,
+            })
     }
 
     /// Reads the next line; `None` at the end of the deck.
     ///
     /// # Errors
-    /// The errors of [`Source::include`].
+    /// The errors of [`DeckLines::include`].
     pub(super) fn next(&mut self) -> Result<Option<Line>> {
         if let Some(line) = self.ahead.take() {
             return Ok(Some(line));
@@ -185,7 +187,7 @@ impl<'t> Source<'t> {
             let left = whole.len() - whole.trim_ascii_start().len();
             let trimmed = whole.trim_ascii();
             let line = Line {
-                place: Place {
+                place: LinePlace {
                     file: open.file,
                     line: open.line + 1,
                 },
@@ -205,7 +207,7 @@ impl<'t> Source<'t> {
     /// Reads the next data line; `None` if a keyword or the end of the deck comes next.
     ///
     /// # Errors
-    /// The errors of [`Source::next`].
+    /// The errors of [`DeckLines::next`].
     pub(super) fn next_data(&mut self) -> Result<Option<Line>> {
         match self.next()? {
             Some(line) if self.bytes(line).first() == Some(&b'*') => {

@@ -3,10 +3,10 @@
 
 use super::Deck;
 use super::bodies::{Bodies, unsupported};
-use super::data::{Kind, MaterialData};
+use super::data::{ConditionKind, MaterialData};
 use super::expansion::Expansion;
 use super::series::{Series, are_alike};
-use super::source::Place;
+use super::source::LinePlace;
 use crate::error::Result;
 use crate::scene::{Material, MaterialRow};
 use std::borrow::Cow;
@@ -24,7 +24,7 @@ pub(super) struct OfBody {
     /// Whether all nodes have the same change; otherwise their changes are in proportion to it.
     pub(super) is_uniform: bool,
     /// The line that gave the temperature last; `None` for a body without temperatures.
-    pub(super) place: Option<Place>,
+    pub(super) place: Option<LinePlace>,
 }
 
 impl OfBody {
@@ -43,7 +43,7 @@ impl OfBody {
 struct OfNode {
     initial: f64,
     change: Series,
-    place: Option<Place>,
+    place: Option<LinePlace>,
 }
 
 impl OfNode {
@@ -117,12 +117,12 @@ impl Deck {
     fn temperatures_of_nodes(&self) -> Result<Vec<OfNode>> {
         let mut initial: BTreeMap<u32, f64> = BTreeMap::new();
         let given = self.program.initial.iter();
-        for condition in given.filter(|condition| condition.kind == Kind::Temperature) {
+        for condition in given.filter(|condition| condition.kind == ConditionKind::Temperature) {
             for (node, _) in self.keys(condition)? {
                 initial.insert(node, condition.value);
             }
         }
-        let histories = self.histories(Kind::Temperature)?;
+        let histories = self.histories(ConditionKind::Temperature)?;
         let of_node = |node: u32| {
             let initial = initial.get(&node).copied().unwrap_or(0.0);
             let mut change = Series::starting(0.0);
@@ -148,7 +148,7 @@ impl Deck {
         let conditions = self.program.initial.iter();
         let mut conditions =
             conditions.chain(self.program.steps.iter().flat_map(|s| &s.conditions));
-        if !conditions.any(|condition| condition.kind == Kind::Temperature) {
+        if !conditions.any(|condition| condition.kind == ConditionKind::Temperature) {
             let none = bodies.names.iter().map(|_| OfBody::none());
             return Ok(none.collect());
         }

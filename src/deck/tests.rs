@@ -205,8 +205,8 @@ fn amplitudes_over_step_time_begin_anew_in_each_step() {
 fn sets_in_a_circle_are_the_sum_of_their_members() {
     let text = "*NODE\n1\n2\n3\n*NSET, NSET=A\nB, 1\n*NSET, NSET=B\nA, B, 3\n";
     let deck = Deck::parse(text.as_bytes(), "a.inp").unwrap();
-    let a = data::Target::Set("a".to_string());
-    let at = (Place::default(), "NSET");
+    let a = data::EntitySelection::Set("a".to_string());
+    let at = (LinePlace::default(), "NSET");
     assert_eq!(deck.indices(sets::What::Nodes, &a, at).unwrap(), [0, 2]);
 }
 

@@ -15,7 +15,7 @@
 //! # Source
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).
 
-use crate::shape::{Reference, Rule};
+use crate::shape::{ReferenceElement, Rule};
 use crate::space::Space;
 
 /// One number at each point; unused lanes repeat the value at the first point.
@@ -25,7 +25,7 @@ pub type Components<const S: usize = 4, const P: usize = 4> = [Lanes<P>; S];
 
 /// Shape functions of one shape at the points of a rule.
 #[derive(Debug)]
-pub(super) struct Table<const D: usize, const P: usize, const N: usize> {
+pub(super) struct ShapeFunctionTable<const D: usize, const P: usize, const N: usize> {
     n_nodes: usize,
     n_points: usize,
     /// Weights of the points; zero in unused lanes.
@@ -35,9 +35,9 @@ pub(super) struct Table<const D: usize, const P: usize, const N: usize> {
     gradients: [[Lanes<P>; D]; N],
 }
 
-impl<const D: usize, const P: usize, const N: usize> Table<D, P, N> {
-    pub(super) fn new(row: &Reference, rule: &Rule) -> Self {
-        let mut out = Table {
+impl<const D: usize, const P: usize, const N: usize> ShapeFunctionTable<D, P, N> {
+    pub(super) fn new(row: &ReferenceElement, rule: &Rule) -> Self {
+        let mut out = ShapeFunctionTable {
             n_nodes: row.nodes.len(),
             n_points: rule.len(),
             weights: [0.0; P],
@@ -109,7 +109,7 @@ pub(super) use of_nodes;
 /// strain.
 #[derive(Debug, Clone)]
 pub struct Gradients<const D: usize, const S: usize, const P: usize, const N: usize> {
-    pub(super) table: &'static Table<D, P, N>,
+    pub(super) table: &'static ShapeFunctionTable<D, P, N>,
     pub(super) has_mean: bool,
     /// Inverse Jacobian, `dxi_a/dx_d` as `[d][a]`.
     inverse: [[Lanes<P>; D]; D],
@@ -135,7 +135,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
     /// Computes the gradients at the points of `table` from the coordinates of the element's nodes.
     #[inline]
     pub(super) fn new(
-        table: &'static Table<D, P, N>,
+        table: &'static ShapeFunctionTable<D, P, N>,
         space: Space,
         has_mean: bool,
         nodes: &[[f64; D]; N],

@@ -49,7 +49,7 @@ pub use volume::{VolumePoint, volume_points};
 use crate::scene::Formulation;
 use crate::shape::{Integration, Rule, Shape};
 use crate::space::Space;
-use gradients::{Table, set_trace};
+use gradients::{ShapeFunctionTable, set_trace};
 use std::sync::LazyLock;
 
 /// Kernel of the plane: 2 coordinates, 4 components, up to 4 points and 8 nodes.
@@ -63,7 +63,7 @@ pub type FullSolidKernel = Kernel<3, 6, 27, 20>;
 
 /// Shape functions of all shapes of one dimension.
 type ShapeTables<const D: usize, const P: usize, const N: usize> =
-    LazyLock<[Option<Table<D, P, N>>; Shape::ALL.len()]>;
+    LazyLock<[Option<ShapeFunctionTable<D, P, N>>; Shape::ALL.len()]>;
 
 /// Tables of a kernel at the points of reduced and full integration and at the sampling points.
 type AllTables<const D: usize, const P: usize, const N: usize> = [ShapeTables<D, P, N>; 3];
@@ -84,11 +84,11 @@ static FULL_SOLID: AllTables<3, 27, 20> = all_tables();
 /// Makes a table for each shape; `None` for another dimension or a rule with too many points.
 fn tables<const D: usize, const P: usize, const N: usize>(
     rule: fn(Shape) -> &'static Rule,
-) -> [Option<Table<D, P, N>>; Shape::ALL.len()] {
+) -> [Option<ShapeFunctionTable<D, P, N>>; Shape::ALL.len()] {
     Shape::ALL.map(|shape| {
         let row = shape.reference();
         let fits = row.dimension == D && rule(shape).len() <= P;
-        fits.then(|| Table::new(row, rule(shape)))
+        fits.then(|| ShapeFunctionTable::new(row, rule(shape)))
     })
 }
 

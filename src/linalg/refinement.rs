@@ -18,7 +18,7 @@
 //! Demmel, I. S. Duff (1989), doi:10.1137/0610013 (rows without load).
 
 use super::SymmetricCsc;
-use super::residual::Rows;
+use super::residual::RowSums;
 use crate::error::Result;
 
 /// Largest number of steps, for a condition at which each step gains only one digit.
@@ -106,7 +106,7 @@ fn subtract_product(high: &mut f64, low: &mut f64, a: f64, b: f64) {
 /// this share. Rows without load and almost without displacement are measured against their own
 /// stiffness times the largest displacement.
 pub fn componentwise_backward_error(matrix: &SymmetricCsc, load: &[f64], u: &[f64]) -> f64 {
-    let mut rows = Rows::new(matrix, load, u);
+    let mut rows = RowSums::new(matrix, load, u);
     rows.residual = twofold_residual(matrix, load, u);
     rows.componentwise_error(load, u)
 }

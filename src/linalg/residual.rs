@@ -76,7 +76,7 @@ fn largest_of(n: usize, value: impl Fn(usize) -> f64 + Sync) -> f64 {
 }
 
 /// Row sums from one pass over `K`, for a solution `u` of `K u = f`.
-pub(super) struct Rows {
+pub(super) struct RowSums {
     /// Residual `f - K u` of each row.
     pub residual: Vec<f64>,
     /// Sum `|K| |u|` of each row.
@@ -96,10 +96,10 @@ struct RowBlock<'a> {
     before: Vec<[f64; 3]>,
 }
 
-impl Rows {
+impl RowSums {
     pub(super) fn new(matrix: &SymmetricCsc, f: &[f64], u: &[f64]) -> Self {
         let (n, pointers) = (u.len(), matrix.proper_indptr());
-        let mut rows = Rows {
+        let mut rows = RowSums {
             residual: f.to_vec(),
             terms: vec![0.0; n],
             stiffness: vec![0.0; n],

@@ -2,7 +2,7 @@
 
 #[cfg(feature = "mumps")]
 use super::mumps;
-use super::residual::{Rows, largest, norm};
+use super::residual::{RowSums, largest, norm};
 use super::{Backend, Condensed, Partition, Prediction, SymmetricCsc, condense, predict};
 #[cfg(feature = "mumps")]
 use crate::error::Error;
@@ -79,9 +79,9 @@ impl Symmetric {
     }
 
     /// Row sums from one pass over the matrix, for a solution `u` with the load `f`.
-    pub(super) fn rows(&self, f: &[f64], u: &[f64]) -> Result<Rows> {
+    pub(super) fn rows(&self, f: &[f64], u: &[f64]) -> Result<RowSums> {
         match self {
-            Symmetric::Whole(matrix) => Ok(Rows::new(matrix, f, u)),
+            Symmetric::Whole(matrix) => Ok(RowSums::new(matrix, f, u)),
             #[cfg(feature = "mumps")]
             Symmetric::Shared(shared) => shared.rows(f, u),
         }

@@ -18,7 +18,7 @@ pub use hardening::Hardening;
 pub use lame::{Lame, Softening};
 pub use strain_path::Memory;
 
-use crate::root::{self, Accuracy};
+use crate::root::{self, RootTolerance};
 use crate::scene;
 use crate::space::Space;
 use serde::{Deserialize, Serialize};
@@ -244,10 +244,10 @@ impl Material {
         law: &Lame,
         strain: &[f64; S],
         old: &Past<S>,
-    ) -> radial_return::Flow<S> {
+    ) -> radial_return::PlasticFlow<S> {
         match self.beyond_yield(law, strain, old) {
             Some((hardening, trial)) => radial_return::flow(self, hardening, &trial, old),
-            None => radial_return::Flow::none(*old.state),
+            None => radial_return::PlasticFlow::none(*old.state),
         }
     }
 }
@@ -258,7 +258,7 @@ impl Material {
 fn flow_to_root(excess: impl Fn(f64) -> f64, stiffness: f64, scale: f64) -> f64 {
     let first = excess(0.0);
     let end = first / stiffness;
-    let accuracy = Accuracy {
+    let accuracy = RootTolerance {
         value: 4.0 * f64::EPSILON * scale,
         place: f64::EPSILON,
     };

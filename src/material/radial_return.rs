@@ -28,7 +28,7 @@ use super::{
 };
 
 /// Plastic flow of one increment.
-pub(super) struct Flow<const S: usize> {
+pub(super) struct PlasticFlow<const S: usize> {
     /// Plastic state at the end of the flow.
     pub state: PlasticState<S>,
     /// Relative stress `s(d)`.
@@ -40,10 +40,10 @@ pub(super) struct Flow<const S: usize> {
     slope: f64,
 }
 
-impl<const S: usize> Flow<S> {
+impl<const S: usize> PlasticFlow<S> {
     /// An increment without any flow.
     pub fn none(state: PlasticState<S>) -> Self {
-        Flow {
+        PlasticFlow {
             state,
             s: [0.0; S],
             q: 0.0,
@@ -74,7 +74,7 @@ pub(super) fn flow<const S: usize>(
     hardening: &Hardening,
     trial: &[f64; S],
     old: &Past<S>,
-) -> Flow<S> {
+) -> PlasticFlow<S> {
     let g = material.shear_modulus();
     let laws = &material.back_stresses;
     let start = deviator(trial);
@@ -103,7 +103,7 @@ pub(super) fn flow<const S: usize>(
         let doubled = if i < 3 { 1.0 } else { 2.0 };
         state.strain[i] += doubled * multiplier * s[i];
     }
-    Flow {
+    PlasticFlow {
         state,
         s,
         q,
@@ -118,7 +118,7 @@ pub(super) fn integrate<const S: usize>(
     trial: &[f64; S],
     old: &Past<S>,
 ) -> Update<S> {
-    let Flow {
+    let PlasticFlow {
         state, s, d, slope, ..
     } = flow(material, hardening, trial, old);
     let g = material.shear_modulus();

@@ -17,7 +17,7 @@
 //! A. Popp, B. Wohlmuth, M. Gee, W. Wall, *Dual quadratic mortar finite element methods for 3D
 //! finite deformation contact*, SIAM J. Sci. Comput. 34 (2012) B421, doi:10.1137/110848190.
 
-use super::pairs::ties::Tied;
+use super::pairs::ties::ResolvedTie;
 use super::pairs::{ContactSurface, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Surface};
@@ -48,7 +48,7 @@ impl ContactBasis {
         mesh: &Mesh,
         pairs: &[Pair],
         contacts: &[ContactSurface],
-        ties: &[Tied],
+        ties: &[ResolvedTie],
     ) -> Result<Self> {
         let mut basis = ContactBasis::default();
         if !mesh.is_solid() {

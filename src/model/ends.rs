@@ -7,7 +7,7 @@
 
 mod solid;
 
-use super::pairs::ties::Tied;
+use super::pairs::ties::ResolvedTie;
 use super::{ContactSurface, Pair};
 use crate::mesh::surface::FEATURE_ANGLE;
 use crate::mesh::{Facet, Mesh};
@@ -25,7 +25,7 @@ struct End {
 pub(super) fn find(
     scene: &Scene,
     mesh: &Mesh,
-    (pairs, ties): (&[Pair], &[Tied]),
+    (pairs, ties): (&[Pair], &[ResolvedTie]),
     contacts: &mut [ContactSurface],
 ) {
     let beside = Beside::new(scene, mesh, (pairs, ties), contacts);
@@ -50,7 +50,7 @@ impl Beside {
     fn new(
         scene: &Scene,
         mesh: &Mesh,
-        (pairs, ties): (&[Pair], &[Tied]),
+        (pairs, ties): (&[Pair], &[ResolvedTie]),
         contacts: &[ContactSurface],
     ) -> Self {
         let of_contacts = contacts.iter().flat_map(|contact| &contact.names);

@@ -3,7 +3,7 @@
 
 use super::carried::Carried;
 use super::freedoms::{Freedoms, Slot};
-use super::names::Entry;
+use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
 use super::solved::solved;
 use super::supports::Supports;
@@ -64,7 +64,7 @@ pub(super) fn resolve(
         carried.map_or(0.0, |carried| carried.at),
     )?);
     whole.extend(solved(of_leg, &taken, |(list, index), why| {
-        let entry = Entry::of_list(scene, list, index);
+        let entry = SceneEntry::of_list(scene, list, index);
         entry.refused(Error::input(format!("{list} {} {why}", index + 1)))
     })?);
     Ok(whole)
@@ -87,7 +87,7 @@ fn held_in_leg(scene: &Scene, mesh: &Mesh, start: f64) -> Result<Vec<(usize, usi
             .filter_map(|(a, f)| f.map(|_| a))
             .collect();
         if !given.is_empty() {
-            for node in Entry::of_list(scene, "load", index).nodes(mesh, &load.on)? {
+            for node in SceneEntry::of_list(scene, "load", index).nodes(mesh, &load.on)? {
                 out.extend(given.iter().map(|&axis| (node, axis)));
             }
         }
@@ -106,7 +106,7 @@ fn of_entries(scene: &Scene, mesh: &Mesh, carried: Option<&Carried>) -> Result<V
         if moved.is_some() && !scene.load[index].span().holds_from(start) {
             continue;
         }
-        let entry = Entry::of_list(scene, list, index);
+        let entry = SceneEntry::of_list(scene, list, index);
         let nodes = nodes_of_terms(&entry, mesh, (list, index), &terms)?;
         let [first, rest @ ..] = terms.as_slice() else {
             continue;
@@ -149,7 +149,7 @@ fn on_their_way(scene: &Scene, mesh: &Mesh, carried: &Carried) -> Result<Vec<Fol
         let Some(given) = &load.displacement else {
             continue;
         };
-        let entry = Entry::of_list(scene, "load", index);
+        let entry = SceneEntry::of_list(scene, "load", index);
         let within = |error: Error| entry.refused(error.within(entry.on(&load.on)));
         for (direction, field) in given.components().into_iter().enumerate() {
             let Some(field) = field else { continue };
@@ -173,11 +173,11 @@ fn on_their_way(scene: &Scene, mesh: &Mesh, carried: &Carried) -> Result<Vec<Fol
 }
 
 /// A list of the scene, and the number of an entry.
-type Numbered = (&'static str, usize);
+type EntryNumber = (&'static str, usize);
 
 /// All equations with their terms, the one that follows first; of a prescribed difference the value
 /// too.
-fn all(scene: &Scene) -> impl Iterator<Item = (Numbered, Vec<EquationTerm>, Option<f64>)> {
+fn all(scene: &Scene) -> impl Iterator<Item = (EntryNumber, Vec<EquationTerm>, Option<f64>)> {
     let equations = scene.equation.iter().enumerate();
     let equations =
         equations.map(|(index, equation)| (("equation", index), equation.terms.clone(), None));
@@ -200,9 +200,9 @@ fn all(scene: &Scene) -> impl Iterator<Item = (Numbered, Vec<EquationTerm>, Opti
 }
 
 fn nodes_of_terms(
-    entry: &Entry,
+    entry: &SceneEntry,
     mesh: &Mesh,
-    (list, index): Numbered,
+    (list, index): EntryNumber,
     terms: &[EquationTerm],
 ) -> Result<Vec<Vec<usize>>> {
     let mut nodes: Vec<Vec<usize>> = Vec::new();
@@ -251,7 +251,7 @@ impl Following {
         } = *self;
         let refused = |why: &str| {
             let (list, index) = self.of;
-            let entry = Entry::of_list(scene, list, index);
+            let entry = SceneEntry::of_list(scene, list, index);
             let (number, node) = (index + 1, mesh.node_label(node));
             let along = crate::scene::Direction::ALL[direction].name();
             entry.refused(Error::input(match self.terms.is_empty() {

@@ -19,7 +19,7 @@
 use super::equations::Following;
 use super::freedoms::{Freedoms, Prescribed, Slot};
 use super::pairs::Pair;
-use super::pairs::ties::Tied;
+use super::pairs::ties::ResolvedTie;
 use super::prescribed::FollowingMiddle;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
@@ -64,7 +64,7 @@ impl Freedoms {
     pub(super) fn follow(
         &mut self,
         mesh: &Mesh,
-        ties: &[Tied],
+        ties: &[ResolvedTie],
         others: &Others,
     ) -> Result<Followers> {
         let mut followers = Followers::default();
@@ -217,7 +217,7 @@ impl Freedoms {
     fn hand_on(
         &self,
         mesh: &Mesh,
-        tie: &Tied,
+        tie: &ResolvedTie,
         (row, i): (&Pair, usize),
         near: &[(usize, f64)],
         followers: &mut Followers,
@@ -388,7 +388,7 @@ impl Freedoms {
 }
 
 /// For each slave node the nodes that share a facet of the slave surface with it, with weights.
-fn neighbours(mesh: &Mesh, tie: &Tied) -> BTreeMap<usize, Vec<(usize, f64)>> {
+fn neighbours(mesh: &Mesh, tie: &ResolvedTie) -> BTreeMap<usize, Vec<(usize, f64)>> {
     let weight: BTreeMap<usize, f64> = (tie.rows.iter()).map(|row| (row.slave, row.area)).collect();
     let mut out: BTreeMap<usize, BTreeSet<usize>> = BTreeMap::new();
     for &facet in mesh

@@ -7,10 +7,10 @@ use super::equations::Following;
 use super::followers::{Followers, Others};
 use super::frame::{ALIGNED, Frame, frame};
 use super::pairs::Pair;
-use super::pairs::ties::Tied;
+use super::pairs::ties::ResolvedTie;
 use super::rigid::RigidBodies;
 use super::springs::Spring;
-use super::supports::{Held, Supports, turn_normals_into_supports};
+use super::supports::{HeldDirection, Supports, turn_normals_into_supports};
 use crate::error::Result;
 use crate::mesh::Mesh;
 use crate::scene::Scene;
@@ -86,7 +86,7 @@ impl Freedoms {
         basis: ContactBasis,
         pairs: &mut [Pair],
         master_normals: &[(usize, Vector)],
-        (ties, equations, rigid): (&[Tied], &[Following], &RigidBodies),
+        (ties, equations, rigid): (&[ResolvedTie], &[Following], &RigidBodies),
         carried: Option<&Carried>,
     ) -> Result<(Self, Followers)> {
         let supports = Supports::resolve(scene, mesh)?;
@@ -187,7 +187,7 @@ impl Freedoms {
         mesh: &Mesh,
         node: usize,
         normal: Option<Vector>,
-        of_node: &[Held],
+        of_node: &[HeldDirection],
     ) -> Result<()> {
         let directions: Vec<Vector> = of_node.iter().map(|held| held.direction).collect();
         for (held, direction) in of_node.iter().zip(&directions) {

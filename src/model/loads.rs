@@ -2,7 +2,7 @@
 
 use super::given::Given;
 use super::heat::FreeStrain;
-use super::names::Entry;
+use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
 use super::openings::{Opening, opened};
 use super::tractions::{Tractions, integrate};
@@ -225,7 +225,7 @@ fn resolve_load(
     (scene, contacts): (&Scene, &[ContactSurface]),
     mesh: &Mesh,
 ) -> Result<LoadCase> {
-    let entry = Entry::of_list(scene, "load", index);
+    let entry = SceneEntry::of_list(scene, "load", index);
     if load.acts_on_volume() {
         return volume_loads::resolve(index, load, scene, mesh);
     }
@@ -301,7 +301,7 @@ impl LoadCase {
     fn press(
         &mut self,
         (index, load): (usize, &scene::Load),
-        entry: &Entry,
+        entry: &SceneEntry,
         scene: &Scene,
         mesh: &Mesh,
     ) -> Result<()> {

@@ -68,7 +68,7 @@ use crate::space::Vector;
 pub(crate) use far_boundary::volumes_of_nodes;
 use given::Given;
 pub(crate) use mirror::Mirror;
-use names::Entry;
+use names::SceneEntry;
 use rayon::prelude::*;
 pub(crate) use recipe::Recipe;
 use std::ops::Deref;
@@ -393,11 +393,11 @@ fn load_cases(
 fn check_targets(scene: &Scene, mesh: &Mesh) -> Result<()> {
     for (index, target) in scene.program.targets.iter().enumerate() {
         if let Some(goal) = &target.displacement {
-            Entry::of_target(scene, index).nodes(mesh, &goal.on)?;
+            SceneEntry::of_target(scene, index).nodes(mesh, &goal.on)?;
         }
     }
     for (index, name) in scene.program.history.iter().enumerate() {
-        Entry::of_history(scene, index).named(mesh, name)?;
+        SceneEntry::of_history(scene, index).named(mesh, name)?;
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use crate::mesh::{Mesh, Surface};
 use crate::scene::{Scene, closest};
 
 /// An entry of a scene, for messages about the entry.
-pub(super) struct Entry<'s> {
+pub(super) struct SceneEntry<'s> {
     scene: &'s Scene,
     /// Key path of the entry, such as `load.0`.
     key: String,
@@ -13,10 +13,10 @@ pub(super) struct Entry<'s> {
     what: String,
 }
 
-impl<'s> Entry<'s> {
+impl<'s> SceneEntry<'s> {
     /// Makes entry `index` of one of the scene's lists.
     pub(super) fn of_list(scene: &'s Scene, list: &str, index: usize) -> Self {
-        Entry {
+        SceneEntry {
             scene,
             key: format!("{list}.{index}"),
             what: format!("{list} {}", index + 1),
@@ -25,7 +25,7 @@ impl<'s> Entry<'s> {
 
     /// Makes the entry of the displacement for which target `index` waits.
     pub(super) fn of_target(scene: &'s Scene, index: usize) -> Self {
-        Entry {
+        SceneEntry {
             scene,
             key: format!("program.targets.{index}.displacement"),
             what: format!("target {} displacement", index + 1),
@@ -34,7 +34,7 @@ impl<'s> Entry<'s> {
 
     /// Makes the entry of set `index` that the history follows.
     pub(super) fn of_history(scene: &'s Scene, index: usize) -> Self {
-        Entry {
+        SceneEntry {
             scene,
             key: format!("program.history.{index}"),
             what: format!("history {}", index + 1),

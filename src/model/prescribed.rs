@@ -4,9 +4,9 @@
 use super::carried::Carried;
 use super::frame::ALIGNED;
 use super::freedoms::{Freedoms, Planes, Prescribed, Slot};
-use super::names::Entry;
+use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
-use super::supports::Held;
+use super::supports::HeldDirection;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Direction, Load, Scene};
@@ -31,7 +31,7 @@ struct Moving<'a> {
     mesh: &'a Mesh,
     index: usize,
     load: &'a Load,
-    entry: Entry<'a>,
+    entry: SceneEntry<'a>,
 }
 
 impl<'a> Moving<'a> {
@@ -140,15 +140,15 @@ impl Freedoms {
         &mut self,
         scene: &Scene,
         node: usize,
-        of_node: &[Held],
+        of_node: &[HeldDirection],
         carried: &Carried,
     ) {
-        let began = |held: &&Held| {
+        let began = |held: &&HeldDirection| {
             let support = held.support.map(|index| &scene.support[index]);
             support.is_some_and(|support| support.since.is_some())
         };
         let axes = self.local(node);
-        for Held { direction, .. } in of_node.iter().filter(began) {
+        for HeldDirection { direction, .. } in of_node.iter().filter(began) {
             for (slot, axis) in self.slots[node].iter_mut().zip(axes) {
                 if *slot == Slot::Fixed && dot(axis, *direction).abs() > ALIGNED {
                     *slot = Slot::Prescribed(self.prescribed.len() as u32);
@@ -187,7 +187,7 @@ impl Freedoms {
                 mesh,
                 index,
                 load,
-                entry: Entry::of_list(scene, "load", index),
+                entry: SceneEntry::of_list(scene, "load", index),
             };
             let Some(directions) = moving.directions()? else {
                 continue;

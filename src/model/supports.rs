@@ -1,6 +1,6 @@
 //! Supports of each node, and their effect on contact normals.
 
-use super::names::Entry;
+use super::names::SceneEntry;
 use super::pairs::Pair;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
@@ -14,13 +14,13 @@ use std::collections::BTreeMap;
 const NEARLY_TANGENT: f64 = 0.5;
 
 /// A direction in which a node is held.
-pub(super) struct Held {
+pub(super) struct HeldDirection {
     pub(super) direction: Vector,
     /// Index of the support; `None` for the axis of revolution.
     pub(super) support: Option<usize>,
 }
 
-impl Held {
+impl HeldDirection {
     /// Name of the support for messages.
     pub(super) fn by(&self, scene: &Scene) -> String {
         match self.support {
@@ -31,7 +31,7 @@ impl Held {
 
     pub(super) fn refused(&self, scene: &Scene, why: String) -> Error {
         match self.support {
-            Some(index) => Entry::of_list(scene, "support", index).refused(Error::input(why)),
+            Some(index) => SceneEntry::of_list(scene, "support", index).refused(Error::input(why)),
             None => Error::input(why),
         }
     }
@@ -53,16 +53,16 @@ impl Moved {
 /// Held directions of each node, in the order of the scene, whether throughout the program or in
 /// some of its legs.
 pub(super) struct Supports {
-    pub(super) of_node: BTreeMap<usize, Vec<Held>>,
+    pub(super) of_node: BTreeMap<usize, Vec<HeldDirection>>,
 }
 
 impl Supports {
     pub(super) fn resolve(scene: &Scene, mesh: &Mesh) -> Result<Self> {
-        let mut of_node: BTreeMap<usize, Vec<Held>> = BTreeMap::new();
+        let mut of_node: BTreeMap<usize, Vec<HeldDirection>> = BTreeMap::new();
         for (index, support) in scene.support.iter().enumerate() {
             let directions = support.directions();
-            for node in Entry::of_list(scene, "support", index).nodes(mesh, &support.on)? {
-                let held = directions.iter().map(|&direction| Held {
+            for node in SceneEntry::of_list(scene, "support", index).nodes(mesh, &support.on)? {
+                let held = directions.iter().map(|&direction| HeldDirection {
                     direction,
                     support: Some(index),
                 });
@@ -76,7 +76,7 @@ impl Supports {
                 .map(|i| mesh.point(i)[0])
                 .fold(0.0, f64::max);
             for node in (0..mesh.n_nodes()).filter(|&i| mesh.point(i)[0] <= 1e-12 * radius) {
-                of_node.entry(node).or_default().push(Held {
+                of_node.entry(node).or_default().push(HeldDirection {
                     direction: unit(0),
                     support: None,
                 });
@@ -109,7 +109,7 @@ impl Supports {
             if axes.is_empty() {
                 continue;
             }
-            for node in Entry::of_list(scene, "load", index).nodes(mesh, &load.on)? {
+            for node in SceneEntry::of_list(scene, "load", index).nodes(mesh, &load.on)? {
                 of_node.entry(node).or_default().extend(&axes);
             }
         }
@@ -117,7 +117,7 @@ impl Supports {
             let Some(first) = equation.terms.first() else {
                 continue;
             };
-            for node in Entry::of_list(scene, "equation", index).nodes(mesh, &first.on)? {
+            for node in SceneEntry::of_list(scene, "equation", index).nodes(mesh, &first.on)? {
                 let axis = unit(first.direction.axis());
                 of_node.entry(node).or_default().push(axis);
             }

@@ -1,6 +1,6 @@
 //! Consistent nodal forces of loads on surfaces: `f = int N' t dA` over their facets.
 
-use super::names::Entry;
+use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
 use crate::element::{FacetPoint, facet_points};
 use crate::error::{Error, Result};
@@ -17,12 +17,17 @@ type NodeForces = Vec<(usize, Vector)>;
 pub(super) struct Tractions<'a> {
     scene: &'a Scene,
     mesh: &'a Mesh,
-    entry: &'a Entry<'a>,
+    entry: &'a SceneEntry<'a>,
     load: &'a Load,
 }
 
 impl<'a> Tractions<'a> {
-    pub fn new(scene: &'a Scene, mesh: &'a Mesh, entry: &'a Entry<'a>, load: &'a Load) -> Self {
+    pub fn new(
+        scene: &'a Scene,
+        mesh: &'a Mesh,
+        entry: &'a SceneEntry<'a>,
+        load: &'a Load,
+    ) -> Self {
         Tractions {
             scene,
             mesh,

@@ -2,7 +2,7 @@
 
 use super::heat::FreeStrain;
 use super::loads::{LoadCase, Magnitude, name};
-use super::names::Entry;
+use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
 use super::{body_forces, heat};
 use crate::error::{Error, Result};
@@ -19,7 +19,7 @@ pub(super) fn resolve(
 ) -> Result<LoadCase> {
     let refused = |text: String| {
         let text = format!("load {} on `{}`: {text}", index + 1, load.on);
-        Entry::of_list(scene, "load", index).refused(Error::input(text))
+        SceneEntry::of_list(scene, "load", index).refused(Error::input(text))
     };
     let Some(body) = mesh.bodies.iter().position(|name| *name == load.on) else {
         let bodies = mesh.bodies.join("`, `");

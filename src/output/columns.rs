@@ -11,7 +11,7 @@ use crate::space::Space;
 const SAME: f64 = 1e-6;
 
 /// A column of a table, with a cell for each state.
-pub(crate) struct Column {
+pub(crate) struct TableColumn {
     /// Heading of the column, in lines.
     pub heading: &'static str,
     /// Name of the unit; empty if there is none.
@@ -36,7 +36,7 @@ pub(crate) fn of_states(
     space: Space,
     contact: bool,
     is_narrow: bool,
-) -> Vec<Column> {
+) -> Vec<TableColumn> {
     let yielding = states.iter().any(|s| s.plastic_points > 0);
     let has_arc = contact && states.iter().any(|s| s.contact_arc.is_some());
     let differs = |a: f64, b: f64| (a - b).abs() > SAME * a.abs().max(b.abs());
@@ -56,7 +56,7 @@ pub(crate) fn of_states(
     let mut out = Vec::new();
     let mut add = |heading, unit, cell: &dyn Fn(&State) -> String| {
         let cells = states.iter().map(cell).collect();
-        out.push(Column {
+        out.push(TableColumn {
             heading,
             unit: labels.unit(unit),
             cells,

@@ -22,7 +22,7 @@
 use super::RunHeader;
 use super::atomic::Staging;
 use super::names::COLLECTION_FILE;
-use super::vtu::{self, DataArray, Grid, Values};
+use super::vtu::{self, ArrayValues, DataArray, UnstructuredGrid};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::results::{Fields, Results, State};
@@ -101,8 +101,12 @@ fn write_pieces(
 }
 
 /// Adds to the grid of a part the numbers of its nodes and elements in the whole mesh.
-fn with_ids<'a>(mut grid: Grid<'a>, nodes: &'a [u32], elements: &'a [u32]) -> Grid<'a> {
-    let ids = |name, ids| DataArray::new(name, Values::Int64(ids));
+fn with_ids<'a>(
+    mut grid: UnstructuredGrid<'a>,
+    nodes: &'a [u32],
+    elements: &'a [u32],
+) -> UnstructuredGrid<'a> {
+    let ids = |name, ids| DataArray::new(name, ArrayValues::Int64(ids));
     grid.point_data.push(ids(vtu::NODE_IDS, nodes));
     grid.cell_data.push(ids(vtu::ELEMENT_IDS, elements));
     grid
@@ -225,40 +229,43 @@ fn stem(index: usize, n_states: usize, state: &str) -> String {
 }
 
 /// Returns mesh and fields as arrays of a grid.
-fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> Grid<'a> {
+fn grid<'a>(header: &RunHeader, mesh: &'a Mesh, fields: &'a Fields) -> UnstructuredGrid<'a> {
     // In axisymmetric models the second axis is z: calling it y would make `zz` the hoop stress.
     let space = Space::ALL
         .into_iter()
         .find(|space| space.name() == header.kind);
     let stress_names = space.unwrap_or(Space::PlaneStrain).components();
     let tensors = |name: &'static str, values: &'a [f64]| match mesh.is_solid() {
-        true => DataArray::new(name, Values::Tensors(values)),
-        false => DataArray::named(name, stress_names, Values::Float64(values)),
+        true => DataArray::new(name, ArrayValues::Tensors(values)),
+        false => DataArray::named(name, stress_names, ArrayValues::Float64(values)),
     };
     let mut point_data = vec![
-        DataArray::new("displacement", Values::vectors(mesh, &fields.displacement)),
+        DataArray::new(
+            "displacement",
+            ArrayValues::vectors(mesh, &fields.displacement),
+        ),
         DataArray::new(
             "contact_pressure",
-            Values::Float64(&fields.contact_pressure),
+            ArrayValues::Float64(&fields.contact_pressure),
         ),
-        DataArray::new("gap", Values::Float64(&fields.gap)),
+        DataArray::new("gap", ArrayValues::Float64(&fields.gap)),
     ];
     if !fields.nodal_stress.is_empty() {
         point_data.push(tensors("nodal_stress", &fields.nodal_stress));
     }
-    Grid {
+    UnstructuredGrid {
         mesh,
         point_data,
         cell_data: vec![
             tensors("stress", &fields.stress),
-            DataArray::new("von_mises", Values::Float64(&fields.von_mises)),
+            DataArray::new("von_mises", ArrayValues::Float64(&fields.von_mises)),
             DataArray::new(
                 "equivalent_plastic_strain",
-                Values::Float64(&fields.plastic_strain),
+                ArrayValues::Float64(&fields.plastic_strain),
             ),
-            DataArray::new("yielded", Values::UInt8(&fields.yielded)),
-            DataArray::new("discretisation_error", Values::Float64(&fields.error)),
-            DataArray::new("body", Values::Int32(&mesh.element_body)),
+            DataArray::new("yielded", ArrayValues::UInt8(&fields.yielded)),
+            DataArray::new("discretisation_error", ArrayValues::Float64(&fields.error)),
+            DataArray::new("body", ArrayValues::Int32(&mesh.element_body)),
         ],
     }
 }

@@ -14,7 +14,7 @@ pub struct Labels {
     /// Whether forces are per thickness.
     is_plane: bool,
     /// Meaning of the half width of the contact.
-    extent: Extent,
+    extent: ContactExtent,
 }
 
 /// Names of units as they appear beside numbers and in `summary.json`.
@@ -30,7 +30,7 @@ pub(super) struct UnitNames {
 /// Meaning of the half width of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub(super) enum Extent {
+pub(super) enum ContactExtent {
     /// Half the width of a strip.
     #[default]
     HalfWidth,
@@ -55,9 +55,9 @@ impl Labels {
         let reaches_axis = model.contacts.iter().any(|contact| contact.axis.is_some())
             || model.pairs.iter().any(|pair| is_on_axis(pair.slave));
         let extent = match model.kind {
-            Space::Solid => Extent::SmallerHalfAxis,
-            Space::Axisymmetric if reaches_axis => Extent::Radius,
-            _ => Extent::HalfWidth,
+            Space::Solid => ContactExtent::SmallerHalfAxis,
+            Space::Axisymmetric if reaches_axis => ContactExtent::Radius,
+            _ => ContactExtent::HalfWidth,
         };
         Labels {
             units,
@@ -67,7 +67,11 @@ impl Labels {
     }
 
     /// Returns the labels recorded in `summary.json` for a run of this kind.
-    pub(super) fn recorded(kind: &str, units: Option<UnitNames>, extent: Option<Extent>) -> Self {
+    pub(super) fn recorded(
+        kind: &str,
+        units: Option<UnitNames>,
+        extent: Option<ContactExtent>,
+    ) -> Self {
         let plane = [Space::PlaneStrain, Space::PlaneStress];
         Labels {
             units,
@@ -82,7 +86,7 @@ impl Labels {
     }
 
     /// Returns the meaning of the half width, for `summary.json`.
-    pub(super) fn extent(&self) -> Extent {
+    pub(super) fn extent(&self) -> ContactExtent {
         self.extent
     }
 
@@ -131,17 +135,17 @@ impl Labels {
     /// Returns the name of the half width of the contact.
     pub fn half_width(&self) -> &'static str {
         match self.extent {
-            Extent::HalfWidth => "half width",
-            Extent::Radius => "contact radius",
-            Extent::SmallerHalfAxis => "smaller half axis",
+            ContactExtent::HalfWidth => "half width",
+            ContactExtent::Radius => "contact radius",
+            ContactExtent::SmallerHalfAxis => "smaller half axis",
         }
     }
 
     /// Returns the heading of a quantity's column, in lines.
     pub fn heading(&self, quantity: &Quantity) -> &'static str {
         match (quantity.key, self.extent) {
-            ("half_width", Extent::Radius) => "contact\nradius",
-            ("half_width", Extent::SmallerHalfAxis) => "smaller\nhalf axis",
+            ("half_width", ContactExtent::Radius) => "contact\nradius",
+            ("half_width", ContactExtent::SmallerHalfAxis) => "smaller\nhalf axis",
             _ => quantity.heading,
         }
     }

@@ -1,8 +1,8 @@
 //! `summary.json`: the figures of a run, as one structure that writes and reads the file. Keys and
 //! meanings are in [`super::SUMMARY_SCHEMA`]; the keys of a state are in the table [`QUANTITIES`].
 
-use super::labels::{Extent, Labels, UnitNames};
-use super::{RunHeader, fields, named::Named};
+use super::labels::{ContactExtent, Labels, UnitNames};
+use super::{RunHeader, fields, named::NamedEntries};
 use crate::error::ErrorKind;
 use crate::memory;
 use crate::results::{
@@ -35,13 +35,13 @@ pub(crate) struct Summary {
     scene_file: Option<String>,
     kind: String,
     units: Option<UnitNames>,
-    half_width_is: Option<Extent>,
+    half_width_is: Option<ContactExtent>,
     solver: String,
     kernels: Option<String>,
     #[serde(flatten)]
     sizes: Sizes,
-    effects: Named<EffectEntry>,
-    timings: Named<Option<f64>>,
+    effects: NamedEntries<EffectEntry>,
+    timings: NamedEntries<Option<f64>>,
     peak_memory_bytes: Option<u64>,
     ranks: Option<Ranks>,
     counts: Counts,
@@ -94,8 +94,8 @@ struct Location {
 struct StateEntry {
     name: String,
     contact_arc: Option<Arc>,
-    residual_depth_by_body: Named<Option<f64>>,
-    plastic_points_by_body: Named<usize>,
+    residual_depth_by_body: NamedEntries<Option<f64>>,
+    plastic_points_by_body: NamedEntries<usize>,
     quality: Quality,
     fields: Option<String>,
     /// Contact patches, of solids.
@@ -287,7 +287,7 @@ fn scene(header: &RunHeader) -> String {
     name.map_or_else(|| "untitled".to_string(), |name| name.into_owned())
 }
 
-fn timings(phases: &[(String, f64)], total: f64) -> Named<Option<f64>> {
+fn timings(phases: &[(String, f64)], total: f64) -> NamedEntries<Option<f64>> {
     let mut seconds: Vec<(&str, f64)> = Vec::new();
     for (phase, time) in phases.iter().filter(|(phase, _)| phase != "total") {
         match seconds.iter_mut().find(|(name, _)| name == phase) {
@@ -385,7 +385,7 @@ impl StateEntry {
 }
 
 /// Returns a figure of each body, by the name of the body.
-fn by_body<T>(header: &RunHeader, figures: impl Iterator<Item = T>) -> Named<T> {
+fn by_body<T>(header: &RunHeader, figures: impl Iterator<Item = T>) -> NamedEntries<T> {
     let named = figures.enumerate();
     named.map(|(i, figure)| (header.body(i), figure)).collect()
 }

@@ -154,7 +154,7 @@ impl Sweep {
     ///
     /// # Errors
     /// Errors of a summary that cannot be read.
-    pub(crate) fn outcome(&self, dir: &Path) -> Result<Outcome<'_>> {
+    pub(crate) fn outcome(&self, dir: &Path) -> Result<SweepOutcome<'_>> {
         let mut labels = Labels::default();
         let results = self.points.iter().map(|point| {
             let path = dir.join(&point.folder).join(super::names::SUMMARY_FILE);
@@ -167,7 +167,7 @@ impl Sweep {
             Ok(Some(summary.results(&[])))
         });
         let results = results.collect::<Result<Vec<_>>>()?;
-        Ok(Outcome {
+        Ok(SweepOutcome {
             sweep: self,
             results,
             labels,
@@ -190,13 +190,13 @@ pub(crate) fn folder(keys: &[String], values: &[String]) -> String {
 }
 
 /// The outcome of a sweep.
-pub(crate) struct Outcome<'s> {
+pub(crate) struct SweepOutcome<'s> {
     sweep: &'s Sweep,
     results: Vec<Option<Results>>,
     labels: Labels,
 }
 
-impl Outcome<'_> {
+impl SweepOutcome<'_> {
     /// Returns the paths of all figures that any point has, `yield.KEY` or `states.NAME.KEY`.
     fn paths(&self) -> Vec<String> {
         let mut paths: Vec<String> = Vec::new();

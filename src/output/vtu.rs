@@ -29,7 +29,7 @@ pub(super) const NODE_IDS: &str = "GlobalNodeIds";
 pub(super) const ELEMENT_IDS: &str = "GlobalElementIds";
 
 /// A mesh with data on it.
-pub(super) struct Grid<'a> {
+pub(super) struct UnstructuredGrid<'a> {
     pub(super) mesh: &'a Mesh,
     pub(super) point_data: Vec<DataArray<'a>>,
     pub(super) cell_data: Vec<DataArray<'a>>,
@@ -40,15 +40,15 @@ pub(super) struct DataArray<'a> {
     name: &'static str,
     components: usize,
     component_names: &'a [&'a str],
-    values: Values<'a>,
+    values: ArrayValues<'a>,
 }
 
 impl<'a> DataArray<'a> {
     /// Creates an array with the number of components that follows from its values.
-    pub(super) fn new(name: &'static str, values: Values<'a>) -> Self {
+    pub(super) fn new(name: &'static str, values: ArrayValues<'a>) -> Self {
         let components = match values {
-            Values::Planar(_) | Values::Spatial(_) => 3,
-            Values::Tensors(_) => 9,
+            ArrayValues::Planar(_) | ArrayValues::Spatial(_) => 3,
+            ArrayValues::Tensors(_) => 9,
             _ => 1,
         };
         DataArray {
@@ -60,7 +60,7 @@ impl<'a> DataArray<'a> {
     }
 
     /// Creates an array with one component per name.
-    pub(super) fn named(name: &'static str, names: &'a [&'a str], values: Values<'a>) -> Self {
+    pub(super) fn named(name: &'static str, names: &'a [&'a str], values: ArrayValues<'a>) -> Self {
         DataArray {
             name,
             components: names.len(),
@@ -71,7 +71,7 @@ impl<'a> DataArray<'a> {
 }
 
 /// The values of an array as they lie in memory; the variant says how they are written.
-pub(super) enum Values<'a> {
+pub(super) enum ArrayValues<'a> {
     /// Numbers, written as they are.
     Float64(&'a [f64]),
     /// `n x 2`, written as `n x 3` with 0 for the third component.
@@ -92,37 +92,38 @@ pub(super) enum Values<'a> {
     CellTypes(&'a [Shape]),
 }
 
-impl<'a> Values<'a> {
+impl<'a> ArrayValues<'a> {
     /// Vectors of as many components as a mesh has coordinates.
     pub(super) fn vectors(mesh: &Mesh, values: &'a [f64]) -> Self {
         match mesh.is_solid() {
-            true => Values::Spatial(values),
-            false => Values::Planar(values),
+            true => ArrayValues::Spatial(values),
+            false => ArrayValues::Planar(values),
         }
     }
 
     fn type_name(&self) -> &'static str {
         match self {
-            Values::Float64(_) | Values::Planar(_) | Values::Spatial(_) | Values::Tensors(_) => {
-                "Float64"
-            }
-            Values::UInt8(_) | Values::CellTypes(_) => "UInt8",
-            Values::Int32(_) => "Int32",
-            Values::Int64(_) | Values::Offsets(_) => "Int64",
+            ArrayValues::Float64(_)
+            | ArrayValues::Planar(_)
+            | ArrayValues::Spatial(_)
+            | ArrayValues::Tensors(_) => "Float64",
+            ArrayValues::UInt8(_) | ArrayValues::CellTypes(_) => "UInt8",
+            ArrayValues::Int32(_) => "Int32",
+            ArrayValues::Int64(_) | ArrayValues::Offsets(_) => "Int64",
         }
     }
 
     /// Returns the number of bytes that are written, without the length in front.
     fn n_bytes(&self) -> u64 {
         let n = match self {
-            Values::Float64(values) | Values::Spatial(values) => 8 * values.len(),
-            Values::Tensors(values) => 72 * (values.len() / 6),
-            Values::Planar(values) => 24 * (values.len() / 2),
-            Values::UInt8(values) => values.len(),
-            Values::Int32(values) => 4 * values.len(),
-            Values::Int64(values) => 8 * values.len(),
-            Values::Offsets(values) => 8 * values.len(),
-            Values::CellTypes(values) => values.len(),
+            ArrayValues::Float64(values) | ArrayValues::Spatial(values) => 8 * values.len(),
+            ArrayValues::Tensors(values) => 72 * (values.len() / 6),
+            ArrayValues::Planar(values) => 24 * (values.len() / 2),
+            ArrayValues::UInt8(values) => values.len(),
+            ArrayValues::Int32(values) => 4 * values.len(),
+            ArrayValues::Int64(values) => 8 * values.len(),
+            ArrayValues::Offsets(values) => 8 * values.len(),
+            ArrayValues::CellTypes(values) => values.len(),
         };
         n as u64
     }
@@ -131,16 +132,16 @@ impl<'a> Values<'a> {
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
         out.write_all(&self.n_bytes().to_le_bytes())?;
         match self {
-            Values::Float64(values) | Values::Spatial(values) => {
+            ArrayValues::Float64(values) | ArrayValues::Spatial(values) => {
                 encode(out, values, |v| v.to_le_bytes())
             }
-            Values::Tensors(values) => encode(out, values.as_chunks::<6>().0, tensor),
-            Values::Planar(values) => encode(out, values.as_chunks::<2>().0, planar),
-            Values::UInt8(values) => out.write_all(values),
-            Values::Int32(values) => encode(out, values, |v| v.to_le_bytes()),
-            Values::Int64(values) => encode(out, values, |v| u64::from(v).to_le_bytes()),
-            Values::Offsets(values) => encode(out, values, |v| (v as u64).to_le_bytes()),
-            Values::CellTypes(values) => encode(out, values, |shape| [shape.reference().vtk]),
+            ArrayValues::Tensors(values) => encode(out, values.as_chunks::<6>().0, tensor),
+            ArrayValues::Planar(values) => encode(out, values.as_chunks::<2>().0, planar),
+            ArrayValues::UInt8(values) => out.write_all(values),
+            ArrayValues::Int32(values) => encode(out, values, |v| v.to_le_bytes()),
+            ArrayValues::Int64(values) => encode(out, values, |v| u64::from(v).to_le_bytes()),
+            ArrayValues::Offsets(values) => encode(out, values, |v| (v as u64).to_le_bytes()),
+            ArrayValues::CellTypes(values) => encode(out, values, |shape| [shape.reference().vtk]),
         }
     }
 }
@@ -184,19 +185,19 @@ fn encode<Item: Copy, const BYTES: usize>(
 ///
 /// # Errors
 /// Errors of `out`.
-pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
+pub(super) fn write(out: &mut impl Write, grid: &UnstructuredGrid<'_>) -> io::Result<()> {
     let mesh = grid.mesh;
     let points = [DataArray::new(
         "points",
-        Values::vectors(mesh, &mesh.coordinates),
+        ArrayValues::vectors(mesh, &mesh.coordinates),
     )];
     let cells = [
-        DataArray::new("connectivity", Values::Int64(&mesh.connectivity)),
+        DataArray::new("connectivity", ArrayValues::Int64(&mesh.connectivity)),
         DataArray::new(
             "offsets",
-            Values::Offsets(mesh.offsets.get(1..).unwrap_or_default()),
+            ArrayValues::Offsets(mesh.offsets.get(1..).unwrap_or_default()),
         ),
-        DataArray::new("types", Values::CellTypes(&mesh.shapes)),
+        DataArray::new("types", ArrayValues::CellTypes(&mesh.shapes)),
     ];
     let sections = [
         ("PointData", grid.point_data.as_slice()),
@@ -245,12 +246,12 @@ pub(super) fn write(out: &mut impl Write, grid: &Grid<'_>) -> io::Result<()> {
 /// Errors of `out`.
 pub(super) fn write_pieces(
     out: &mut impl Write,
-    grid: &Grid<'_>,
+    grid: &UnstructuredGrid<'_>,
     files: &[String],
 ) -> io::Result<()> {
     let points = [DataArray::new(
         "points",
-        Values::vectors(grid.mesh, &grid.mesh.coordinates),
+        ArrayValues::vectors(grid.mesh, &grid.mesh.coordinates),
     )];
     let mut xml = Writer::new_with_indent(out, b' ', 2);
     open_file(&mut xml, "PUnstructuredGrid")?;

@@ -242,7 +242,7 @@ fn attribute(element: &BytesStart<'_>, name: &str) -> Option<String> {
 mod tests {
     use super::*;
     use crate::mesh::Shape;
-    use crate::output::vtu::{DataArray, Grid, Values};
+    use crate::output::vtu::{ArrayValues, DataArray, UnstructuredGrid};
 
     fn mesh() -> Mesh {
         let mut mesh = Mesh {
@@ -269,19 +269,23 @@ mod tests {
             [1.0, 2.0, 3.0, 4.0],
         );
         let of_nodes = [0.5, f64::NAN, 1.5];
-        let grid = Grid {
+        let grid = UnstructuredGrid {
             mesh: &mesh,
             point_data: vec![
-                DataArray::new("displacement", Values::Planar(&u)),
-                DataArray::new("contact_pressure", Values::Float64(&of_nodes)),
-                DataArray::new("gap", Values::Float64(&of_nodes)),
+                DataArray::new("displacement", ArrayValues::Planar(&u)),
+                DataArray::new("contact_pressure", ArrayValues::Float64(&of_nodes)),
+                DataArray::new("gap", ArrayValues::Float64(&of_nodes)),
             ],
             cell_data: vec![
-                DataArray::named("stress", &["xx", "yy", "zz", "xy"], Values::Float64(&four)),
-                DataArray::new("von_mises", Values::Float64(&one)),
-                DataArray::new("equivalent_plastic_strain", Values::Float64(&one)),
-                DataArray::new("yielded", Values::UInt8(&[1])),
-                DataArray::new("discretisation_error", Values::Float64(&one)),
+                DataArray::named(
+                    "stress",
+                    &["xx", "yy", "zz", "xy"],
+                    ArrayValues::Float64(&four),
+                ),
+                DataArray::new("von_mises", ArrayValues::Float64(&one)),
+                DataArray::new("equivalent_plastic_strain", ArrayValues::Float64(&one)),
+                DataArray::new("yielded", ArrayValues::UInt8(&[1])),
+                DataArray::new("discretisation_error", ArrayValues::Float64(&one)),
             ],
         };
         let mut bytes = Vec::new();

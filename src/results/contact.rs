@@ -62,7 +62,7 @@ mod by_axis {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     #[derive(Serialize, Deserialize)]
-    struct Components {
+    struct AxisComponents {
         #[serde(deserialize_with = "number")]
         x: f64,
         #[serde(deserialize_with = "number")]
@@ -73,11 +73,11 @@ mod by_axis {
 
     pub fn serialize<S: Serializer>(vector: &Vector, to: S) -> Result<S::Ok, S::Error> {
         let [x, y, z] = *vector;
-        Components { x, y, z }.serialize(to)
+        AxisComponents { x, y, z }.serialize(to)
     }
 
     pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<Vector, D::Error> {
-        let Components { x, y, z } = Components::deserialize(from)?;
+        let AxisComponents { x, y, z } = AxisComponents::deserialize(from)?;
         Ok([x, y, z])
     }
 }

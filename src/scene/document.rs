@@ -11,7 +11,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// The text of a scene and the overrides applied to it: places refer to both.
-pub(super) struct Source<'t> {
+pub(super) struct SceneSource<'t> {
     /// File name for messages.
     pub name: &'t str,
     /// The file's text.
@@ -32,7 +32,7 @@ fn count(bytes: &[u8]) -> usize {
     bytes.iter().filter(|&&byte| byte & 0xc0 != 0x80).count()
 }
 
-impl<'t> Source<'t> {
+impl<'t> SceneSource<'t> {
     pub fn new(name: &'t str, text: &'t str, overrides: &'t [String]) -> Self {
         let ends = text.match_indices('\n').map(|(at, _)| at + 1);
         let mut before = 0;
@@ -40,7 +40,7 @@ impl<'t> Source<'t> {
             before += count(block);
             before
         });
-        Source {
+        SceneSource {
             name,
             text,
             overrides,
@@ -97,21 +97,21 @@ struct DocumentNode {
 }
 
 /// Places of all keys and values of a document.
-pub(super) struct Places {
+pub(super) struct KeyPositions {
     nodes: Vec<DocumentNode>,
 }
 
-impl Places {
+impl KeyPositions {
     /// Numbers all nodes of `root`. The returned document carries these numbers in place of byte
     /// spans.
     ///
     /// # Errors
     /// `Input` with key and place for a number that is not finite or an integer beyond 64 bits.
     pub fn number<'i>(
-        source: &Source<'_>,
+        source: &SceneSource<'_>,
         root: DeTable<'i>,
-    ) -> Result<(Places, Spanned<DeTable<'i>>)> {
-        let mut places = Places { nodes: Vec::new() };
+    ) -> Result<(KeyPositions, Spanned<DeTable<'i>>)> {
+        let mut places = KeyPositions { nodes: Vec::new() };
         let id = places.add("", source.describe(0));
         let root = places.table(root, "", source)?;
         Ok((places, Spanned::new(id..id, root)))
@@ -145,7 +145,7 @@ impl Places {
         &mut self,
         table: DeTable<'i>,
         path: &str,
-        source: &Source<'_>,
+        source: &SceneSource<'_>,
     ) -> Result<DeTable<'i>> {
         let mut numbered = DeTable::new();
         for (key, value) in table {
@@ -161,7 +161,7 @@ impl Places {
         &mut self,
         value: Spanned<DeValue<'i>>,
         path: &str,
-        source: &Source<'_>,
+        source: &SceneSource<'_>,
     ) -> Result<Spanned<DeValue<'i>>> {
         let place = value.span().start;
         let id = self.add(path, source.describe(place));

@@ -4,7 +4,7 @@
 //! A table is merged key by key with the table already there; any other value replaces the old one.
 //! `key.path=` without a value removes the key.
 
-use super::document::{Source, join};
+use super::document::{SceneSource, join};
 use crate::error::{Error, Result};
 use std::borrow::Cow;
 use toml::Spanned;
@@ -17,7 +17,7 @@ use toml::de::{DeArray, DeString, DeTable, DeValue};
 /// `Input`, naming the override by its text: no `=`, a key that is not a TOML key path, a value
 /// that looks like a TOML array, table or string but is not valid, a step into a value that is not
 /// a table, an array element that does not exist, a key to remove that does not exist.
-pub(super) fn apply<'i>(source: &Source<'i>, root: &mut DeTable<'i>) -> Result<Vec<String>> {
+pub(super) fn apply<'i>(source: &SceneSource<'i>, root: &mut DeTable<'i>) -> Result<Vec<String>> {
     let mut lost = Vec::new();
     for (number, text) in source.overrides.iter().enumerate() {
         apply_one(text, source.override_place(number), root, &mut lost)

@@ -1,7 +1,7 @@
 //! Reading of text into a [`Scene`], with errors that name file, line, column and key, and suggest
 //! what was meant.
 
-use super::document::{Places, Source};
+use super::document::{KeyPositions, SceneSource};
 use super::{Scene, catalogue, complete, overrides, unsupported, validate};
 use crate::error::{Error, ErrorKind, Result};
 use crate::files;
@@ -47,7 +47,7 @@ impl Scene {
         let path = path.as_ref();
         let text = files::read_text("read the scene", path, Some(files::LARGEST_SCENE))?;
         let name = path.display().to_string();
-        let mut scene = parse(&Source::new(&name, &text, overrides), None)?;
+        let mut scene = parse(&SceneSource::new(&name, &text, overrides), None)?;
         scene.file = Some(path.to_path_buf());
         Ok(scene)
     }
@@ -77,7 +77,7 @@ impl Scene {
     /// # Errors
     /// As for [`Scene::load_with`].
     pub fn parse_with(text: &str, name: &str, overrides: &[String]) -> Result<Scene> {
-        parse(&Source::new(name, text, overrides), None)
+        parse(&SceneSource::new(name, text, overrides), None)
     }
 
     /// Reads a scene from a text that was made from another source (a deck), like
@@ -91,7 +91,7 @@ impl Scene {
         overrides: &[String],
         places: &BTreeMap<String, String>,
     ) -> Result<Scene> {
-        parse(&Source::new(name, text, overrides), Some(places))
+        parse(&SceneSource::new(name, text, overrides), Some(places))
     }
 
     /// The scene as TOML: [`Scene::parse`] reads it back.
@@ -114,12 +114,12 @@ impl Scene {
     }
 }
 
-fn parse(source: &Source<'_>, made_from: Option<&BTreeMap<String, String>>) -> Result<Scene> {
+fn parse(source: &SceneSource<'_>, made_from: Option<&BTreeMap<String, String>>) -> Result<Scene> {
     let mut root = DeTable::parse(source.text)
         .map_err(|error| source.syntax_error(&error))?
         .into_inner();
     let warnings = overrides::apply(source, &mut root)?;
-    let (places, root) = Places::number(source, root)?;
+    let (places, root) = KeyPositions::number(source, root)?;
     let mut scene = Scene::deserialize(toml::de::Deserializer::from(root.clone()))
         .map_err(|error| explain(&error, &places))?;
     scene.places = places.by_key();
@@ -145,7 +145,7 @@ fn parse(source: &Source<'_>, made_from: Option<&BTreeMap<String, String>>) -> R
 }
 
 /// Converts an error of serde into words for the user.
-fn explain(error: &toml::de::Error, places: &Places) -> Error {
+fn explain(error: &toml::de::Error, places: &KeyPositions) -> Error {
     let (place, path) = places.of_error(error);
     let message = error.message();
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();

@@ -9,7 +9,7 @@ use crate::results::{Results, State};
 use crate::scene::Scene;
 
 /// A family of cases, each of which gives a figure.
-pub(super) struct Family {
+pub(super) struct CaseFamily {
     pub(super) name: &'static str,
     pub(super) figure: &'static str,
     pub(super) bound: f64,

@@ -1,6 +1,6 @@
 //! Contact: floating bodies, conforming surfaces, ties, events, complementarity.
 
-use super::cases::{Cases, Family, difference, results, scene, state, worst_quality};
+use super::cases::{CaseFamily, Cases, difference, results, scene, state, worst_quality};
 use crate::analysis::Analysis;
 use crate::analytical::{HertzLine, contact_modulus};
 use crate::contact::{Tableau, solve};
@@ -17,22 +17,22 @@ use nalgebra::{DMatrix, DVector};
 /// number of elements along it.
 const CONFORMING: f64 = 2.0 * 25.0 * 25.0 * f64::EPSILON;
 
-pub(super) const FAMILIES: &[Family] = &[
-    Family {
+pub(super) const FAMILIES: &[CaseFamily] = &[
+    CaseFamily {
         name: "bodies held by contact alone",
         figure: "contact force against the load",
         bound: 1e-10,
         source: "round-off of gaps 1000 times the elastic displacement",
         cases: floating,
     },
-    Family {
+    CaseFamily {
         name: "contact lost and found",
         figure: "same load, same state",
         bound: 1e-9,
         source: "the path is reversible; round-off at loads a million times as large as the first",
         cases: lost_and_found,
     },
-    Family {
+    CaseFamily {
         name: "conforming surfaces",
         figure: "pressure over load from 1e-6 to 1e6",
         bound: CONFORMING,
@@ -40,21 +40,21 @@ pub(super) const FAMILIES: &[Family] = &[
                  (25) and the condition of their matrix (about as many)",
         cases: conforming,
     },
-    Family {
+    CaseFamily {
         name: "ties",
         figure: "spread of 301 pairs that open and close as one",
         bound: 1e-10,
         source: "the solution is uniform; round-off times the condition",
         cases: ties,
     },
-    Family {
+    CaseFamily {
         name: "complementarity",
         figure: "residual of 10,000 singular and degenerate problems",
         bound: 1e-11,
         source: "n eps times the condition, at most 1e4",
         cases: complementarity,
     },
-    Family {
+    CaseFamily {
         name: "contact that spreads",
         figure: "half width at 0.1 to 50 times first yield against Hertz",
         bound: 1.0 / 64.0,
@@ -62,7 +62,7 @@ pub(super) const FAMILIES: &[Family] = &[
                  16; circle for parabola, (b/R)^2/8",
         cases: spreading,
     },
-    Family {
+    CaseFamily {
         name: "dents",
         figure: "each body's share against the displacements after unloading, over the approach",
         bound: 1e-8,

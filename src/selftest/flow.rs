@@ -1,25 +1,25 @@
 //! Plastic flow: incompressible, at the limit load, in cycles, on the axis of quadratic elements.
 
-use super::cases::{Cases, Family, difference, results, scene, state};
+use super::cases::{CaseFamily, Cases, difference, results, scene, state};
 use crate::error::{ErrorKind, Result};
 use crate::shape::Shape;
 
-pub(super) const FAMILIES: &[Family] = &[
-    Family {
+pub(super) const FAMILIES: &[CaseFamily] = &[
+    CaseFamily {
         name: "incompressible flow",
         figure: "limit pressure of a tube, nu 0.3 to 0.4999, quad4, quad8",
         bound: 0.01,
         source: "Hill 1950, 2 k ln(b/a), exact for nu = 1/2; the mesh, of order h^2",
         cases: tube,
     },
-    Family {
+    CaseFamily {
         name: "limit load",
         figure: "bracket of the collapse load of a column",
         bound: 2e-6,
         source: "increments are cut to a millionth of the load step",
         cases: column,
     },
-    Family {
+    CaseFamily {
         name: "slender elements",
         figure: "plastic strain of two blocks, elements 75 times as high as wide and square ones, \
                  tolerances to 2e-15",
@@ -28,21 +28,21 @@ pub(super) const FAMILIES: &[Family] = &[
                  stiffness",
         cases: slender,
     },
-    Family {
+    CaseFamily {
         name: "cycles",
         figure: "loop of the last two of five cycles, unloading and reloading",
         bound: 1e-6,
         source: "shakedown: the steps to it shrink from cycle to cycle",
         cases: cycles,
     },
-    Family {
+    CaseFamily {
         name: "ratchetting and shakedown",
         figure: "plastic strain of a cycle, perfectly plastic; of the 200th cycle, hardening",
         bound: 1e-8,
         source: "closed forms; forces balance to 1e-10, twice a cycle",
         cases: ratchet,
     },
-    Family {
+    CaseFamily {
         name: "axis of quadratic elements",
         figure: "uniform pressure, elastic and under plastic flow",
         bound: 1e-8,

@@ -1,7 +1,7 @@
 //! Models as users write them: bodies one element thick, punches with arbitrary ends, stacks,
 //! unlike and coarse meshes, heat under a loose body.
 
-use super::cases::{Cases, Family, results, scene};
+use super::cases::{CaseFamily, Cases, results, scene};
 use crate::analysis::Analysis;
 use crate::error::{Error, Result};
 use crate::linalg::Backend;
@@ -9,8 +9,8 @@ use crate::model::Model;
 use crate::progress::Silent;
 use crate::results::{Results, State};
 
-pub(super) const FAMILIES: &[Family] = &[
-    Family {
+pub(super) const FAMILIES: &[CaseFamily] = &[
+    CaseFamily {
         name: "bodies on few elements",
         figure: "stress at Gauss points of elastic states, over yield, less 1",
         bound: 1e-7,
@@ -18,28 +18,28 @@ pub(super) const FAMILIES: &[Family] = &[
                  1e-10",
         cases: few_elements,
     },
-    Family {
+    CaseFamily {
         name: "punches on larger and coarser bases",
         figure: "area of contact; area by mean pressure against the force",
         bound: 1e-9,
         source: "a uniform pressure on the punch's own face; forces balance to 1e-10",
         cases: punches,
     },
-    Family {
+    CaseFamily {
         name: "stacks moved by displacement",
         figure: "load against the force of each contact",
         bound: 1e-8,
         source: "one force goes through the stack; forces balance to 1e-10",
         cases: stacks,
     },
-    Family {
+    CaseFamily {
         name: "heat and residual stress under a loose body",
         figure: "contact force against the load",
         bound: 1e-8,
         source: "they push no body away; forces balance to 1e-10",
         cases: loose,
     },
-    Family {
+    CaseFamily {
         name: "bodies that nothing holds sideways",
         figure: "pressure and dent against those of the same bodies held at a corner",
         bound: 1e-7,
@@ -47,7 +47,7 @@ pub(super) const FAMILIES: &[Family] = &[
                  times that in displacements",
         cases: sideways,
     },
-    Family {
+    CaseFamily {
         name: "unlike meshes, far beyond yield",
         figure: "out-of-balance force at twice the pressure at which a bar yields",
         bound: 1e-8,

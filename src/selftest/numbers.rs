@@ -1,6 +1,8 @@
 //! Numbers of very different size: stiffness ratios, slivers, units; and two backends.
 
-use super::cases::{Cases, Family, difference, results, results_by, scene, state, worst_quality};
+use super::cases::{
+    CaseFamily, Cases, difference, results, results_by, scene, state, worst_quality,
+};
 use crate::analysis::Analysis;
 use crate::error::Result;
 use crate::linalg::Backend;
@@ -8,29 +10,29 @@ use crate::model::Model;
 use crate::progress::Silent;
 use crate::scene::Scene;
 
-pub(super) const FAMILIES: &[Family] = &[
-    Family {
+pub(super) const FAMILIES: &[CaseFamily] = &[
+    CaseFamily {
         name: "stiffness ratio 1 to 1e10",
         figure: "contact force against the load, equilibrium",
         bound: 1e-10,
         source: "equilibrium does not know the ratio; n eps times the grading of the mesh",
         cases: ratios,
     },
-    Family {
+    CaseFamily {
         name: "body sizes 1e-6 to 1e3 in a scene",
         figure: "pressure of a fit, pin and plate alike or 1e4 times as stiff",
         bound: 1e-2,
         source: "Lame; the mesh, of order h^2 at least",
         cases: sizes,
     },
-    Family {
+    CaseFamily {
         name: "falls and lifts of 1e4 to 1e15",
         figure: "stresses of all elements under uniform pressure",
         bound: 1e-11,
         source: "rigid motions are no part of the deformation; round-off times the condition",
         cases: falls,
     },
-    Family {
+    CaseFamily {
         name: "contact at nu 0.4999 to 0.499999",
         figure: "out-of-balance force over the round-off that the state reports, or over 1e-7",
         bound: 1.0,
@@ -38,14 +40,14 @@ pub(super) const FAMILIES: &[Family] = &[
                  1e-7",
         cases: incompressible_contact,
     },
-    Family {
+    CaseFamily {
         name: "slivers of aspect 1e5",
         figure: "uniform pressure",
         bound: 1e10 * f64::EPSILON,
         source: "condition 1e10 times eps",
         cases: slivers,
     },
-    Family {
+    CaseFamily {
         name: "units and scales",
         figure: "elastoplastic states under E, load by 1e+-12, lengths by 1e+-9",
         bound: 1e-11,
@@ -53,7 +55,7 @@ pub(super) const FAMILIES: &[Family] = &[
                  must balance better than that)",
         cases: scales,
     },
-    Family {
+    CaseFamily {
         name: "two backends",
         figure: "forces of CHOLMOD against dense Cholesky",
         bound: 1e-10,

@@ -1,12 +1,12 @@
 //! Cases on which contact codes were seen to fail silently (`data/peers`).
 
-use super::cases::{Cases, Family, difference, results, scene};
+use super::cases::{CaseFamily, Cases, difference, results, scene};
 use crate::analytical::{DiscInPlate, HertzLine, HertzPoint, contact_modulus};
 use crate::error::Result;
 use crate::results::State;
 use crate::scene::{Scene, Stepping};
 
-pub(super) const FAMILIES: &[Family] = &[Family {
+pub(super) const FAMILIES: &[CaseFamily] = &[CaseFamily {
     name: "where peers fail silently",
     figure: "pole pressure: one node touching, a node on the axis, a conforming disc; a load in \
              one step against the path",

@@ -1,6 +1,6 @@
 //! Continuing from checkpoints.
 
-use super::cases::{Cases, Family, scene};
+use super::cases::{CaseFamily, Cases, scene};
 use crate::analysis::Analysis;
 use crate::checkpoint::Checkpoints;
 use crate::error::{Error, Result};
@@ -10,7 +10,7 @@ use crate::progress::{Flow, Observer, Silent};
 use crate::results::{HistoryRow, Results};
 use crate::scene::Scene;
 
-pub(super) const FAMILIES: &[Family] = &[Family {
+pub(super) const FAMILIES: &[CaseFamily] = &[CaseFamily {
     name: "checkpoint and restart",
     figure: "runs stopped at an increment whose rest differs in a bit",
     bound: 0.0,

@@ -1,14 +1,14 @@
 //! Cases in three dimensions.
 
-use super::cases::{Cases, Family, results, scene, worst_quality};
+use super::cases::{CaseFamily, Cases, results, scene, worst_quality};
 use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::{Error, Result};
 use crate::results::{Results, State};
 use crate::scene::{Direction, Extrusion, Scene, Support, Target};
 use crate::space::Space;
 
-pub(super) const FAMILIES: &[Family] = &[
-    Family {
+pub(super) const FAMILIES: &[CaseFamily] = &[
+    CaseFamily {
         name: "Hertz in three dimensions",
         figure: "pressure at first yield of a circle and a 2:1 ellipse",
         bound: 0.3 / 9.0,
@@ -16,7 +16,7 @@ pub(super) const FAMILIES: &[Family] = &[
                  half axis, 0.3 h^2",
         cases: hertz,
     },
-    Family {
+    CaseFamily {
         name: "plane strain drawn out",
         figure: "force, pressure, approach, dent and plastic strain of a solid against its section",
         bound: 1e-8,
@@ -24,7 +24,7 @@ pub(super) const FAMILIES: &[Family] = &[
                  times that in displacements",
         cases: drawn_out,
     },
-    Family {
+    CaseFamily {
         name: "solids far apart in stiffness and shape",
         figure: "uniform pressure: ratios 1e-8 to 1e8, elements 1:1000, nu 0.4999, hex8 and hex20",
         bound: 1e9 * f64::EPSILON,

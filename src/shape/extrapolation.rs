@@ -11,13 +11,13 @@ const SINGULAR: f64 = 1e-10;
 /// element's own shape functions. Otherwise it is linear along each reference coordinate, and the
 /// value at the middle of an edge is the mean of the edge's two corners.
 #[derive(Debug, Clone)]
-pub struct Extrapolation {
+pub struct NodalExtrapolation {
     n_points: usize,
     /// Weights of the points, stored node by node.
     weights: Vec<f64>,
 }
 
-impl Extrapolation {
+impl NodalExtrapolation {
     /// The extrapolation from the points of a rule.
     ///
     /// With `N_c` the shape functions of the element itself, or of the linear element with the same
@@ -53,7 +53,7 @@ impl Extrapolation {
                 });
             }
         }
-        Extrapolation { n_points, weights }
+        NodalExtrapolation { n_points, weights }
     }
 
     /// The value of one component at a node. `values` holds `size` components of each point, one
@@ -76,7 +76,7 @@ mod tests {
         let integrated = |by| Shape::ALL.map(|shape| (shape, shape.rule(by)));
         for (shape, rule) in Integration::ALL.into_iter().flat_map(integrated) {
             let row = shape.reference();
-            let of = Extrapolation::new(shape, rule);
+            let of = NodalExtrapolation::new(shape, rule);
             for (k, node) in row.nodes.iter().enumerate() {
                 let constant = vec![7.0; rule.len()];
                 assert!((of.at_node(k, &constant, 1, 0) - 7.0).abs() < 1e-12);
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn what_points_do_not_tell_is_constant() {
         let at = |z: f64| ([1.0 / 3.0, 1.0 / 3.0, z], 0.5);
-        let of = Extrapolation::new(Shape::Prism6, &[at(-0.5), at(0.5)]);
+        let of = NodalExtrapolation::new(Shape::Prism6, &[at(-0.5), at(0.5)]);
         for (k, node) in Shape::Prism6.reference().nodes.iter().enumerate() {
             let found = of.at_node(k, &[1.0, 3.0], 1, 0);
             assert!((found - (2.0 + 2.0 * node[2])).abs() < 1e-12, "{k} {found}");

@@ -11,7 +11,7 @@ mod integration;
 mod rows;
 
 pub use cut::{Cut, WHOLE, cut_of, cuts};
-pub use extrapolation::Extrapolation;
+pub use extrapolation::NodalExtrapolation;
 pub use facets::FacetReference;
 pub use functions::Functions;
 pub use integration::Integration;
@@ -62,7 +62,7 @@ pub type Rule = [(Place, f64)];
 
 /// Reference data shared by all elements of one shape.
 #[derive(Debug)]
-pub struct Reference {
+pub struct ReferenceElement {
     /// The name used in scenes and messages.
     pub name: &'static str,
     /// Number of reference coordinates.
@@ -132,7 +132,7 @@ impl Shape {
     ];
 
     /// The reference data of the shape, its row of the table.
-    pub fn reference(self) -> &'static Reference {
+    pub fn reference(self) -> &'static ReferenceElement {
         rows::ROWS[self as usize]
     }
 

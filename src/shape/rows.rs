@@ -7,10 +7,10 @@ pub(super) use plane::{SQUARE, TRIANGLE};
 pub use solid::CORNERS_OF_CUBE;
 pub(super) use solid::{CUBE, EDGES_OF_TETRAHEDRON};
 
-use super::Reference;
+use super::ReferenceElement;
 use plane::{QUAD4, QUAD8, TRI3, TRI6};
 use solid::{HEX8, HEX20, PRISM6, PRISM15, TET4, TET10};
 
-pub(super) static ROWS: [&Reference; 10] = [
+pub(super) static ROWS: [&ReferenceElement; 10] = [
     &TRI3, &TRI6, &QUAD4, &QUAD8, &TET4, &TET10, &HEX8, &HEX20, &PRISM6, &PRISM15,
 ];

@@ -91,7 +91,7 @@ fn every_complete_polynomial_is_reproduced() {
 #[test]
 fn facets_have_the_functions_of_their_element() {
     for shape in Shape::ALL {
-        let Reference { nodes, facets, .. } = shape.reference();
+        let ReferenceElement { nodes, facets, .. } = shape.reference();
         assert_eq!(facets.len(), shape.n_facets());
         for (k, local) in facets.iter().enumerate() {
             let facet = shape.facet_reference(k);

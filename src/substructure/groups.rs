@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// All groups of tied pairs of a structure.
-pub(super) struct Groups {
+pub(super) struct TiedGroups {
     groups: Vec<TiedGroup>,
     n_pairs: usize,
     n_motions: usize,
@@ -39,14 +39,14 @@ struct TiedGroup {
 /// Contact rows from which groups are made; for each contact freedom the free freedom, the part it
 /// belongs to, and whether it is the motion of a rigid surface.
 #[derive(Clone, Copy)]
-pub(super) struct Contact<'a> {
+pub(super) struct GroupedRows<'a> {
     pub rows: &'a [RowEntries],
     pub freedoms: &'a [usize],
     pub part: &'a [usize],
     pub rigid: &'a [bool],
 }
 
-impl Groups {
+impl TiedGroups {
     /// Builds the tied structures and the contact matrix from the condensed stiffness and the rigid
     /// motions of floating parts.
     ///
@@ -55,7 +55,7 @@ impl Groups {
     pub(super) fn new(
         stiffness: ContactStiffness,
         motions: &[RigidMotion],
-        of: Contact,
+        of: GroupedRows,
     ) -> Result<(Self, PairMatrix)> {
         let (n, n_contact) = (of.rows.len(), of.freedoms.len());
         let coupled = stiffness.blocks().map(|block| block.freedoms.as_slice());
@@ -114,7 +114,7 @@ impl Groups {
                 tied,
             });
         }
-        let groups = Groups {
+        let groups = TiedGroups {
             groups: out,
             n_pairs: n,
             n_motions: motions.len(),
@@ -122,7 +122,7 @@ impl Groups {
         Ok((groups, PairMatrix::new(blocks)))
     }
 
-    /// Eliminates each group as [`Tied::eliminate`] does. The unknowns that [`Groups::recover`]
+    /// Eliminates each group as [`Tied::eliminate`] does. The unknowns that [`TiedGroups::recover`]
     /// needs are left in the places of the contact freedoms of each group.
     pub(super) fn eliminate(&self, contact: &mut [f64], forces: &mut [f64]) {
         if let [only] = self.groups.as_slice() {

@@ -1,7 +1,7 @@
 //! The structure with less stiffness in the zone, with the elimination and recovery of the
 //! structure itself.
 
-use super::groups::Groups;
+use super::groups::TiedGroups;
 use super::{Substructure, Trailing, tie};
 use crate::contact::PairMatrix;
 use crate::linalg::{ChangedFactor, ZonePart};
@@ -13,7 +13,7 @@ use crate::model::Model;
 pub(crate) struct Softened {
     factor: Box<dyn ChangedFactor>,
     n_pairs: usize,
-    tied: Option<Groups>,
+    tied: Option<TiedGroups>,
 }
 
 impl Softened {

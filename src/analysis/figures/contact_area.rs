@@ -33,7 +33,7 @@ mod topology;
 pub(super) use shape::ReadPatch;
 
 use crate::model::Model;
-use shape::Shape;
+use shape::ProjectedPatch;
 use std::collections::BTreeSet;
 use topology::Topology;
 
@@ -53,7 +53,7 @@ pub(super) fn patches(
             .filter(|&k| force[k] > vanishing)
             .collect();
         for members in topology.connected(&closed) {
-            let shape = Shape::new(model, (surface, &topology), pressure, members);
+            let shape = ProjectedPatch::new(model, (surface, &topology), pressure, members);
             let (moments, other) = shape.readings();
             out.push(shape.read(contact, force, moments, other));
         }

@@ -39,7 +39,7 @@ struct EdgeTail {
 
 /// A pair of a contact, placed along its surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct PlacedPair {
     /// Number of the pair in the model.
     pub pair: usize,
     /// Arc length of the pair along the surface.
@@ -53,19 +53,19 @@ pub(super) fn line_of(
     model: &Model,
     contact: &ContactSurface,
     presses: impl Fn(usize) -> bool,
-) -> Vec<Place> {
-    let place = |pair: usize| Place {
+) -> Vec<PlacedPair> {
+    let place = |pair: usize| PlacedPair {
         pair,
         arc: model.pairs[pair].arc,
     };
-    let mut line: Vec<Place> = contact.range.clone().map(place).collect();
+    let mut line: Vec<PlacedPair> = contact.range.clone().map(place).collect();
     let first_open = line.iter().position(|place| !presses(place.pair));
     if let (Some(turn), Some(first_open)) = (contact.turn, first_open) {
-        let further = |place: &Place| Place {
+        let further = |place: &PlacedPair| PlacedPair {
             arc: place.arc + turn,
             ..*place
         };
-        let behind: Vec<Place> = line[..=first_open].iter().map(further).collect();
+        let behind: Vec<PlacedPair> = line[..=first_open].iter().map(further).collect();
         line.drain(..first_open);
         line.extend(behind);
     }
@@ -73,19 +73,19 @@ pub(super) fn line_of(
 }
 
 /// A run of closed pairs `begin..end` of a contact.
-pub(super) struct Patch<'a> {
+pub(super) struct ClosedRun<'a> {
     pub model: &'a Model,
     /// Pressure of each pair of the model.
     pub pressure: &'a [f64],
     pub contact: &'a ContactSurface,
     /// Pairs of the contact along its surface.
-    pub line: &'a [Place],
+    pub line: &'a [PlacedPair],
     /// First closed place of the line; `end` is the first place after the closed ones.
     pub begin: usize,
     pub end: usize,
 }
 
-impl Patch<'_> {
+impl ClosedRun<'_> {
     /// Arc length at which the surface ends beyond place `k` of the line, if `k` is its first or
     /// last place: on the axis, where the other surface ends, or at the place itself.
     pub(super) fn end_arc(&self, k: usize) -> f64 {

@@ -2,7 +2,7 @@
 //! total load.
 
 use super::contact_area::{ReadPatch, patches};
-use super::contact_patch::{Patch, line_of};
+use super::contact_patch::{ClosedRun, line_of};
 use crate::analysis::structure::solver::Solver;
 use crate::model::{AxisPoint, ContactSurface, Magnitude, Model, Pair};
 use crate::results::{ContactPatch, EdgeReading, PairState, Status};
@@ -165,7 +165,7 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
             let sum: f64 = line[begin..k].iter().map(|place| force[place.pair]).sum();
             if sum > largest * (1.0 + EQUAL) {
                 largest = sum;
-                let patch = Patch {
+                let patch = ClosedRun {
                     model,
                     pressure: &pressure,
                     contact,
@@ -182,7 +182,7 @@ pub fn contact_figures(model: &Model, force: &[f64], scale: f64) -> ContactFigur
 }
 
 /// Reads the figures of a patch in the plane.
-fn read_patch(patch: &Patch, out: &mut ContactFigures) {
+fn read_patch(patch: &ClosedRun, out: &mut ContactFigures) {
     let (begin, last) = (patch.begin, patch.end - 1);
     if let Some(turn) = patch.contact.turn.filter(|_| patch.is_whole()) {
         // A patch all around a closed surface has no ends.

@@ -4,7 +4,7 @@ use super::outcome::{Increment, STRETCH};
 use super::outgrown::accepted;
 use super::step::{Arrival, IncrementReport, Step, describe};
 use crate::analysis::structure::load_point::LoadPoint;
-use crate::analysis::structure::solver::{Pace, Solver};
+use crate::analysis::structure::solver::{InitialLoadRate, Solver};
 use crate::contact::Change;
 use crate::error::Result;
 
@@ -66,7 +66,7 @@ pub(super) fn accept(
         let mut pace = increment.state.initial.clone();
         pace.add(-1.0, &solver.now.initial);
         pace.scale(1.0 / way);
-        Pace {
+        InitialLoadRate {
             initial: pace,
             distance: way,
             stretched: increment.stretched,

@@ -8,7 +8,7 @@ use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
 use crate::contact::{Path, PathEnd};
 use crate::error::{Error, Result};
-use crate::root::{self, Accuracy};
+use crate::root::{self, RootTolerance};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
@@ -96,7 +96,7 @@ impl ElasticPath {
         monitor: &Monitor,
     ) -> Result<()> {
         let ends = [(from, was), (self.t(), is)];
-        let t = root::try_between(ends, Accuracy::both(accuracy), |t| {
+        let t = root::try_between(ends, RootTolerance::both(accuracy), |t| {
             self.go_back(solver, t);
             monitor(solver)
         })?;

@@ -9,7 +9,7 @@ use super::acceleration::Anderson;
 use super::collapse::{flows_away, round_off_of_balance, settles};
 use super::line_search::line_search;
 use super::outcome::{Attempt, EndsAt, Increment, NoIncrement, STRETCH};
-use super::prediction::{AT_END, AT_ONCE, Prediction};
+use super::prediction::{AT_END, AT_ONCE, RatePrediction};
 use super::search::{PROGRESS, Search};
 use super::settling::{Rounds, settle_contact};
 use super::step::Rules;
@@ -120,8 +120,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
         let follows = matches!(ends_at, EndsAt::NextChange { .. });
         let newton = rules.settings.plastic_iteration == PlasticIteration::Newton;
         let prediction = match ahead {
-            Some(ahead) => Prediction::secant(solver, end, ahead),
-            None => Prediction::of_rates(solver, (end, most), newton, !follows),
+            Some(ahead) => RatePrediction::secant(solver, end, ahead),
+            None => RatePrediction::of_rates(solver, (end, most), newton, !follows),
         };
         let base = positive_values(solver.tableau.open(), &before.gap, &before.force);
         // A pair whose opening would set a body free cannot open: its force may fall to the

@@ -7,7 +7,7 @@ use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::state::State;
 use crate::error::Result;
-use crate::root::{self, Accuracy};
+use crate::root::{self, RootTolerance};
 use std::cell::Cell;
 
 impl Stepper<'_, '_> {
@@ -50,7 +50,7 @@ impl Stepper<'_, '_> {
                 }
             }
         };
-        let accuracy = Accuracy::both(MONITOR_ACCURACY);
+        let accuracy = RootTolerance::both(MONITOR_ACCURACY);
         let t = root::try_between([(0.0, was), (reached, is)], accuracy, &mut value_at)?;
         if t != last.get() {
             value_at(t)?;

@@ -19,13 +19,13 @@ pub(super) const AT_ONCE: f64 = 1e-12;
 const BEYOND: f64 = 1e-9;
 
 /// Changes of the state over the whole piece, at the rates that hold at its start.
-pub(super) struct Prediction {
+pub(super) struct RatePrediction {
     pub(super) rates: Equilibrium,
     /// Factor by which the rates were stretched since their loads were eliminated.
     pub(super) stretched: f64,
 }
 
-impl Prediction {
+impl RatePrediction {
     /// Predicts the rates: elastic ones (4.5), plus a plastic part if points yield. The plastic
     /// part continues as in the last increment. After no increment it is that of the `tangent`, if
     /// the tangent is asked for. An increment that `is_long`, over the share `most` of the piece,
@@ -58,7 +58,7 @@ impl Prediction {
             let plastic = solver.solve_tangent(&driven, PREDICTION, 1.0);
             rates.add(1.0, &plastic);
         }
-        Prediction { rates, stretched }
+        RatePrediction { rates, stretched }
     }
 
     /// Rates that lead to a known state with the same statuses.
@@ -70,7 +70,7 @@ impl Prediction {
         let mut rates = state;
         rates.rescale(&solver.now, 1.0 / solver.at.share_of(&at, end));
         rates.add(-1.0, &solver.now);
-        Prediction {
+        RatePrediction {
             rates,
             stretched: 1.0,
         }

@@ -1,6 +1,6 @@
 //! Settings and results of a drive along a straight piece of the load path.
 
-use crate::analysis::stress::recovery::Peak;
+use crate::analysis::stress::recovery::RecoveredPeak;
 use crate::analysis::structure::solver::Solver;
 use crate::contact::Change;
 use crate::error::{Error, ErrorKind, Result};
@@ -30,7 +30,7 @@ pub enum Arrival {
     /// The drive ended where the monitored quantity is zero.
     Monitor,
     /// The drive ended at first yield.
-    Yield(Peak),
+    Yield(RecoveredPeak),
     /// The drive ended because a guard element yields: the zone must grow, and the last increment
     /// was not taken.
     ZoneTooSmall,

@@ -5,10 +5,10 @@
 //! brackets the yield load, which is then found to round-off. Secant: the paper's (3.14), with a
 //! bracket; each iterate is a contact problem solved from scratch.
 
-use crate::analysis::stress::recovery::{Peak, Recovery, Samples};
+use crate::analysis::stress::recovery::{RecoveredPeak, Recovery, Samples};
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, Result};
-use crate::root::{self, Accuracy};
+use crate::root::{self, RootTolerance};
 use std::convert::Infallible;
 
 /// Relative accuracy of the yield load.
@@ -18,7 +18,7 @@ const ACCURACY: f64 = 1e-14;
 const BEFORE: f64 = 1e-9;
 /// Accuracy of the yield load found by the secant, for which each stress comes from a contact
 /// problem of its own.
-const SECANT_ACCURACY: Accuracy = Accuracy {
+const SECANT_ACCURACY: RootTolerance = RootTolerance {
     value: 1e-13,
     place: ACCURACY,
 };
@@ -32,7 +32,7 @@ pub fn yield_share(
     recovery: &mut Recovery,
     from: &Samples,
     to: &Samples,
-) -> (f64, Option<Peak>) {
+) -> (f64, Option<RecoveredPeak>) {
     let mut mixed: Samples = from.clone();
     let mut at = |s: f64| {
         for (m, (a, b)) in mixed.iter_mut().zip(from.iter().zip(to)) {
@@ -51,14 +51,14 @@ pub fn yield_share(
         peak.map_or(-1.0, |p| p.ratio - 1.0)
     };
     let ends = [0.0, 1.0].map(|s| (s, beyond(s)));
-    let Ok(share) = root::try_between(ends, Accuracy::both(ACCURACY), |s| {
+    let Ok(share) = root::try_between(ends, RootTolerance::both(ACCURACY), |s| {
         Ok::<_, Infallible>(beyond(s))
     });
     (share, found)
 }
 
 /// The recovered stress peak of the current (elastic) state.
-pub fn peak_here(solver: &mut Solver, recovery: &mut Recovery) -> Option<Peak> {
+pub fn peak_here(solver: &mut Solver, recovery: &mut Recovery) -> Option<RecoveredPeak> {
     let samples = recovery.sample_here(solver);
     recovery.peak(solver.structure.model, &samples)
 }
@@ -68,7 +68,10 @@ pub fn peak_here(solver: &mut Solver, recovery: &mut Recovery) -> Option<Peak> {
 ///
 /// # Errors
 /// Fails if the stress does not grow with the load.
-pub fn secant_yield_load(solver: &mut Solver, recovery: &mut Recovery) -> Result<(f64, Peak)> {
+pub fn secant_yield_load(
+    solver: &mut Solver,
+    recovery: &mut Recovery,
+) -> Result<(f64, RecoveredPeak)> {
     let mut peak = None;
     let mut excess = |alpha: f64| -> Result<f64> {
         let point = solver.structure.point(alpha);

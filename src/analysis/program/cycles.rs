@@ -10,7 +10,7 @@
 //! growth. A cycle in which nothing flows is steady at once. The states reported for a program come
 //! from one more cycle.
 
-use crate::analysis::zone::history::History;
+use crate::analysis::zone::history::PointHistory;
 use crate::analysis::zone::packed;
 use crate::material::PlasticState;
 use crate::model::Model;
@@ -131,7 +131,7 @@ impl CycleRecord {
         (most, steady): (usize, f64),
         start: Option<&EndState>,
         elements: &[usize],
-        history: impl FnOnce() -> History,
+        history: impl FnOnce() -> PointHistory,
     ) -> bool {
         if most == 1 || self.is_over {
             return false;
@@ -165,7 +165,7 @@ impl CycleRecord {
 
     /// Sets the state before the first cycle to the state left by an earlier run.
     fn begin_with(&mut self, start: &EndState) {
-        self.points = History::from(start).points;
+        self.points = PointHistory::from(start).points;
         self.change = vec![PlasticState::default(); self.points.len()];
         self.elements.clone_from(&start.elements);
     }

@@ -25,7 +25,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 /// Result of a step of the program.
-pub(super) enum Event {
+pub(super) enum ProgramEvent {
     /// An increment was accepted: the next row of the history.
     Increment(HistoryRow),
     /// A target was reached.
@@ -101,7 +101,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         self.position.seconds.switch(TimeRow::History);
         while let Some(event) = self.next()? {
-            let increments = usize::from(matches!(event, Event::Increment(_)));
+            let increments = usize::from(matches!(event, ProgramEvent::Increment(_)));
             let goes_on = self.record(event);
             self.timed(TimeRow::Checkpoints, |run| {
                 run.write_checkpoint(increments, !goes_on)
@@ -118,18 +118,18 @@ impl<'m, 'o> Run<'m, 'o> {
     /// # Errors
     /// A load without equilibrium, an iteration that did not converge, a target that is out of
     /// reach.
-    pub(super) fn next(&mut self) -> Result<Option<Event>> {
+    pub(super) fn next(&mut self) -> Result<Option<ProgramEvent>> {
         loop {
             if let Some(&stop) = self.position.stops.first() {
                 let advanced = self.within_bound().and_then(|()| self.advance(stop));
                 if let Some(row) = advanced.map_err(|error| self.not_reached(error))? {
-                    return Ok(Some(Event::Increment(row)));
+                    return Ok(Some(ProgramEvent::Increment(row)));
                 }
             } else if self.position.search.is_some() {
                 self.widen_search()?;
             } else if self.start.is_some() {
                 if let Some(state) = self.finish_target()? {
-                    return Ok(Some(Event::Target(Box::new(state))));
+                    return Ok(Some(ProgramEvent::Target(Box::new(state))));
                 }
             } else {
                 match self.position.stage {
@@ -180,10 +180,10 @@ impl<'m, 'o> Run<'m, 'o> {
     }
 
     /// Passes an event to the observer and the results. Returns whether the run continues.
-    fn record(&mut self, event: Event) -> bool {
+    fn record(&mut self, event: ProgramEvent) -> bool {
         let row = match event {
-            Event::Increment(row) => row,
-            Event::Target(mut state) => {
+            ProgramEvent::Increment(row) => row,
+            ProgramEvent::Target(mut state) => {
                 state.increments = self.results.history.len();
                 self.results.states.push(*state);
                 return true;

@@ -6,7 +6,7 @@ use crate::analysis::choice::zone_choice::{self, Choice};
 use crate::analysis::increments::elastic::ElasticDrive;
 use crate::analysis::increments::step::{Arrival, stopped};
 use crate::analysis::increments::yield_load::{peak_here, secant_yield_load};
-use crate::analysis::stress::recovery::Peak;
+use crate::analysis::stress::recovery::RecoveredPeak;
 use crate::analysis::structure::state::State;
 use crate::error::{Error, Result};
 use crate::results::YieldPoint;
@@ -15,7 +15,7 @@ use crate::scene::{Unit, YieldMethod};
 /// Result of a search for first yield.
 pub(super) enum YieldSearch {
     /// First yield at this load factor.
-    Found(f64, Peak),
+    Found(f64, RecoveredPeak),
     /// Nothing yields up to the program's largest load factor.
     Nothing,
     /// Yielding begins outside the zone that was searched; the choice holds the place.
@@ -164,7 +164,7 @@ impl Run<'_, '_> {
     }
 
     /// Records that the material yields in the current state.
-    pub(super) fn record_yield(&mut self, peak: Peak) {
+    pub(super) fn record_yield(&mut self, peak: RecoveredPeak) {
         let figures = self.solver.contact_figures();
         self.position.first_yield.is_behind = true;
         self.position.first_yield.point.get_or_insert(YieldPoint {

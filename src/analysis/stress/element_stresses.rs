@@ -1,6 +1,6 @@
 //! Results from the stresses of elements: forces on their nodes, and the values that fields show.
 
-use super::indicator::Recovered;
+use super::indicator::RecoveredStresses;
 use super::point_values;
 use super::stress_field::StressField;
 use crate::results::PointValues;
@@ -40,7 +40,7 @@ pub(in crate::analysis) struct ShownStresses {
     /// The largest equivalent plastic strain at a point of each element.
     pub(in crate::analysis) plastic_strain: Vec<f64>,
     /// Recovered stresses and energies, from the polynomials around the elements.
-    pub(in crate::analysis) recovered: Recovered,
+    pub(in crate::analysis) recovered: RecoveredStresses,
     /// Values at the integration points, if they are asked for.
     pub(in crate::analysis) points: Option<PointValues>,
 }
@@ -89,7 +89,7 @@ impl ElementStresses {
                 stress: vec![0.0; components * n_elements],
                 von_mises: vec![0.0; n_elements],
                 plastic_strain: vec![0.0; n_elements],
-                recovered: Recovered {
+                recovered: RecoveredStresses {
                     energies: vec![[0.0; 2]; n_elements],
                     at_nodes: vec![0.0; components * n_nodes],
                     n_elements_of: vec![0; n_nodes],
@@ -146,7 +146,7 @@ impl ShownStresses {
             stress: vec![0.0; S * n],
             von_mises: vec![0.0; n],
             plastic_strain: vec![0.0; n],
-            recovered: Recovered::new(field, elements),
+            recovered: RecoveredStresses::new(field, elements),
             points: (field.continuum.point_values).then(|| point_values::of(field, elements)),
         };
         let of_elements = (

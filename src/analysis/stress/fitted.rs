@@ -13,7 +13,7 @@
 //! SIAM J. Sci. Comput. 26 (2005) 1192-1213, doi:10.1137/S1064827503402837 (polynomial preserving
 //! recovery).
 
-use super::patch_fit::{Frame, PatchFit};
+use super::patch_fit::{PatchFit, ScaledCoordinates};
 use crate::analysis::zone::gather::{NodalPlaces, Places};
 use crate::model::Model;
 use crate::space::Vector;
@@ -152,9 +152,9 @@ fn terms<const D: usize>(model: &Model, element: usize, nodes: Vec<u32>) -> Opti
         let sum: f64 = own.iter().map(|&k| mesh.point(k as usize)[d]).sum();
         sum / own.len() as f64
     };
-    let frame = Frame {
+    let frame = ScaledCoordinates {
         center: std::array::from_fn(mean),
-        ..Frame::<D>::about(mesh, element)
+        ..ScaledCoordinates::<D>::about(mesh, element)
     };
     let place = |node: &u32| frame.relative(mesh.point(*node as usize));
     let points = nodes.iter().map(|node| (1.0, place(node)));

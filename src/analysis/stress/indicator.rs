@@ -22,7 +22,7 @@
 mod rules;
 
 use super::neighbours::Neighbours;
-use super::patch_fit::{Frame, PatchFit, Terms};
+use super::patch_fit::{PatchFit, ScaledCoordinates, Terms};
 use super::stress_field::{ElementStress, StressField};
 use crate::element::Lanes;
 use crate::material::Material;
@@ -50,7 +50,7 @@ pub(in crate::analysis) struct Indicator {
 
 /// Energies and nodal stresses from the polynomials around some elements.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub(in crate::analysis) struct Recovered {
+pub(in crate::analysis) struct RecoveredStresses {
     /// Energies of `sigma* - sigma_h` and of `sigma_h`, for each element.
     pub(super) energies: Vec<[f64; 2]>,
     /// `n_nodes x S`: sums of `sigma*` at the nodes of the mesh.
@@ -62,7 +62,7 @@ pub(in crate::analysis) struct Recovered {
 /// Number of elements whose stresses at the nodes are held at a time.
 const AT_A_TIME: usize = 1 << 14;
 
-impl Recovered {
+impl RecoveredStresses {
     /// Fits polynomials around some elements of a stress field. The field must hold all elements
     /// that share a node with them.
     pub(in crate::analysis) fn new<
@@ -78,7 +78,7 @@ impl Recovered {
         let mesh = &continuum.mesh;
         let neighbours = Neighbours::new(mesh, 0..mesh.n_elements());
         let samples = ElementSamples::new(field);
-        let mut out = Recovered {
+        let mut out = RecoveredStresses {
             energies: Vec::with_capacity(elements.len()),
             at_nodes: vec![0.0; S * mesh.n_nodes()],
             n_elements_of: vec![0; mesh.n_nodes()],
@@ -314,7 +314,7 @@ fn recovered<const D: usize, const S: usize, const P: usize, const N: usize>(
     samples: &ElementSamples<D, S>,
 ) -> OfElement<S, N> {
     let material = &continuum.materials[continuum.mesh.element_body[e] as usize];
-    let frame = Frame::about(&continuum.mesh, e);
+    let frame = ScaledCoordinates::about(&continuum.mesh, e);
     // A patch that does not determine the polynomial (a single element, a row of elements) gets a
     // polynomial of lower degree.
     let fit = Some(degree(continuum, e))
@@ -361,7 +361,7 @@ fn weight(x: &[f64]) -> f64 {
 /// The coefficients of the weighted least-squares polynomial for each stress component; `None` if
 /// the samples do not determine it.
 fn fit<const DEGREE: usize, const D: usize, const S: usize>(
-    frame: &Frame<D>,
+    frame: &ScaledCoordinates<D>,
     patch: &[u32],
     samples: &ElementSamples<D, S>,
 ) -> Option<[Terms; S]> {

@@ -3,7 +3,7 @@
 //! # Source
 //! P. Lancaster, K. Salkauskas, moving least squares (1981), doi:10.1090/S0025-5718-1981-0616367-1.
 
-use super::patch_fit::{CUBIC, Frame, PatchFit};
+use super::patch_fit::{CUBIC, PatchFit, ScaledCoordinates};
 use crate::model::images::Reflection;
 use std::collections::HashMap;
 
@@ -33,7 +33,7 @@ const MOST_KEPT: usize = 300;
 #[derive(Debug, Clone)]
 pub struct Patch<const D: usize> {
     /// Coordinates about the middle of the element.
-    frame: Frame<D>,
+    frame: ScaledCoordinates<D>,
     /// Reach of the weights in element sizes.
     reach: f64,
     /// All samples; samples within reach of a point of the element come first.
@@ -62,7 +62,7 @@ pub struct Sample<const D: usize> {
 
 impl<const D: usize> Patch<D> {
     /// A patch round an element.
-    pub fn new(frame: Frame<D>, reach: f64, samples: Vec<Sample<D>>) -> Self {
+    pub fn new(frame: ScaledCoordinates<D>, reach: f64, samples: Vec<Sample<D>>) -> Self {
         let is_near = |sample: &Sample<D>| {
             let beyond = sample.position.map(|x| (x.abs() - HALF).max(0.0));
             square(beyond) < reach * reach

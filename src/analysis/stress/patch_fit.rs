@@ -29,14 +29,14 @@ pub const fn n_terms(variables: usize, degree: usize) -> usize {
 
 /// Coordinates about an element, scaled so that they are of order 1 in the element.
 #[derive(Debug, Clone, Copy)]
-pub struct Frame<const D: usize> {
+pub struct ScaledCoordinates<const D: usize> {
     /// Point at which the coordinates vanish.
     pub center: [f64; D],
     /// Extents of the element.
     pub scale: [f64; D],
 }
 
-impl<const D: usize> Frame<D> {
+impl<const D: usize> ScaledCoordinates<D> {
     /// Coordinates about the middle of an element's extents.
     pub fn about(mesh: &Mesh, element: usize) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; D], [f64::NEG_INFINITY; D]);
@@ -47,7 +47,7 @@ impl<const D: usize> Frame<D> {
                 high[d] = high[d].max(x[d]);
             }
         }
-        Frame {
+        ScaledCoordinates {
             center: std::array::from_fn(|d| 0.5 * (low[d] + high[d])),
             scale: std::array::from_fn(|d| high[d] - low[d]),
         }

@@ -8,7 +8,7 @@
 
 use super::element_stresses::ElementStresses;
 use super::stress_field::{Strained, StressField};
-use crate::analysis::zone::history::History;
+use crate::analysis::zone::history::PointHistory;
 use crate::analysis::zone::packed;
 use crate::element::{Kernel, with_kernel};
 use crate::error::{Error, Result};
@@ -40,7 +40,7 @@ pub(in crate::analysis) struct Whole<'a> {
     pub(in crate::analysis) factors: &'a [f64],
     /// Elements of the zone, ascending.
     pub(in crate::analysis) in_zone: &'a [usize],
-    pub(in crate::analysis) history: &'a History,
+    pub(in crate::analysis) history: &'a PointHistory,
     pub(in crate::analysis) with_fields: bool,
 }
 
@@ -258,9 +258,9 @@ mod tests {
             let (mesh, displacements) = (&model.mesh, displacements(&model));
             let in_zone: Vec<usize> = (0..mesh.n_elements()).step_by(3).collect();
             let n_points = mesh.most_points() * in_zone.len();
-            let history = History {
+            let history = PointHistory {
                 points: plastic_states(n_points, mesh.is_solid()),
-                ..History::default()
+                ..PointHistory::default()
             };
             let whole = Whole {
                 model: &model,

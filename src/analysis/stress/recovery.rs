@@ -21,7 +21,7 @@ use super::fitted::FittedStrains;
 use super::maximum::{Maximum, SPACINGS};
 use super::neighbours::Neighbours;
 use super::patch::{Patch, Sample, reach};
-use super::patch_fit::Frame;
+use super::patch_fit::ScaledCoordinates;
 use crate::analysis::structure::solver::Solver;
 use crate::analysis::zone::free_strain::FreeStrains;
 use crate::analysis::zone::gather::{GatheredElements, Nodal, Places};
@@ -73,7 +73,7 @@ pub type Samples = Vec<f64>;
 
 /// The place at which the material is strained most, and how much.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Peak {
+pub struct RecoveredPeak {
     /// Ratio of von Mises stress to initial yield stress.
     pub ratio: f64,
     /// Coordinates of the point.
@@ -133,7 +133,7 @@ impl Recovery {
     }
 
     /// [`RecoveryOf::peak`]
-    pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
+    pub fn peak(&mut self, model: &Model, samples: &Samples) -> Option<RecoveredPeak> {
         of_recovery!(self, recovery => recovery.peak(model, samples))
     }
 }
@@ -287,7 +287,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
     /// `None` if there is no stress, and so no place of the largest. If the largest sample is far
     /// below yield, it is returned with its own place, since neither needs to be more exact. Of
     /// equal maxima, the first in the order of the elements is returned.
-    fn peak(&mut self, model: &Model, samples: &Samples) -> Option<Peak> {
+    fn peak(&mut self, model: &Model, samples: &Samples) -> Option<RecoveredPeak> {
         let (samples, _) = samples.as_chunks::<S>();
         let raw: Vec<f64> = (0..self.elements.list.len())
             .map(|i| {
@@ -321,13 +321,18 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
     }
 
     /// The first sample that is as large as the largest, within round-off.
-    fn largest_sample(&self, samples: &[[f64; S]], by_element: &[f64], ratio: f64) -> Option<Peak> {
+    fn largest_sample(
+        &self,
+        samples: &[[f64; S]],
+        by_element: &[f64],
+        ratio: f64,
+    ) -> Option<RecoveredPeak> {
         let least = ratio * (1.0 - TIE);
         let i = by_element.iter().position(|r| *r >= least)?;
         let body = self.elements.list[i].body as usize;
         let place = (self.first[i]..self.first[i + 1])
             .find(|&place| self.ratio(i, place, samples) >= least)?;
-        Some(Peak {
+        Some(RecoveredPeak {
             ratio,
             location: in_space(self.positions[place]),
             body,
@@ -355,7 +360,12 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
     /// The recovered maximum over some elements. The recovered field is smooth within an element
     /// but not across elements. All elements that may hold the maximum are searched on: if only the
     /// best element of the first search were followed, round-off would choose it.
-    fn climb(&mut self, model: &Model, elements: &[u32], samples: &[[f64; S]]) -> Option<Peak> {
+    fn climb(
+        &mut self,
+        model: &Model,
+        elements: &[u32],
+        samples: &[[f64; S]],
+    ) -> Option<RecoveredPeak> {
         let keep = elements.len() <= FEW;
         let mut tops: Vec<(Cell<D, N>, Maximum<D>)> = Vec::with_capacity(elements.len());
         for &i in elements {
@@ -387,7 +397,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
         // ascending), not the one with the larger round-off.
         let ratio = highest(&tops);
         let (cell, top) = tops.iter().find(|t| t.1.value >= ratio * (1.0 - TIE))?;
-        Some(Peak {
+        Some(RecoveredPeak {
             ratio,
             location: in_space(cell.point(top.at)),
             body: self.elements.list[cell.element as usize].body as usize,
@@ -418,7 +428,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
             members.extend(around);
         }
         let element = self.elements.list[i].element as usize;
-        let frame = Frame::about(&model.mesh, element);
+        let frame = ScaledCoordinates::about(&model.mesh, element);
         let elements: Vec<usize> = members
             .iter()
             .map(|&m| self.elements.list[m as usize].element as usize)

@@ -30,7 +30,7 @@ const FAR: f64 = 1e6;
 
 /// Load point at which flow began, and the loads before it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Flow {
+pub struct FlowOnset {
     /// Load point at which flow began last, after a stretch without flow.
     onset: LoadPoint,
     /// Load at first yield, as a distance from zero load; zero until something yields.
@@ -39,10 +39,10 @@ pub struct Flow {
     farthest: f64,
 }
 
-impl Flow {
+impl FlowOnset {
     /// Flow at the start of a program: no load and nothing yielded.
     pub fn none(n_loads: usize) -> Self {
-        Flow {
+        FlowOnset {
             onset: LoadPoint::unloaded(n_loads),
             range: 0.0,
             farthest: 0.0,
@@ -146,7 +146,7 @@ mod tests {
     }
 
     /// The loads at which increments end on the way from `from` to `end`, if flow began at 1.
-    fn ends(flow: &Flow, from: f64, end: f64) -> Vec<f64> {
+    fn ends(flow: &FlowOnset, from: f64, end: f64) -> Vec<f64> {
         let (mut loads, mut load) = (Vec::new(), from);
         while load < end && loads.len() < 10_000 {
             load += flow.share(&at(load), &at(end), AT_STEP) * (end - load);
@@ -160,7 +160,7 @@ mod tests {
     /// load takes the same number.
     #[test]
     fn increments_are_of_equal_length_in_the_root_of_the_load_since_flow_began() {
-        let mut flow = Flow::none(1);
+        let mut flow = FlowOnset::none(1);
         flow.begins(&at(1.0));
         let each = (1.0 / STEP).ceil() as usize;
         for end in [1.01, 2.0, 10.0] {
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn only_load_beyond_all_that_was_before_is_deep() {
         let each = (1.0 / STEP).ceil() as usize;
-        let mut flow = Flow::none(1);
+        let mut flow = FlowOnset::none(1);
         assert_eq!(ends(&flow, 0.0, 1e9).len(), each);
         flow.begins(&at(1.0));
         let virgin = ends(&flow, 145.0, 400.0).len();

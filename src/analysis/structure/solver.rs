@@ -4,7 +4,7 @@ use super::cost::Cost;
 use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::factored::Structure;
 use super::factored_tangent::FactoredTangent;
-use super::flow::Flow;
+use super::flow::FlowOnset;
 use super::load_point::LoadPoint;
 use super::round_off::LOOSEST;
 use crate::analysis::zone::elements::Zone;
@@ -53,14 +53,14 @@ pub struct Predictor {
     /// Change of the load point over the piece of the last increment; tells loading from unloading.
     pub last_step: Vec<f64>,
     /// Load point at which flow began last, after a stretch without flow.
-    pub flow: Flow,
+    pub flow: FlowOnset,
     /// Rate at which initial loads changed over the last increment; much the same in the next one.
-    pub pace: Option<Pace>,
+    pub pace: Option<InitialLoadRate>,
 }
 
 /// The rate of change of initial loads with the load.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Pace {
+pub struct InitialLoadRate {
     /// The change for a distance of 1 between load points.
     pub initial: EliminatedLoad,
     /// The distance over which it was found.
@@ -112,7 +112,7 @@ impl<'m> Solver<'m> {
             tangent: None,
             predictor: Predictor {
                 last_step: vec![0.0; model.loads.len() + 1],
-                flow: Flow::none(model.loads.len()),
+                flow: FlowOnset::none(model.loads.len()),
                 pace: None,
             },
             scales: Scales::default(),
@@ -136,7 +136,7 @@ impl<'m> Solver<'m> {
         self.tableau.reset(&open);
         self.border.clear();
         self.predictor.last_step.fill(0.0);
-        self.predictor.flow = Flow::none(self.at.factors.len());
+        self.predictor.flow = FlowOnset::none(self.at.factors.len());
         self.predictor.pace = None;
         self.fresh = true;
     }

@@ -2,7 +2,7 @@
 
 use super::solver::Solver;
 use super::state::State;
-use crate::analysis::zone::history::History;
+use crate::analysis::zone::history::PointHistory;
 use crate::checkpoint::read_end_state;
 use crate::error::{Error, Result};
 use crate::material::Material;
@@ -160,7 +160,7 @@ fn take_over(solver: &mut Solver) -> bool {
     let Some(start) = &structure.model.start else {
         return false;
     };
-    let history = History::from(start);
+    let history = PointHistory::from(start);
     solver.zone.restore_of(&start.elements, &history);
     let initial = solver.zone.initial_load(structure.sub.zeros());
     solver.now.initial = structure.eliminate_initial(initial, &mut solver.cost);

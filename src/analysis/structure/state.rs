@@ -4,7 +4,7 @@
 use super::equilibrium::Equilibrium;
 use super::load_point::LoadPoint;
 use super::solver::Solver;
-use crate::analysis::zone::history::History;
+use crate::analysis::zone::history::PointHistory;
 use crate::analysis::zone::packed;
 use crate::contact::springs::Springs;
 use serde::{Deserialize, Serialize};
@@ -31,7 +31,7 @@ pub(in crate::analysis) struct State {
     #[serde(with = "packed::ascending")]
     pub(in crate::analysis) elements: Arc<[usize]>,
     /// Plastic history of the elements of the zone, point by point.
-    pub(in crate::analysis) history: History,
+    pub(in crate::analysis) history: PointHistory,
 }
 
 impl State {

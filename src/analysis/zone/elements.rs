@@ -9,7 +9,7 @@
 //! increment they are therefore a function of `u` alone.
 
 use super::gather::Places;
-use super::history::History;
+use super::history::PointHistory;
 use super::points::{Evaluation, ZoneOf};
 use super::yielding::Yielding;
 use crate::element::with_kernel;
@@ -158,17 +158,17 @@ impl Zone {
     }
 
     /// [`ZoneOf::history`]
-    pub fn history(&self) -> History {
+    pub fn history(&self) -> PointHistory {
         of_zone!(self, zone => zone.history())
     }
 
     /// [`ZoneOf::restore`]
-    pub fn restore(&mut self, history: &History) {
+    pub fn restore(&mut self, history: &PointHistory) {
         of_zone!(self, zone => zone.restore(history));
     }
 
     /// [`ZoneOf::restore_of`]
-    pub fn restore_of(&mut self, elements: &[usize], history: &History) {
+    pub fn restore_of(&mut self, elements: &[usize], history: &PointHistory) {
         of_zone!(self, zone => zone.restore_of(elements, history));
     }
 
@@ -342,9 +342,9 @@ targets = [{ load_factor = 1.0 }]
         let stride = 4;
         // History of the second element of a zone of two; the first is elastic.
         let all = zone.history();
-        let mut small = History {
+        let mut small = PointHistory {
             points: vec![PlasticState::default(); 2 * stride],
-            ..History::default()
+            ..PointHistory::default()
         };
         small.points[stride..].copy_from_slice(&all.points[4 * stride..5 * stride]);
         zone.restore_of(&[1, 4], &small);
@@ -352,7 +352,7 @@ targets = [{ load_factor = 1.0 }]
         expected[4 * stride..5 * stride].copy_from_slice(&small.points[stride..]);
         assert!(expected.iter().any(|s| s.equivalent > 0.0));
         assert_eq!(zone.history().points, expected);
-        zone.restore_of(&[], &History::default());
+        zone.restore_of(&[], &PointHistory::default());
         let base = zone.initial_load(Trailing::zeros(case.model.freedoms.n, 0));
         assert_eq!((zone.extent(), base.largest()), ((0, 0.0), 0.0));
     }

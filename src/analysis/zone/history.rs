@@ -11,7 +11,7 @@ use std::ops::Range;
 /// The history of Gauss points. In a plane model, the two shear components out of the plane are
 /// zero.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct History {
+pub struct PointHistory {
     /// Plastic history of each point.
     #[serde(with = "packed::history")]
     pub points: Vec<PlasticState<6>>,
@@ -19,10 +19,10 @@ pub struct History {
     pub back: BackStrains<6>,
 }
 
-impl From<&EndState> for History {
+impl From<&EndState> for PointHistory {
     fn from(state: &EndState) -> Self {
         let points = state.strains.iter().zip(&state.equivalent);
-        History {
+        PointHistory {
             points: points
                 .map(|(strain, equivalent)| PlasticState {
                     strain: *strain,
@@ -38,7 +38,7 @@ impl From<&EndState> for History {
     }
 }
 
-impl History {
+impl PointHistory {
     /// Returns the plastic state of the given elements, whose points the history is of (element by
     /// element). Elements without plastic strain are left out.
     pub fn end_state(&self, elements: &[usize]) -> EndState {

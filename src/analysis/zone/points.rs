@@ -2,7 +2,7 @@
 
 use super::free_strain::FreeStrains;
 use super::gather::{GatheredElements, Nodal, Places};
-use super::history::{BackStrains, History, PathEnds, chunks_or_none};
+use super::history::{BackStrains, PathEnds, PointHistory, chunks_or_none};
 use super::local_yield;
 use super::trial_points::TrialPoints;
 use crate::element::{Components, Gradients, Kernel};
@@ -324,15 +324,15 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     }
 
     /// The committed history, point by point.
-    pub fn history(&self) -> History {
-        History {
+    pub fn history(&self) -> PointHistory {
+        PointHistory {
             points: self.committed.iter().map(PlasticState::resized).collect(),
             back: self.back.resized(),
         }
     }
 
     /// Restores a history of the same zone.
-    pub fn restore(&mut self, history: &History) {
+    pub fn restore(&mut self, history: &PointHistory) {
         self.begin = None;
         self.put(0..self.committed.len(), history, 0);
         self.trial.copy_from_slice(&self.committed);
@@ -341,7 +341,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
 
     /// Restores the history of a zone of other elements (ascending). Elements outside that zone
     /// have no history.
-    pub fn restore_of(&mut self, elements: &[usize], history: &History) {
+    pub fn restore_of(&mut self, elements: &[usize], history: &PointHistory) {
         self.begin = None;
         for i in 0..self.elements.list.len() {
             let points = i * self.stride..(i + 1) * self.stride;
@@ -362,7 +362,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
     }
 
     /// Overwrites the history of some points with a history from its point `from` on.
-    fn put(&mut self, points: std::ops::Range<usize>, history: &History, from: usize) {
+    fn put(&mut self, points: std::ops::Range<usize>, history: &PointHistory, from: usize) {
         let known = &history.points[from..][..points.len()];
         for (state, known) in self.committed[points.clone()].iter_mut().zip(known) {
             *state = known.resized();

@@ -61,7 +61,7 @@ fn modulus(text: &str) -> std::result::Result<f64, String> {
 
 /// A body: its shape at the contact and its material.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Body {
+pub(super) struct ContactingBody {
     /// Principal radii.
     pub radii: [f64; 2],
     /// Name in the list of materials.
@@ -74,7 +74,7 @@ pub(super) struct Body {
     pub yield_stress: Option<f64>,
 }
 
-impl Body {
+impl ContactingBody {
     /// Whether the body is rigid.
     pub fn is_rigid(&self) -> bool {
         self.youngs_modulus.is_infinite()
@@ -91,12 +91,12 @@ impl Body {
         Some(contact.yield_load(self.poissons_ratio, stress))
     }
 
-    fn of_list(name: &str, units: &Units, radii: [f64; 2], flag: &str) -> Result<Body> {
+    fn of_list(name: &str, units: &Units, radii: [f64; 2], flag: &str) -> Result<ContactingBody> {
         let within = |error: Error| error.within(flag);
         let material = of_list(name)
             .and_then(|listed| listed.material(units))
             .map_err(within)?;
-        Ok(Body {
+        Ok(ContactingBody {
             radii,
             material: Some(name.to_string()),
             youngs_modulus: material.youngs_modulus,
@@ -108,10 +108,10 @@ impl Body {
 
 impl Materials {
     /// Returns both bodies, with their radii.
-    pub fn bodies(&self, units: &Units, radii: [[f64; 2]; 2]) -> Result<[Body; 2]> {
+    pub fn bodies(&self, units: &Units, radii: [[f64; 2]; 2]) -> Result<[ContactingBody; 2]> {
         let mut first = match (&self.material, self.youngs_modulus) {
-            (Some(name), _) => Body::of_list(name, units, radii[0], "--material")?,
-            (None, modulus) => Body {
+            (Some(name), _) => ContactingBody::of_list(name, units, radii[0], "--material")?,
+            (None, modulus) => ContactingBody {
                 radii: radii[0],
                 material: None,
                 youngs_modulus: modulus.ok_or_else(|| {
@@ -123,7 +123,7 @@ impl Materials {
         };
         first.yield_stress = self.yield_stress.or(first.yield_stress);
         let mut second = match &self.second_material {
-            Some(name) => Body::of_list(name, units, radii[1], "--second-material")?,
+            Some(name) => ContactingBody::of_list(name, units, radii[1], "--second-material")?,
             None => self.changed(&first, radii[1]),
         };
         second.yield_stress = self.second_yield_stress.or(second.yield_stress);
@@ -136,8 +136,8 @@ impl Materials {
     }
 
     /// Returns the first body's material with the elastic constants that are given for the second.
-    fn changed(&self, first: &Body, radii: [f64; 2]) -> Body {
-        let mut second = Body {
+    fn changed(&self, first: &ContactingBody, radii: [f64; 2]) -> ContactingBody {
+        let mut second = ContactingBody {
             radii,
             ..first.clone()
         };

@@ -1,6 +1,6 @@
 //! The figures of a Hertz contact.
 
-use super::bodies::Body;
+use super::bodies::ContactingBody;
 use crate::analytical::{HertzContact, HertzLine, Peak, RelativeRadii};
 use crate::scene::Units;
 use serde::Serialize;
@@ -16,7 +16,7 @@ pub(super) struct AskedContact {
     pub load: f64,
     pub length: Option<f64>,
     pub depth: Option<f64>,
-    pub bodies: [Body; 2],
+    pub bodies: [ContactingBody; 2],
     pub units: Units,
 }
 
@@ -80,12 +80,12 @@ pub(super) struct BodySheet {
     pub largest_shear: Option<PeakSheet>,
     pub largest_von_mises: Option<PeakSheet>,
     /// First yield of the body, if it can yield.
-    pub first_yield: Option<FirstYield>,
+    pub first_yield: Option<ContactAtYield>,
 }
 
 /// The contact at the first yield of a body, by von Mises' criterion.
 #[derive(Debug, Serialize)]
-pub(super) struct FirstYield {
+pub(super) struct ContactAtYield {
     /// Load; per length in a line contact.
     pub load: f64,
     pub max_pressure: f64,
@@ -167,7 +167,7 @@ impl AskedContact {
             yield_stress: body.yield_stress,
             largest_shear: inside(contact.largest_shear(self.load, poisson)),
             largest_von_mises: inside(contact.largest_von_mises(self.load, poisson)),
-            first_yield: body.yield_load(contact).map(|load| FirstYield {
+            first_yield: body.yield_load(contact).map(|load| ContactAtYield {
                 load,
                 max_pressure: contact.max_pressure(load),
                 depth: contact.largest_von_mises(load, poisson).depth,
@@ -189,7 +189,7 @@ impl AskedContact {
 
     /// Returns the compression from the contact to the axis of a cylinder, or to the reference
     /// depth of a flat body; none for a hollow one.
-    fn compression(&self, line: &HertzLine, body: &Body) -> Option<f64> {
+    fn compression(&self, line: &HertzLine, body: &ContactingBody) -> Option<f64> {
         let [young, poisson] = body.elastic();
         let curved = body.radii.into_iter().find(|radius| radius.is_finite());
         match curved {

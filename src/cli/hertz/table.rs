@@ -1,7 +1,7 @@
 //! The figures of a contact as tables for a reader.
 
 use super::sheet::{BodySheet, PeakSheet, Sheet};
-use crate::cli::table::{Column, Table, page_width, wrap};
+use crate::cli::table::{ColumnAlignment, Table, page_width, wrap};
 use crate::number::{exact, significant, trimmed};
 
 /// Number of significant digits printed: more than any measured modulus has.
@@ -31,12 +31,18 @@ pub(super) fn text(sheet: &Sheet) -> String {
 fn bodies(sheet: &Sheet) -> Table {
     let units = &sheet.units;
     let mut table = Table::new(&[
-        (Column::Text, "body".to_string()),
-        (Column::Number, format!("radii\n[{}]", units.length)),
-        (Column::Number, format!("E\n[{}]", units.stress)),
-        (Column::Number, "nu".to_string()),
-        (Column::Number, format!("yield stress\n[{}]", units.stress)),
-        (Column::Text, "material".to_string()),
+        (ColumnAlignment::Text, "body".to_string()),
+        (
+            ColumnAlignment::Number,
+            format!("radii\n[{}]", units.length),
+        ),
+        (ColumnAlignment::Number, format!("E\n[{}]", units.stress)),
+        (ColumnAlignment::Number, "nu".to_string()),
+        (
+            ColumnAlignment::Number,
+            format!("yield stress\n[{}]", units.stress),
+        ),
+        (ColumnAlignment::Text, "material".to_string()),
     ]);
     for body in &sheet.bodies {
         let radius = |radius: Option<f64>| radius.map_or("flat".to_string(), exact);
@@ -78,10 +84,10 @@ impl FigureTable<'_> {
 
 fn figures(sheet: &Sheet) -> Table {
     let columns = [
-        (Column::Text, "figure"),
-        (Column::Number, "value"),
-        (Column::Text, "unit"),
-        (Column::Text, "source"),
+        (ColumnAlignment::Text, "figure"),
+        (ColumnAlignment::Number, "value"),
+        (ColumnAlignment::Text, "unit"),
+        (ColumnAlignment::Text, "source"),
     ];
     let mut figures = FigureTable {
         sheet,

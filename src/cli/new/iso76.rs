@@ -8,7 +8,7 @@ use super::materials::{First, Made, Second, weaker};
 use super::pressed::{self, OnFlat};
 use super::profile::{self, Profile, Roller};
 use super::size::Size;
-use super::solid::{self, Bodies};
+use super::solid::{self, BodyPair};
 use super::text::{Started, toml};
 use crate::analytical::{HertzContact, RelativeRadii, contact_modulus};
 use crate::cli::values::{not_zero, positive};
@@ -204,7 +204,7 @@ impl StaticLoad {
             && (!is_flat || self.crown.is_some())
         {
             let flat_is_zero = |radius: f64| if radius.is_finite() { radius } else { 0.0 };
-            let bodies = Bodies {
+            let bodies = BodyPair {
                 title: match self.crown {
                     Some(_) => "Static load of a crowned roller on its race",
                     None => "Static load of a ball on its race",

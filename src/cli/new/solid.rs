@@ -17,7 +17,7 @@ pub(super) const RESOLUTION: usize = 6;
 
 /// Options that all solid scenes have.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct Common {
+pub(in crate::cli) struct SolidOptions {
     /// Largest load [N]; by default three times the load at first yield
     #[arg(long, value_name = "P", value_parser = positive, allow_negative_numbers = true)]
     pub load: Option<f64>,
@@ -59,7 +59,7 @@ pub(in crate::cli) struct Groove {
     )]
     pub race: f64,
     #[command(flatten)]
-    pub common: Common,
+    pub common: SolidOptions,
 }
 
 /// Two cylinders at right angles.
@@ -88,11 +88,11 @@ pub(in crate::cli) struct Crossed {
     )]
     pub lower: f64,
     #[command(flatten)]
-    pub common: Common,
+    pub common: SolidOptions,
 }
 
 /// The two bodies: principal radii along x and y, and the comments of the scene on them.
-pub(super) struct Bodies {
+pub(super) struct BodyPair {
     pub title: &'static str,
     pub names: [&'static str; 2],
     pub upper: ([f64; 2], &'static str),
@@ -100,7 +100,7 @@ pub(super) struct Bodies {
 }
 
 pub(super) fn ball_on_flat(pressed: &Pressed) -> Result<String> {
-    let bodies = Bodies {
+    let bodies = BodyPair {
         title: "Ball on a flat",
         names: ["ball", "flat"],
         upper: ([pressed.size.radius_or(RADIUS); 2], "ball"),
@@ -113,7 +113,7 @@ pub(super) fn ball_on_flat(pressed: &Pressed) -> Result<String> {
 
 pub(super) fn ball_in_groove(groove: &Groove) -> Result<String> {
     let radius = groove.size.radius_or(BALL);
-    let bodies = Bodies {
+    let bodies = BodyPair {
         title: "Ball in a groove",
         names: ["ball", "race"],
         upper: ([radius; 2], "ball"),
@@ -127,7 +127,7 @@ pub(super) fn ball_in_groove(groove: &Groove) -> Result<String> {
 }
 
 pub(super) fn crossed_cylinders(crossed: &Crossed) -> Result<String> {
-    let bodies = Bodies {
+    let bodies = BodyPair {
         title: "Crossed cylinders",
         names: ["upper", "lower"],
         upper: ([0.0, crossed.upper], "along its axis a cylinder is flat"),
@@ -136,8 +136,8 @@ pub(super) fn crossed_cylinders(crossed: &Crossed) -> Result<String> {
     crossed.common.scene(&bodies)
 }
 
-impl Common {
-    fn scene(&self, bodies: &Bodies) -> Result<String> {
+impl SolidOptions {
+    fn scene(&self, bodies: &BodyPair) -> Result<String> {
         scene(
             bodies,
             self.load,
@@ -149,7 +149,7 @@ impl Common {
 }
 
 fn scene(
-    bodies: &Bodies,
+    bodies: &BodyPair,
     load: Option<f64>,
     resolution: usize,
     first: &First,
@@ -178,7 +178,7 @@ targets = [
     Ok(bodies.text(&made, resolution, semi_axes, &asked))
 }
 
-impl Bodies {
+impl BodyPair {
     /// Returns the scene; if nothing yields, with the half axes that its mesh is made for.
     pub fn text(
         &self,

@@ -1,6 +1,6 @@
 //! The estimated errors, as one table: a row per state, a column per quantity.
 
-use super::super::table::{Column::*, Table};
+use super::super::table::{ColumnAlignment::*, Table};
 use super::Report;
 use crate::output::ending::in_words;
 use crate::output::stated_errors::StatedErrors;

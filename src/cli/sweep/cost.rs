@@ -3,7 +3,7 @@
 use super::{SweepArguments, overrides};
 use crate::analysis;
 use crate::cli::streams::{json, print};
-use crate::cli::table::{Column, Table, page_width};
+use crate::cli::table::{ColumnAlignment, Table, page_width};
 use crate::deck::{self, Options};
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -96,10 +96,10 @@ fn points(sweep: &Sweep, costs: &[Option<PointCost>]) -> Vec<serde_json::Value> 
 
 fn table(sweep: &Sweep, costs: &[Option<PointCost>]) -> Table {
     let mut table = Table::new(&[
-        (Column::Text, "point"),
-        (Column::Number, "freedoms"),
-        (Column::Number, "time"),
-        (Column::Number, "memory"),
+        (ColumnAlignment::Text, "point"),
+        (ColumnAlignment::Number, "freedoms"),
+        (ColumnAlignment::Number, "time"),
+        (ColumnAlignment::Number, "memory"),
     ]);
     for (point, cost) in sweep.points.iter().zip(costs) {
         let figures = match cost {

@@ -1,10 +1,10 @@
 //! Writes the blocks of a deck with parts as those of a flat deck.
 
-use super::{Assembled, Block, Item, Placement};
-use crate::deck::fields::{Fields, Where};
+use super::{Assembled, Item, KeywordBlock, Placement};
+use crate::deck::fields::{LineFields, Where};
 use crate::deck::instances::Instances;
 use crate::deck::keyword::no_such;
-use crate::deck::source::{Anew, Line, Source};
+use crate::deck::source::{Anew, DeckLines, Line};
 use crate::error::Result;
 use std::io::Write;
 
@@ -34,7 +34,7 @@ enum LineValues {
 }
 
 impl LineValues {
-    fn of(block: &Block) -> LineValues {
+    fn of(block: &KeywordBlock) -> LineValues {
         match block.keyword.name.as_str() {
             "NODE" => LineValues::Node,
             "NSET" | "ELSET" if block.keyword.has("GENERATE") => LineValues::Range,
@@ -67,7 +67,7 @@ impl Assembled {
     /// # Errors
     /// `Input` for undefined instances and numbers, or for damaged values among those that are
     /// moved.
-    pub(in crate::deck) fn flat(&self, source: &Source, instances: &Instances) -> Result<Anew> {
+    pub(in crate::deck) fn flat(&self, source: &DeckLines, instances: &Instances) -> Result<Anew> {
         let mut writer = Writer {
             source,
             instances,
@@ -99,7 +99,7 @@ impl Assembled {
 }
 
 struct Writer<'m, 't> {
-    source: &'m Source<'t>,
+    source: &'m DeckLines<'t>,
     instances: &'m Instances,
     assembly: &'m str,
     out: Anew,
@@ -107,7 +107,7 @@ struct Writer<'m, 't> {
 
 impl Writer<'_, '_> {
     /// Writes a block of the assembly or the model, whose numbers may refer to an instance.
-    fn outside(&mut self, block: &Block) -> Result<()> {
+    fn outside(&mut self, block: &KeywordBlock) -> Result<()> {
         let keyword = &block.keyword;
         let mut of = None;
         let files = &self.source.files;
@@ -126,7 +126,7 @@ impl Writer<'_, '_> {
         self.block(block, BlockScope { own, of, placement })
     }
 
-    fn block(&mut self, block: &Block, scope: BlockScope) -> Result<()> {
+    fn block(&mut self, block: &KeywordBlock, scope: BlockScope) -> Result<()> {
         let keyword = &block.keyword;
         // A blank follows the asterisk, so that no name can turn the line into a comment.
         self.write(format_args!("* {}", keyword.name));
@@ -161,7 +161,7 @@ impl Writer<'_, '_> {
     /// Writes a data line, changed for an instance.
     fn line(
         &mut self,
-        block: &Block,
+        block: &KeywordBlock,
         values: LineValues,
         line: Line,
         scope: BlockScope,
@@ -222,7 +222,7 @@ impl Writer<'_, '_> {
     }
 
     /// Writes a line in which every `step`-th value is a number or name.
-    fn each(&mut self, mut row: Fields, step: usize, scope: BlockScope) -> Result<()> {
+    fn each(&mut self, mut row: LineFields, step: usize, scope: BlockScope) -> Result<()> {
         for index in 0.. {
             match index % step {
                 0 => self.value(&mut row, scope)?,
@@ -240,7 +240,7 @@ impl Writer<'_, '_> {
     }
 
     /// Writes the next value of a line, a number or a name.
-    fn value(&mut self, row: &mut Fields, scope: BlockScope) -> Result<()> {
+    fn value(&mut self, row: &mut LineFields, scope: BlockScope) -> Result<()> {
         let mut ahead = *row;
         let written = ahead.written();
         if !written.is_empty() && written.iter().all(u8::is_ascii_digit) {

@@ -1,8 +1,8 @@
 //! Placement of an instance: its part is translated, then rotated about an axis.
 
-use super::Block;
-use crate::deck::fields::Fields;
-use crate::deck::source::Source;
+use super::KeywordBlock;
+use crate::deck::fields::LineFields;
+use crate::deck::source::DeckLines;
 use crate::error::Result;
 
 /// A translation followed by a rotation.
@@ -24,7 +24,7 @@ impl Placement {
     ///
     /// # Errors
     /// `Input` for too many lines or values, and for a rotation that is incomplete or has no axis.
-    pub(super) fn read(source: &Source, block: &Block) -> Result<Placement> {
+    pub(super) fn read(source: &DeckLines, block: &KeywordBlock) -> Result<Placement> {
         let mut out = Placement::default();
         let lines = &block.lines;
         if let Some(&line) = lines.first() {
@@ -71,7 +71,7 @@ impl Placement {
 impl AxisTurn {
     /// Reads two points of the axis and the angle in degrees, by the right-hand rule; `None` if the
     /// rotation is the identity.
-    fn read(mut row: Fields) -> Result<Option<AxisTurn>> {
+    fn read(mut row: LineFields) -> Result<Option<AxisTurn>> {
         let mut points = [[0.0; 3]; 2];
         for x in points.as_flattened_mut() {
             *x = row.number("a coordinate of the axis of rotation")?;

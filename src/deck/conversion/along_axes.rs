@@ -1,9 +1,9 @@
 //! Displacements along axes of a `*TRANSFORM` that a deck prescribes, or lets follow others.
 
-use super::super::history::{Entry, Map};
-use super::super::linear::Terms;
+use super::super::history::{KeyHistory, Map};
+use super::super::linear::FreedomCoefficients;
 use super::super::series::Series;
-use super::super::source::Place;
+use super::super::source::LinePlace;
 use super::Draft;
 use crate::scene::{Direction, EquationTerm};
 use crate::space::{Vector, along};
@@ -16,9 +16,9 @@ const ROUND_OFF: f64 = 1e-12;
 /// value over time.
 pub(super) struct AlongAxis {
     pub(super) axis: Vector,
-    pub(super) of: Terms,
+    pub(super) of: FreedomCoefficients,
     pub(super) moved: Series,
-    pub(super) place: Place,
+    pub(super) place: LinePlace,
 }
 
 /// The condition `v . u = sum_k b_k d_k` on a node's displacement `u`, with what it is along its
@@ -41,7 +41,7 @@ impl Draft<'_> {
     ) {
         for (row, pivot, place) in eliminated(known) {
             let mut moved = Series::starting(0.0);
-            let mut of = Terms::new();
+            let mut of = FreedomCoefficients::new();
             for (known, share) in known.iter().zip(&row.shares) {
                 moved.add(&known.moved, *share);
                 for (key, c) in &known.of {
@@ -53,7 +53,7 @@ impl Draft<'_> {
             let own: Vec<usize> = std::iter::once(pivot).chain(free).collect();
             of.retain(|_, c| *c != 0.0);
             if own.len() == 1 && of.is_empty() {
-                boundary.insert((node, pivot as u8), Entry::new(moved, place));
+                boundary.insert((node, pivot as u8), KeyHistory::new(moved, place));
                 continue;
             }
             let on = self.set_of_node(node);
@@ -72,7 +72,7 @@ impl Draft<'_> {
 }
 
 /// The conditions on the components of a displacement, each with its pivot and its place.
-fn eliminated(known: &[AlongAxis]) -> Vec<(KnownAlong, usize, Place)> {
+fn eliminated(known: &[AlongAxis]) -> Vec<(KnownAlong, usize, LinePlace)> {
     let n = known.len();
     let mut rows: Vec<KnownAlong> = (known.iter().enumerate())
         .map(|(k, known)| KnownAlong {

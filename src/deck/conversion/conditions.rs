@@ -4,12 +4,12 @@
 //! set have the same history. Other conditions are grouped by their history, on sets made for the
 //! purpose.
 
-use super::super::data::{Condition, Kind, Target};
+use super::super::data::{Condition, ConditionKind, EntitySelection};
 use super::super::facets::Face;
-use super::super::history::{Entry, GivenDisplacements, Key, Map};
-use super::super::linear::Terms;
+use super::super::history::{GivenDisplacements, Key, KeyHistory, Map};
+use super::super::linear::FreedomCoefficients;
 use super::super::series::Series;
-use super::super::source::Place;
+use super::super::source::LinePlace;
 use super::Draft;
 use super::along_axes::AlongAxis;
 use super::in_steps::SumInSteps;
@@ -23,7 +23,7 @@ use std::collections::{BTreeMap, BTreeSet};
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 
 /// Members with the same history, by degree of freedom and history.
-type MemberGroups = BTreeMap<(u8, Vec<u64>), (Vec<u32>, Series, Place)>;
+type MemberGroups = BTreeMap<(u8, Vec<u64>), (Vec<u32>, Series, LinePlace)>;
 
 impl Draft<'_> {
     pub(super) fn conditions(&mut self) -> Result<()> {
@@ -31,32 +31,36 @@ impl Draft<'_> {
             whole: mut boundary,
             mut in_steps,
         } = self.deck.displacements()?;
-        let mut forces = self.deck.histories(Kind::Force)?;
+        let mut forces = self.deck.histories(ConditionKind::Force)?;
         let planes = self.constrain(&mut boundary, &mut in_steps, &mut forces)?;
         self.turn(&mut boundary, &mut forces)?;
         self.hold_planes(planes, &mut boundary, &mut forces)?;
         self.boundary(boundary)?;
         self.boundary_in_steps(in_steps)?;
         self.forces(forces)?;
-        let pressures = self.deck.histories(Kind::Pressure)?;
+        let pressures = self.deck.histories(ConditionKind::Pressure)?;
         self.pressures(pressures)
     }
 
     /// All conditions of a kind that are given for sets.
-    fn lines_on_sets(&self, kind: Kind) -> Vec<Condition> {
+    fn lines_on_sets(&self, kind: ConditionKind) -> Vec<Condition> {
         let program = &self.deck.program;
         let steps = program.steps.iter().flat_map(|step| &step.conditions);
         let all = program.initial.iter().chain(steps);
-        let of_kind = all.filter(|c| c.kind == kind && matches!(c.on, Target::Set(_)));
+        let of_kind = all.filter(|c| c.kind == kind && matches!(c.on, EntitySelection::Set(_)));
         of_kind.cloned().collect()
     }
 
     /// Removes the conditions that hold for whole node sets, and returns the set, axis, history and
     /// line of each.
-    fn of_node_sets(&self, kind: Kind, map: &mut Map) -> Result<Vec<(String, u8, Series, Place)>> {
+    fn of_node_sets(
+        &self,
+        kind: ConditionKind,
+        map: &mut Map,
+    ) -> Result<Vec<(String, u8, Series, LinePlace)>> {
         let mut out = Vec::new();
         for condition in self.lines_on_sets(kind) {
-            let Target::Set(name) = &condition.on else {
+            let EntitySelection::Set(name) = &condition.on else {
                 continue;
             };
             let Some(name) = self.deck.sets.nodes.written(name) else {
@@ -101,21 +105,21 @@ impl Draft<'_> {
     /// Turns nodes held at zero into supports, and others into prescribed displacements.
     fn boundary(&mut self, mut map: Map) -> Result<()> {
         map.retain(|key, _| self.geometry.uses(key.0));
-        for (on, axis, series, place) in self.of_node_sets(Kind::Boundary, &mut map)? {
+        for (on, axis, series, place) in self.of_node_sets(ConditionKind::Boundary, &mut map)? {
             match series.is_zero() {
                 true => self.hold(&on, &[axis as usize], place),
-                false => self.displace(on, axis, Entry::new(series, place)),
+                false => self.displace(on, axis, KeyHistory::new(series, place)),
             }
         }
         // For each node, the axes along which it is held, as a mask.
-        let mut held: BTreeMap<u32, (u8, Place)> = BTreeMap::new();
+        let mut held: BTreeMap<u32, (u8, LinePlace)> = BTreeMap::new();
         map.retain(|&(node, axis), entry| {
             if entry.series.is_zero() {
                 held.entry(node).or_insert((0, entry.place)).0 |= 1 << axis;
             }
             !entry.series.is_zero()
         });
-        let mut by_mask: BTreeMap<u8, (Vec<u32>, Place)> = BTreeMap::new();
+        let mut by_mask: BTreeMap<u8, (Vec<u32>, LinePlace)> = BTreeMap::new();
         for (node, (mask, place)) in held {
             by_mask
                 .entry(mask)
@@ -130,13 +134,13 @@ impl Draft<'_> {
         }
         for ((axis, _), (nodes, series, place)) in Self::groups(map) {
             let on = self.geometry.add_nodes(&made("boundary", place), nodes);
-            self.displace(on, axis, Entry::new(series, place));
+            self.displace(on, axis, KeyHistory::new(series, place));
         }
         Ok(())
     }
 
-    pub(super) fn displace(&mut self, on: String, axis: u8, entry: Entry) {
-        let Entry {
+    pub(super) fn displace(&mut self, on: String, axis: u8, entry: KeyHistory) {
+        let KeyHistory {
             series,
             place,
             span,
@@ -167,7 +171,7 @@ impl Draft<'_> {
             let message = format!("a force acts on node {node}, which belongs to no element");
             return Err(self.deck.error(entry.place, "CLOAD", message));
         }
-        for (on, axis, series, place) in self.of_node_sets(Kind::Force, &mut map)? {
+        for (on, axis, series, place) in self.of_node_sets(ConditionKind::Force, &mut map)? {
             self.push(on, axis, series, place);
         }
         for ((axis, _), (nodes, series, place)) in Self::groups(map) {
@@ -177,7 +181,7 @@ impl Draft<'_> {
         Ok(())
     }
 
-    fn push(&mut self, on: String, axis: u8, series: Series, place: Place) {
+    fn push(&mut self, on: String, axis: u8, series: Series, place: LinePlace) {
         let n = self.geometry.node_sets.get(&on).map_or(0, Vec::len);
         let mut total: Vector = [0.0; 3];
         total[axis as usize] = n as f64 * series.largest() / self.thickness;
@@ -191,8 +195,8 @@ impl Draft<'_> {
 
     fn pressures(&mut self, mut map: Map) -> Result<()> {
         map.retain(|_, entry| !entry.series.is_zero());
-        for condition in self.lines_on_sets(Kind::Pressure) {
-            let Target::Set(name) = &condition.on else {
+        for condition in self.lines_on_sets(ConditionKind::Pressure) {
+            let EntitySelection::Set(name) = &condition.on else {
                 continue;
             };
             if condition.range[0] != 0 {
@@ -210,7 +214,7 @@ impl Draft<'_> {
                 self.press(on, series, condition.place);
             }
         }
-        let mut groups: BTreeMap<Vec<u64>, (Vec<Face>, Series, Place)> = BTreeMap::new();
+        let mut groups: BTreeMap<Vec<u64>, (Vec<Face>, Series, LinePlace)> = BTreeMap::new();
         for (face, entry) in map {
             let new = || (Vec::new(), entry.series.clone(), entry.place);
             let key = entry.series.bits();
@@ -223,7 +227,7 @@ impl Draft<'_> {
         Ok(())
     }
 
-    fn press(&mut self, on: String, series: Series, place: Place) {
+    fn press(&mut self, on: String, series: Series, place: LinePlace) {
         let load = Load {
             on,
             pressure: Some(series.largest().into()),
@@ -244,7 +248,8 @@ impl Draft<'_> {
             .filter(|k| axes.contains_key(&k.0))
             .copied()
             .collect();
-        let mut by_direction: BTreeMap<[u64; 3], (Vector, BTreeSet<u32>, Place)> = BTreeMap::new();
+        let mut by_direction: BTreeMap<[u64; 3], (Vector, BTreeSet<u32>, LinePlace)> =
+            BTreeMap::new();
         let is_moved = |key: &Key| !boundary[key].series.is_zero() && self.geometry.uses(key.0);
         let moved = turned.iter().filter(|k| is_moved(k)).map(|k| k.0);
         let in_steps = self.in_steps.iter().flat_map(SumInSteps::nodes);
@@ -310,7 +315,7 @@ pub(super) fn take_known<'m>(
         let entry = boundary.remove(&(node, axis))?;
         Some(AlongAxis {
             axis: axes[axis as usize],
-            of: Terms::new(),
+            of: FreedomCoefficients::new(),
             moved: entry.series,
             place: entry.place,
         })
@@ -318,6 +323,6 @@ pub(super) fn take_known<'m>(
 }
 
 /// The name of a set that is made for a line of the deck.
-pub(super) fn made(keyword: &str, place: Place) -> String {
+pub(super) fn made(keyword: &str, place: LinePlace) -> String {
     format!("{keyword}-line-{}", place.line())
 }

@@ -3,7 +3,7 @@
 use super::super::data::{Account, Adjust, ContactPair};
 use super::super::node_slaves::NodeSlaves;
 use super::super::sets::What;
-use super::super::source::Place;
+use super::super::source::LinePlace;
 use super::Draft;
 use crate::error::Result;
 use crate::number::exact;
@@ -82,7 +82,7 @@ impl Draft<'_> {
     ///
     /// # Errors
     /// `Input`, at the line.
-    fn require_pair(&self, (place, keyword, names): (Place, &str, [&String; 2])) -> Result<()> {
+    fn require_pair(&self, (place, keyword, names): (LinePlace, &str, [&String; 2])) -> Result<()> {
         let mut pairs = self.deck.properties.contacts.iter();
         let is_it = |pair: &ContactPair| {
             let own = [&pair.slave, &pair.master].into_iter().zip(names);

@@ -7,7 +7,7 @@
 use super::super::bodies::unsupported;
 use super::super::data::{Account, ContactChange, ContactPair};
 use super::super::series::Series;
-use super::super::source::Place;
+use super::super::source::LinePlace;
 use super::Draft;
 use crate::error::Result;
 use crate::scene::{Contact, Load};
@@ -24,7 +24,7 @@ impl Draft<'_> {
     pub(super) fn contact_changes(&mut self, account: &mut Account) -> Result<()> {
         let alike = |a: &str, b: &str| a.eq_ignore_ascii_case(b);
         let pairs = &self.deck.properties.contacts;
-        let mut changed: Vec<Option<(Series, Place)>> = vec![None; pairs.len()];
+        let mut changed: Vec<Option<(Series, LinePlace)>> = vec![None; pairs.len()];
         let apart = self.length_of_model();
         let mut time = 0.0;
         for (number, step) in self.deck.program.steps.iter().enumerate() {
@@ -78,7 +78,7 @@ impl Draft<'_> {
     }
 
     /// A surface of a contact pair that belongs to no other pair.
-    fn own_surface(&self, index: usize, place: Place) -> Result<String> {
+    fn own_surface(&self, index: usize, place: LinePlace) -> Result<String> {
         let contact = &self.contacts[index];
         let has = |contact: &Contact, name: &str| contact.first == name || contact.second == name;
         let others = || {

@@ -2,7 +2,7 @@
 
 use super::super::Deck;
 use super::super::series::Series;
-use super::super::source::Place;
+use super::super::source::LinePlace;
 use super::Geometry;
 use super::in_steps::SumInSteps;
 use crate::scene::{Contact, Direction, Equation, Load, LooseNode, Support, Tie};
@@ -58,7 +58,7 @@ impl<'d> Draft<'d> {
     }
 
     /// Holds a set along axes; a preceding support of the same set is extended.
-    pub(super) fn hold(&mut self, on: &str, axes: &[usize], place: Place) {
+    pub(super) fn hold(&mut self, on: &str, axes: &[usize], place: LinePlace) {
         let directions = axes.iter().map(|&axis| Direction::ALL[axis]);
         if let Some(last) = self.supports.last_mut()
             && last.on == on
@@ -76,14 +76,20 @@ impl<'d> Draft<'d> {
         self.add_support(support, place);
     }
 
-    pub(super) fn add_support(&mut self, support: Support, place: Place) {
+    pub(super) fn add_support(&mut self, support: Support, place: LinePlace) {
         let key = format!("support.{}", self.supports.len());
         self.places.insert(key, self.deck.files.show(place));
         self.supports.push(support);
     }
 
     /// Adds a load under a name made from `kind`.
-    pub(super) fn add_load(&mut self, kind: &str, mut load: Load, series: Series, place: Place) {
+    pub(super) fn add_load(
+        &mut self,
+        kind: &str,
+        mut load: Load,
+        series: Series,
+        place: LinePlace,
+    ) {
         let number = self.loads.len();
         load.name = format!("{kind}-{}", number + 1);
         self.places

@@ -1,7 +1,7 @@
 //! Equations between displacements, and surfaces that equations hold plane.
 
 use super::super::constraints::HeldPlane;
-use super::super::history::{Entry, Map};
+use super::super::history::{KeyHistory, Map};
 use super::super::series::Series;
 use super::Draft;
 use crate::error::Result;
@@ -32,7 +32,7 @@ impl Draft<'_> {
                 .nodes
                 .iter()
                 .filter_map(|node| forces.remove(&(*node, axis)));
-            let found: Vec<Entry> = found.collect();
+            let found: Vec<KeyHistory> = found.collect();
             let mut sum = Series::starting(0.0);
             found.iter().for_each(|entry| sum.add(&entry.series, 1.0));
             let nodes = self.geometry.used(plane.nodes.clone());

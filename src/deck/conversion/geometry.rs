@@ -2,10 +2,10 @@
 //! need.
 
 use super::super::Deck;
-use super::super::data::{Kind, Target};
+use super::super::data::{ConditionKind, EntitySelection};
 use super::super::facets::Face;
 use super::super::sets::What;
-use super::super::source::Place;
+use super::super::source::LinePlace;
 use crate::error::Result;
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub(crate) struct Geometry {
     /// Whether a node belongs to an element.
     pub(crate) is_used: Vec<bool>,
     /// Surfaces that look both ways and are used for results only.
-    pub(super) left_out: Vec<(String, Place)>,
+    pub(super) left_out: Vec<(String, LinePlace)>,
     /// Names of surfaces in the mesh, by their names in the deck in capitals.
     surface_names: BTreeMap<String, String>,
     /// Number of times that each name was requested.
@@ -109,7 +109,8 @@ impl Deck {
         let mut all = self.program.initial.iter().chain(steps);
         of_pairs
             || all.any(|c| {
-                c.kind == Kind::Pressure && matches!(&c.on, Target::Set(name) if is_it(name))
+                c.kind == ConditionKind::Pressure
+                    && matches!(&c.on, EntitySelection::Set(name) if is_it(name))
             })
     }
 
@@ -129,14 +130,14 @@ impl Deck {
             let Some((_, place)) = members.first() else {
                 continue;
             };
-            let set = Target::Set(name.to_string());
+            let set = EntitySelection::Set(name.to_string());
             let nodes = out.used(self.indices(What::Nodes, &set, (*place, "NSET"))?);
             if !nodes.is_empty() {
                 out.node_sets.insert(name.to_string(), nodes);
             }
         }
         for (name, _) in self.sets.elements.iter() {
-            let boundary = self.boundary_of(&Target::Set(name.to_string()));
+            let boundary = self.boundary_of(&EntitySelection::Set(name.to_string()));
             let faces = self.faces_of_boundary(&boundary);
             let is_free = self.sets.surfaces.get(name).is_none();
             // Curves of a solid are no faces: their set is one of nodes.

@@ -4,8 +4,8 @@
 //! Conditions on reference nodes and along the axes of a `*TRANSFORM` are sums of displacements.
 
 use super::super::bodies::unsupported;
-use super::super::history::{Entry, Key};
-use super::super::linear::{Reduced, Terms};
+use super::super::history::{Key, KeyHistory};
+use super::super::linear::{FreedomCoefficients, Reduced};
 use super::super::series::Series;
 use super::Draft;
 use super::conditions::made;
@@ -26,8 +26,8 @@ type Done = (u8, SpanBits, bool, Vec<u64>);
 
 /// The condition that a sum of displacements along x, y and z has a value over some steps.
 pub(super) struct SumInSteps {
-    terms: Terms,
-    entry: Entry,
+    terms: FreedomCoefficients,
+    entry: KeyHistory,
 }
 
 impl SumInSteps {
@@ -51,10 +51,10 @@ impl Draft<'_> {
     pub(super) fn sums_in_steps(
         &mut self,
         reduced: &Reduced,
-        in_steps: &mut Vec<(Key, Entry)>,
+        in_steps: &mut Vec<(Key, KeyHistory)>,
     ) -> Result<()> {
         let axes = self.deck.local_axes()?;
-        let is_moved = |entry: &Entry| !entry.stays && !is_at_rest(entry);
+        let is_moved = |entry: &KeyHistory| !entry.stays && !is_at_rest(entry);
         let moved = in_steps.iter().filter(|(_, entry)| is_moved(entry));
         let moved: BTreeSet<u32> = moved.map(|(key, _)| key.0).collect();
         let mut single = Vec::new();
@@ -63,7 +63,7 @@ impl Draft<'_> {
             let of = match all.find(|follows| follows.key == key) {
                 Some(follows) => follows.of.clone(),
                 None if !self.geometry.uses(key.0) => continue,
-                None => Terms::from([(key, 1.0)]),
+                None => FreedomCoefficients::from([(key, 1.0)]),
             };
             let is_alone = of.len() == 1;
             let turned = of.keys().any(|key| axes.contains_key(&key.0));
@@ -81,7 +81,7 @@ impl Draft<'_> {
                     if of.is_empty() || of.keys().any(|key| !self.geometry.uses(key.0)) {
                         return Err(self.coupled(key, &entry));
                     }
-                    let mut terms = Terms::new();
+                    let mut terms = FreedomCoefficients::new();
                     for ((node, axis), c) in of {
                         let own = axes.get(&node).map(|axes| axes[axis as usize]);
                         let own = own.unwrap_or_else(|| crate::space::unit(axis as usize));
@@ -98,7 +98,7 @@ impl Draft<'_> {
         Ok(())
     }
 
-    fn coupled(&self, key: Key, entry: &Entry) -> crate::Error {
+    fn coupled(&self, key: Key, entry: &KeyHistory) -> crate::Error {
         let node = self.deck.node_name(key.0 as usize);
         let message = format!(
             "node {node} is held along {} only in some steps, and is coupled to nodes without \
@@ -110,9 +110,9 @@ impl Draft<'_> {
 
     /// Turns conditions that begin or end in a later step into supports and prescribed
     /// displacements.
-    pub(super) fn boundary_in_steps(&mut self, in_steps: Vec<(Key, Entry)>) -> Result<()> {
+    pub(super) fn boundary_in_steps(&mut self, in_steps: Vec<(Key, KeyHistory)>) -> Result<()> {
         let axes = self.deck.local_axes()?;
-        let mut groups: BTreeMap<Done, (Vec<u32>, Entry)> = BTreeMap::new();
+        let mut groups: BTreeMap<Done, (Vec<u32>, KeyHistory)> = BTreeMap::new();
         for ((node, axis), entry) in in_steps {
             if let Some(axes) = axes.get(&node) {
                 let on = self.set_of_node(node);
@@ -161,7 +161,7 @@ impl Draft<'_> {
             coefficient: -own / c,
         });
         let terms = terms.collect();
-        let Entry {
+        let KeyHistory {
             series,
             place,
             span,
@@ -186,6 +186,6 @@ impl Draft<'_> {
 }
 
 /// Whether a node is held from the start, where it is in the mesh.
-fn is_at_rest(entry: &Entry) -> bool {
+fn is_at_rest(entry: &KeyHistory) -> bool {
     entry.span.since.is_none() && entry.series.is_zero()
 }

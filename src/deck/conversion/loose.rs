@@ -3,7 +3,7 @@
 
 use super::super::constraints::HeldPlane;
 use super::super::history::{Key, Map};
-use super::super::linear::{LinearRow, Reduced, Terms};
+use super::super::linear::{FreedomCoefficients, LinearRow, Reduced};
 use super::Draft;
 use super::system::series_of;
 use crate::scene::LooseAxis;
@@ -52,24 +52,32 @@ impl Draft<'_> {
         for plane in planes {
             let key = plane.leader;
             for &node in plane.nodes.iter().filter(|node| **node != key.0) {
-                self.displace_loose((node, key.1), &Terms::from([(key, 1.0)]), boundary);
+                self.displace_loose(
+                    (node, key.1),
+                    &FreedomCoefficients::from([(key, 1.0)]),
+                    boundary,
+                );
             }
             let follower = plane.nodes.iter().find(|node| self.geometry.uses(**node));
             if let Some(&follower) = follower.filter(|_| !boundary.contains_key(&key)) {
-                self.displace_loose(key, &Terms::from([((follower, key.1), 1.0)]), boundary);
+                self.displace_loose(
+                    key,
+                    &FreedomCoefficients::from([((follower, key.1), 1.0)]),
+                    boundary,
+                );
             } else {
-                self.displace_loose(key, &Terms::from([(key, 1.0)]), boundary);
+                self.displace_loose(key, &FreedomCoefficients::from([(key, 1.0)]), boundary);
             }
         }
         for key in boundary.keys() {
-            self.displace_loose(*key, &Terms::from([(*key, 1.0)]), boundary);
+            self.displace_loose(*key, &FreedomCoefficients::from([(*key, 1.0)]), boundary);
         }
         for follows in &reduced.loose {
             self.displace_loose(follows.key, &follows.of, boundary);
         }
     }
 
-    fn displace_loose(&mut self, key: Key, terms: &Terms, boundary: &Map) {
+    fn displace_loose(&mut self, key: Key, terms: &FreedomCoefficients, boundary: &Map) {
         let prescribed = series_of(terms, boundary);
         let free = terms.iter().filter(|(key, _)| !boundary.contains_key(key));
         let free: Vec<(u64, u8, f64)> = free

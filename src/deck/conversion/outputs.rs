@@ -1,7 +1,9 @@
 //! The results that each step requests.
 
 use super::super::Deck;
-use super::super::data::{Account, ContactPair, Group, OutputRequest, Schedule, Step, Target};
+use super::super::data::{
+    Account, ContactPair, DeckStep, EntitySelection, Group, OutputRequest, Schedule,
+};
 use super::super::sets::What;
 use super::Options;
 use crate::error::Result;
@@ -24,7 +26,7 @@ struct InForce<'d> {
 }
 
 impl<'d> InForce<'d> {
-    fn renew(&mut self, step: &'d Step) {
+    fn renew(&mut self, step: &'d DeckStep) {
         let of_step = &step.outputs;
         let alike =
             |a: &OutputRequest, b: &OutputRequest| (a.group, a.is_print) == (b.group, b.is_print);
@@ -114,7 +116,7 @@ impl Deck {
 
     /// Increments of a step at which results are requested: number and time within the step; the
     /// last is the end of the step.
-    fn instants(&self, step: &Step, schedule: &Schedule, start: f64) -> Vec<(usize, f64)> {
+    fn instants(&self, step: &DeckStep, schedule: &Schedule, start: f64) -> Vec<(usize, f64)> {
         let mut out = Vec::new();
         match schedule {
             Schedule::Every(every) => {
@@ -257,7 +259,7 @@ impl RequestedSets<'_, '_> {
         if let Some(set) = self.known.get(&key) {
             return Ok(On::Set(set.clone()));
         }
-        let target = Target::Set(name.clone());
+        let target = EntitySelection::Set(name.clone());
         let found = deck.indices(what, &target, (request.place, keyword))?;
         let label = |index: &u32| match what {
             What::Nodes => deck.node_label(*index as usize),

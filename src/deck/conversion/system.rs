@@ -3,12 +3,12 @@
 
 use super::super::bodies::unsupported;
 use super::super::constraints::HeldPlane;
-use super::super::data::Equation;
-use super::super::history::{Entry, Key, Map};
-use super::super::linear::{self, Follows, LinearRow, Reduced, Terms};
+use super::super::data::LinearEquation;
+use super::super::history::{Key, KeyHistory, Map};
+use super::super::linear::{self, Follows, FreedomCoefficients, LinearRow, Reduced};
 use super::super::series::Series;
 use super::super::sets::What;
-use super::super::source::Place;
+use super::super::source::LinePlace;
 use super::Draft;
 use super::along_axes::AlongAxis;
 use super::conditions::take_known;
@@ -27,7 +27,7 @@ impl Draft<'_> {
     pub(super) fn constrain(
         &mut self,
         boundary: &mut Map,
-        in_steps: &mut Vec<(Key, Entry)>,
+        in_steps: &mut Vec<(Key, KeyHistory)>,
         forces: &mut Map,
     ) -> Result<Vec<HeldPlane>> {
         let axes = self.deck.local_axes()?;
@@ -62,7 +62,10 @@ impl Draft<'_> {
         for plane in joined {
             let followers = plane.nodes.iter().filter(|node| **node != plane.leader.0);
             rows.extend(followers.map(|&node| LinearRow {
-                terms: Terms::from([((node, plane.leader.1), 1.0), (plane.leader, -1.0)]),
+                terms: FreedomCoefficients::from([
+                    ((node, plane.leader.1), 1.0),
+                    (plane.leader, -1.0),
+                ]),
                 first: Some((node, plane.leader.1)),
                 place: plane.place,
                 keyword: "EQUATION",
@@ -126,7 +129,7 @@ impl Draft<'_> {
     }
 
     /// The rows of an equation, one for each node of its first set.
-    fn rows_of(&self, equation: &Equation, rows: &mut Vec<LinearRow>) -> Result<()> {
+    fn rows_of(&self, equation: &LinearEquation, rows: &mut Vec<LinearRow>) -> Result<()> {
         let (deck, at) = (self.deck, (equation.place, "EQUATION"));
         let refused = |message: String| deck.error(at.0, at.1, message);
         let mut terms = Vec::new();
@@ -157,7 +160,7 @@ impl Draft<'_> {
             return Err(refused(message));
         }
         for k in 0..n {
-            let mut sum = Terms::new();
+            let mut sum = FreedomCoefficients::new();
             let key_of = |keys: &Vec<Key>| if keys.len() == 1 { keys[0] } else { keys[k] };
             for (keys, coefficient) in &terms {
                 *sum.entry(key_of(keys)).or_insert(0.0) += coefficient;
@@ -192,7 +195,7 @@ impl Draft<'_> {
                 if !self.geometry.uses(key.0) && !entry.series.is_zero() {
                     return Err(self.pressed_loose(follows.key, entry.place));
                 }
-                let new = || Entry::new(Series::starting(0.0), entry.place);
+                let new = || KeyHistory::new(Series::starting(0.0), entry.place);
                 let sum = forces.entry(*key).or_insert_with(new);
                 sum.series.add(&entry.series, *share);
             }
@@ -210,7 +213,7 @@ impl Draft<'_> {
         Ok(())
     }
 
-    fn pressed_loose(&self, key: Key, place: Place) -> crate::Error {
+    fn pressed_loose(&self, key: Key, place: LinePlace) -> crate::Error {
         let node = self.deck.node_name(key.0 as usize);
         let message = format!(
             "a force acts on node {node} along {}, which no node of an element follows alone",
@@ -248,7 +251,7 @@ impl Draft<'_> {
     ) -> Result<()> {
         if follows.of.keys().all(|key| known.contains_key(key)) {
             let series = series_of(&follows.of, known);
-            boundary.insert(follows.key, Entry::new(series, follows.place));
+            boundary.insert(follows.key, KeyHistory::new(series, follows.place));
             return Ok(());
         }
         let (of, moved) = self.apart_from_loose(follows, known);
@@ -263,8 +266,8 @@ impl Draft<'_> {
 
     /// The displacements of nodes with elements that a displacement follows, and the part that
     /// nodes without elements prescribe.
-    fn apart_from_loose(&self, follows: &Follows, known: &Map) -> (Terms, Series) {
-        let (loose, of): (Terms, Terms) =
+    fn apart_from_loose(&self, follows: &Follows, known: &Map) -> (FreedomCoefficients, Series) {
+        let (loose, of): (FreedomCoefficients, FreedomCoefficients) =
             (follows.of.iter()).partition(|(key, _)| !self.geometry.uses(key.0));
         (of, series_of(&loose, known))
     }
@@ -293,7 +296,7 @@ impl Draft<'_> {
 
     /// Adds the equation that a sum of terms and a value over time is zero. If the value is not, it
     /// is a load.
-    pub(super) fn relate(&mut self, terms: Vec<EquationTerm>, moved: Series, place: Place) {
+    pub(super) fn relate(&mut self, terms: Vec<EquationTerm>, moved: Series, place: LinePlace) {
         if moved.is_zero() {
             let key = format!("equation.{}", self.equations.len());
             self.places.insert(key, self.deck.files.show(place));
@@ -335,7 +338,7 @@ impl Draft<'_> {
 const GLOBAL: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// The sum of known displacements multiplied by coefficients.
-pub(super) fn series_of(terms: &Terms, known: &Map) -> Series {
+pub(super) fn series_of(terms: &FreedomCoefficients, known: &Map) -> Series {
     let mut sum = Series::starting(0.0);
     for (key, c) in terms {
         if let Some(entry) = known.get(key) {

@@ -1,8 +1,8 @@
 //! Loads on the volumes of bodies: weight, rotation, and change of temperature.
 
 use super::super::bodies::{Bodies, unsupported};
-use super::super::data::{Account, Kind, VolumeLoad};
-use super::super::source::Place;
+use super::super::data::{Account, ConditionKind, VolumeLoad};
+use super::super::source::LinePlace;
 use super::super::temperature::OfBody;
 use super::Draft;
 use crate::error::Result;
@@ -15,7 +15,7 @@ const ALIGNED: f64 = 1e-6;
 
 impl Draft<'_> {
     pub(super) fn volume_loads(&mut self, space: Space, bodies: &Bodies) -> Result<()> {
-        for ((body, index), entry) in self.deck.histories(Kind::Volume)? {
+        for ((body, index), entry) in self.deck.histories(ConditionKind::Volume)? {
             if entry.series.is_zero() {
                 continue;
             }
@@ -45,7 +45,7 @@ impl Draft<'_> {
         space: Space,
         [point, way]: [[f64; 3]; 2],
         square: f64,
-        place: Place,
+        place: LinePlace,
     ) -> Result<Rotation> {
         let is_along = |axis: usize| way[axis].abs() > 1.0 - ALIGNED;
         let fits = match space {

@@ -2,7 +2,9 @@
 
 use super::{Reader, fields};
 use crate::deck::bodies::unsupported;
-use crate::deck::data::{Adjust, Clearance, ContactPair, Interaction, Resolved, Target, TiedPair};
+use crate::deck::data::{
+    Adjust, Clearance, ContactPair, EntitySelection, Interaction, Resolved, TiedPair,
+};
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
 use crate::number::exact;
@@ -151,7 +153,7 @@ impl Reader<'_> {
                     );
                     return Err(keyword.error(files, why));
                 }
-                Err(_) => Some(Adjust::Nodes(Target::Set(text.to_string()))),
+                Err(_) => Some(Adjust::Nodes(EntitySelection::Set(text.to_string()))),
             },
             None => None,
         };

@@ -4,8 +4,8 @@ use super::mesh::{face, target};
 use super::volume::{OnVolume, volume_load};
 use super::{Reader, fields};
 use crate::deck::bodies::unsupported;
-use crate::deck::data::{Condition, ContactChange, Kind, Step, Target};
-use crate::deck::fields::Fields;
+use crate::deck::data::{Condition, ConditionKind, ContactChange, DeckStep, EntitySelection};
+use crate::deck::fields::LineFields;
 use crate::deck::keyword::Keyword;
 use crate::deck::source::Line;
 use crate::error::Result;
@@ -64,11 +64,11 @@ impl Reader<'_> {
         (self.is_in_step, self.is_history) = (true, false);
         let given_before = std::mem::take(&mut self.of_first_step);
         self.n_before = given_before.len();
-        self.deck.program.steps.push(Step {
+        self.deck.program.steps.push(DeckStep {
             place: keyword.place,
             period: 1.0,
             conditions: given_before,
-            ..Step::default()
+            ..DeckStep::default()
         });
         // A line of text may follow, which describes the step.
         self.skip()
@@ -168,7 +168,11 @@ impl Reader<'_> {
 
     /// Reads the parameters that are common to all conditions, and returns the name of the
     /// amplitude.
-    pub(super) fn conditions(&mut self, keyword: &Keyword, kind: Kind) -> Result<Option<String>> {
+    pub(super) fn conditions(
+        &mut self,
+        keyword: &Keyword,
+        kind: ConditionKind,
+    ) -> Result<Option<String>> {
         let files = &self.source.files;
         let known = [
             "OP",
@@ -180,7 +184,7 @@ impl Reader<'_> {
         ];
         // Where displacements are small, loads neither turn with the bodies nor grow with them.
         let n_known = match kind {
-            Kind::Force | Kind::Pressure => known.len(),
+            ConditionKind::Force | ConditionKind::Pressure => known.len(),
             _ => known.len() - 2,
         };
         keyword.allow(files, &known[..n_known])?;
@@ -193,11 +197,11 @@ impl Reader<'_> {
                 let is_first = !std::mem::replace(&mut step.is_begun[kind as usize], true);
                 if is_new && is_first {
                     step.renewed[kind as usize] = Some(keyword.place);
-                    if kind == Kind::Boundary {
+                    if kind == ConditionKind::Boundary {
                         step.conditions.drain(..std::mem::take(&mut self.n_before));
                     }
-                    if kind == Kind::Pressure {
-                        step.renewed[Kind::Volume as usize] = Some(keyword.place);
+                    if kind == ConditionKind::Pressure {
+                        step.renewed[ConditionKind::Volume as usize] = Some(keyword.place);
                     }
                 } else if is_new && step.renewed[kind as usize].is_none() {
                     let how = "OP=NEW has no effect behind others of its kind in the step, as in \
@@ -205,7 +209,7 @@ impl Reader<'_> {
                     self.take(keyword, keyword.place, how);
                 }
             }
-            None if kind != Kind::Boundary => {
+            None if kind != ConditionKind::Boundary => {
                 return Err(keyword.error(files, "it stands in no *STEP; put it in one"));
             }
             _ => {}
@@ -219,13 +223,14 @@ impl Reader<'_> {
             None => {
                 // A displacement given before the first step is reached over that step, unless a
                 // later line holds the node.
-                let is_support = condition.kind == Kind::Boundary && condition.value == 0.0;
-                if condition.kind == Kind::Boundary
+                let is_support =
+                    condition.kind == ConditionKind::Boundary && condition.value == 0.0;
+                if condition.kind == ConditionKind::Boundary
                     && (!is_support || !self.of_first_step.is_empty())
                 {
                     self.of_first_step.push(condition.clone());
                 }
-                if is_support || condition.kind != Kind::Boundary {
+                if is_support || condition.kind != ConditionKind::Boundary {
                     self.deck.program.initial.push(condition);
                 }
             }
@@ -233,7 +238,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn boundary(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, Kind::Boundary)?;
+        let amplitude = self.conditions(keyword, ConditionKind::Boundary)?;
         while let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
             let on = target(&mut row)?;
@@ -241,7 +246,7 @@ impl Reader<'_> {
             row.end()?;
             for range in ranges {
                 self.add(Condition {
-                    kind: Kind::Boundary,
+                    kind: ConditionKind::Boundary,
                     on: on.clone(),
                     range,
                     value,
@@ -255,7 +260,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn cload(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, Kind::Force)?;
+        let amplitude = self.conditions(keyword, ConditionKind::Force)?;
         while let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
             let on = target(&mut row)?;
@@ -269,7 +274,7 @@ impl Reader<'_> {
                 )));
             }
             self.add(Condition {
-                kind: Kind::Force,
+                kind: ConditionKind::Force,
                 on,
                 range: [freedom; 2],
                 value,
@@ -282,7 +287,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn dload(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, Kind::Pressure)?;
+        let amplitude = self.conditions(keyword, ConditionKind::Pressure)?;
         while let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
             let mut ahead = row;
@@ -290,12 +295,12 @@ impl Reader<'_> {
             let on = match ahead.word().is_empty() && !ahead.is_at_end() {
                 true => {
                     row = ahead;
-                    Target::All
+                    EntitySelection::All
                 }
                 false => target(&mut row)?,
             };
             match volume_load(row)? {
-                OnVolume::Face if on == Target::All => {
+                OnVolume::Face if on == EntitySelection::All => {
                     let message = "a pressure acts on faces of some elements: give their set or \
                                    number in front of it";
                     return Err(row.place.error(message));
@@ -317,7 +322,7 @@ impl Reader<'_> {
                         return Err(row.place.error(message));
                     }
                     self.add(Condition {
-                        kind: Kind::Volume,
+                        kind: ConditionKind::Volume,
                         on,
                         range: [index; 2],
                         value,
@@ -337,10 +342,10 @@ impl Reader<'_> {
     }
 
     pub(super) fn dsload(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, Kind::Pressure)?;
+        let amplitude = self.conditions(keyword, ConditionKind::Pressure)?;
         while let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
-            let on = Target::Set(row.text("the surface")?);
+            let on = EntitySelection::Set(row.text("the surface")?);
             let what = row.text("the kind of load")?;
             if !what.eq_ignore_ascii_case("P") {
                 let why = format!("{what}: of loads on surfaces only pressures, P, are there");
@@ -395,14 +400,14 @@ impl Reader<'_> {
 
     fn add_pressure(
         &mut self,
-        on: Target,
+        on: EntitySelection,
         face: usize,
         value: f64,
         amplitude: &Option<String>,
         line: Line,
     ) {
         self.add(Condition {
-            kind: Kind::Pressure,
+            kind: ConditionKind::Pressure,
             on,
             range: [face; 2],
             value,
@@ -418,7 +423,7 @@ fn is_no(value: &str) -> bool {
 }
 
 /// Reads ranges of degrees of freedom, and the prescribed value.
-fn freedoms(row: &mut Fields) -> Result<(Vec<[usize; 2]>, f64)> {
+fn freedoms(row: &mut LineFields) -> Result<(Vec<[usize; 2]>, f64)> {
     let mut ahead = *row;
     let word = ahead.word();
     if word.first().is_some_and(u8::is_ascii_alphabetic) {

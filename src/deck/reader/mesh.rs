@@ -2,12 +2,12 @@
 
 use super::{Reader, fields};
 use crate::deck::boundary::nodes_of_boundary;
-use crate::deck::data::{Elements, Member, Nodes, SurfacePart, Target};
+use crate::deck::data::{DeckElements, EntitySelection, Member, Nodes, SurfacePart};
 use crate::deck::element_type::ElementType;
-use crate::deck::fields::Fields;
+use crate::deck::fields::LineFields;
 use crate::deck::instances::Instances;
 use crate::deck::keyword::Keyword;
-use crate::deck::source::{Line, Source};
+use crate::deck::source::{DeckLines, Line};
 use crate::error::{Error, ErrorKind, Result};
 use crate::shape::MAX_NODES;
 
@@ -71,7 +71,7 @@ impl Reader<'_> {
             self.deck.boundary.add(label, nodes);
             if let Some(set) = keyword.get("ELSET") {
                 let set = self.deck.sets.elements.entry(set);
-                set.push((Member::Of(Target::Label(label)), line.place));
+                set.push((Member::Of(EntitySelection::Label(label)), line.place));
             }
         }
         let how = format!("TYPE={name}: without stiffness; sets of them are surfaces");
@@ -138,19 +138,21 @@ impl Reader<'_> {
 }
 
 /// Reads a number, or the name of a set.
-pub(super) fn target(fields: &mut Fields) -> Result<Target> {
+pub(super) fn target(fields: &mut LineFields) -> Result<EntitySelection> {
     let mut ahead = *fields;
     let word = ahead.written();
     // Names may begin with a digit; in quotes they may consist of digits alone.
     let is_name = word.iter().any(u8::is_ascii_alphabetic);
     if word.first().is_some_and(u8::is_ascii_digit) && !is_name {
-        return Ok(Target::Label(fields.label("the number")?));
+        return Ok(EntitySelection::Label(fields.label("the number")?));
     }
-    Ok(Target::Set(fields.text("a number or the name of a set")?))
+    Ok(EntitySelection::Set(
+        fields.text("a number or the name of a set")?,
+    ))
 }
 
 /// Reads the number of a face, as in `S3` or `P3`.
-pub(super) fn face(fields: &mut Fields, letter: u8) -> Result<usize> {
+pub(super) fn face(fields: &mut LineFields, letter: u8) -> Result<usize> {
     let word = fields.text("a face")?;
     let number = match word.as_bytes() {
         [first, rest @ ..] if first.eq_ignore_ascii_case(&letter) => {
@@ -168,7 +170,7 @@ pub(super) fn face(fields: &mut Fields, letter: u8) -> Result<usize> {
 }
 
 /// Reads first number, last number and step of `GENERATE`.
-fn range(fields: &mut Fields) -> Result<Member> {
+fn range(fields: &mut LineFields) -> Result<Member> {
     let first = fields.label("the first number")?;
     let last = fields.label("the last number")?;
     let step = match fields.is_at_end() {
@@ -186,7 +188,7 @@ fn range(fields: &mut Fields) -> Result<Member> {
 }
 
 /// Reads node numbers and coordinates.
-fn read_nodes(source: &mut Source, keyword: &Keyword, nodes: &mut Nodes) -> Result<()> {
+fn read_nodes(source: &mut DeckLines, keyword: &Keyword, nodes: &mut Nodes) -> Result<()> {
     while let Some(line) = source.next_data()? {
         let mut fields = fields(source, keyword, line);
         let label = fields.label("the node number")?;
@@ -208,10 +210,10 @@ fn read_nodes(source: &mut Source, keyword: &Keyword, nodes: &mut Nodes) -> Resu
 /// Reads element numbers and their nodes, which continue in the next line if a line ends with a
 /// comma.
 fn read_elements(
-    source: &mut Source,
+    source: &mut DeckLines,
     keyword: &Keyword,
     element_type: ElementType,
-    elements: &mut Elements,
+    elements: &mut DeckElements,
     instances: &Instances,
 ) -> Result<()> {
     let n = element_type.shape.n_nodes();

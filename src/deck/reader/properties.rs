@@ -3,7 +3,7 @@
 use super::mesh::target;
 use super::{Reader, fields};
 use crate::deck::bodies::unsupported;
-use crate::deck::data::{Equation, Hardening, MaterialData, Section, Transform};
+use crate::deck::data::{HardeningRows, LinearEquation, MaterialData, Section, Transform};
 use crate::deck::fields::Where;
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
@@ -115,7 +115,7 @@ impl Reader<'_> {
             self.refuse(keyword, keyword.place, why);
             return self.skip();
         }
-        let mut tables: Vec<(f64, Hardening)> = Vec::new();
+        let mut tables: Vec<(f64, HardeningRows)> = Vec::new();
         while let Some(line) = self.source.next_data()? {
             let mut row = fields(&self.source, keyword, line);
             let stress = row.number("the yield stress")?;
@@ -124,7 +124,7 @@ impl Reader<'_> {
             row.end()?;
             if tables.last().is_none_or(|last| last.0 != temperature) {
                 ascending(&row.place, tables.last().map(|last| last.0), temperature)?;
-                tables.push((temperature, Hardening::new()));
+                tables.push((temperature, HardeningRows::new()));
             }
             let Some((_, rows)) = tables.last_mut() else {
                 continue;
@@ -261,7 +261,7 @@ impl Reader<'_> {
                 );
                 return Err(crate::Error::input(message));
             }
-            self.deck.properties.equations.push(Equation {
+            self.deck.properties.equations.push(LinearEquation {
                 terms,
                 place: first.place,
             });
@@ -322,7 +322,7 @@ pub(super) fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> R
 const FAR: f64 = 1e3;
 
 /// Continues rows of plastic strain and yield stress along the slope between the last two.
-fn extend(rows: &mut Hardening) {
+fn extend(rows: &mut HardeningRows) {
     if let [.., [from, low], [to, high]] = rows[..]
         && high != low
     {

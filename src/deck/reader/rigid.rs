@@ -1,7 +1,7 @@
 //! Reading of rigid bodies and couplings.
 
 use super::{Reader, fields};
-use crate::deck::data::{Rigid, RigidNodes, Target};
+use crate::deck::data::{EntitySelection, Rigid, RigidNodes};
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
 
@@ -80,7 +80,10 @@ impl Reader<'_> {
 }
 
 /// A node given by its number, or a set given by its name.
-fn node_or_set(text: &str) -> Target {
+fn node_or_set(text: &str) -> EntitySelection {
     let number = text.parse().ok();
-    number.map_or_else(|| Target::Set(text.to_string()), Target::Label)
+    number.map_or_else(
+        || EntitySelection::Set(text.to_string()),
+        EntitySelection::Label,
+    )
 }

@@ -3,9 +3,9 @@
 use super::mesh::target;
 use super::properties::ascending;
 use super::{Reader, fields};
-use crate::deck::data::{Condition, Kind, VolumeLoad};
+use crate::deck::data::{Condition, ConditionKind, VolumeLoad};
 use crate::deck::expansion::Expansion;
-use crate::deck::fields::Fields;
+use crate::deck::fields::LineFields;
 use crate::deck::keyword::Keyword;
 use crate::error::Result;
 
@@ -62,7 +62,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn temperature(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, Kind::Temperature)?;
+        let amplitude = self.conditions(keyword, ConditionKind::Temperature)?;
         self.temperatures(keyword, amplitude)
     }
 
@@ -78,7 +78,7 @@ impl Reader<'_> {
             let value = row.number("the temperature")?;
             row.end()?;
             self.add(Condition {
-                kind: Kind::Temperature,
+                kind: ConditionKind::Temperature,
                 on,
                 range: [1; 2],
                 value,
@@ -102,7 +102,7 @@ pub(super) enum OnVolume {
 }
 
 /// Reads a load on the volume of elements; of a load on faces nothing is read.
-pub(super) fn volume_load(mut row: Fields) -> Result<OnVolume> {
+pub(super) fn volume_load(mut row: LineFields) -> Result<OnVolume> {
     let word = row.word();
     if word
         .first()
@@ -147,7 +147,7 @@ pub(super) fn volume_load(mut row: Fields) -> Result<OnVolume> {
     }
 }
 
-fn vector(row: &mut Fields, what: &str) -> Result<[f64; 3]> {
+fn vector(row: &mut LineFields, what: &str) -> Result<[f64; 3]> {
     let mut out = [0.0; 3];
     for x in &mut out {
         *x = row.number_or(what, 0.0)?;

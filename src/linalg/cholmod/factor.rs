@@ -5,14 +5,14 @@ use super::common::Common;
 use super::matrix::SymmetricView;
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::NotDefinite;
-use crate::linalg::sparse::{Columns, LowerFactor, Supernodes, Triangular, prefer_large};
+use crate::linalg::sparse::{FactorColumns, LowerFactor, Supernodes, Triangular, prefer_large};
 use std::ffi::c_void;
 use std::ptr::{NonNull, null_mut};
 use suitesparse_sys as sys;
 
-/// Linear system that [`Factor::solve`] solves.
+/// Linear system that [`CholmodFactor::solve`] solves.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum System {
+pub(super) enum FactorSystem {
     /// The whole system `K x = b`.
     Whole,
     /// The system `L x = b`, with b and x in the order of the factor.
@@ -20,7 +20,7 @@ pub(super) enum System {
 }
 
 /// Factor `P K P' = L L'` with the workspace of its solves.
-pub(super) struct Factor {
+pub(super) struct CholmodFactor {
     common: Common,
     raw: NonNull<sys::cholmod_factor>,
     solution: *mut sys::cholmod_dense,
@@ -30,7 +30,7 @@ pub(super) struct Factor {
 }
 
 // SAFETY: the factor and its workspace belong to this object alone; see `Common` for threads.
-unsafe impl Send for Factor {}
+unsafe impl Send for CholmodFactor {}
 
 /// Converts memory of CHOLMOD to a slice.
 ///
@@ -44,7 +44,7 @@ unsafe fn slice<'a, T>(pointer: *const c_void, length: usize) -> &'a [T] {
     unsafe { std::slice::from_raw_parts(pointer.cast(), length) }
 }
 
-impl Factor {
+impl CholmodFactor {
     /// Analyses a matrix symbolically, with the given ordering or with one that CHOLMOD finds.
     pub(super) fn analyze(
         mut common: Common,
@@ -70,7 +70,7 @@ impl Factor {
             )));
         };
         let (nonzeros, flops) = (common.get().lnz, common.get().fl);
-        let factor = Factor {
+        let factor = CholmodFactor {
             common,
             raw,
             solution: null_mut(),
@@ -163,7 +163,7 @@ impl Factor {
 
     /// Solves for one right-hand side. The solution stays in the factor's workspace, which the
     /// first call allocates and all later calls use.
-    pub(super) fn solve(&mut self, system: System, load: &[f64]) -> Result<&[f64]> {
+    pub(super) fn solve(&mut self, system: FactorSystem, load: &[f64]) -> Result<&[f64]> {
         let n = self.n();
         debug_assert_eq!(load.len(), n);
         let mut right = sys::cholmod_dense {
@@ -177,8 +177,8 @@ impl Factor {
             dtype: sys::CHOLMOD_DOUBLE as i32,
         };
         let kind = match system {
-            System::Whole => sys::CHOLMOD_A,
-            System::Lower => sys::CHOLMOD_L,
+            FactorSystem::Whole => sys::CHOLMOD_A,
+            FactorSystem::Lower => sys::CHOLMOD_L,
         };
         let _entered = blas::enter()?;
         let [y, e] = &mut self.workspace;
@@ -213,7 +213,7 @@ impl Factor {
     }
 }
 
-impl LowerFactor for Factor {
+impl LowerFactor for CholmodFactor {
     fn nonzeros(&self) -> f64 {
         self.nonzeros
     }
@@ -234,13 +234,13 @@ impl LowerFactor for Factor {
         unsafe { slice(raw.ColCount, raw.n) }
     }
 
-    fn columns(&self) -> Columns<'_> {
+    fn columns(&self) -> FactorColumns<'_> {
         let raw = self.raw();
         // SAFETY: after the numerical factorisation (the callers' order of calls, and empty slices
         // otherwise) the arrays have the lengths that CHOLMOD documents for the kind at hand.
         unsafe {
             if self.is_supernodal() {
-                Columns::Supernodal(Supernodes {
+                FactorColumns::Supernodal(Supernodes {
                     starts: slice(raw.super_, raw.nsuper + 1),
                     row_starts: slice(raw.pi, raw.nsuper + 1),
                     value_starts: slice(raw.px, raw.nsuper + 1),
@@ -248,7 +248,7 @@ impl LowerFactor for Factor {
                     values: slice(raw.x, raw.xsize),
                 })
             } else {
-                Columns::Simplicial {
+                FactorColumns::Simplicial {
                     starts: slice(raw.p, raw.n),
                     counts: slice(raw.nz, raw.n),
                     rows: slice(raw.i, raw.nzmax),
@@ -264,11 +264,11 @@ impl LowerFactor for Factor {
     }
 
     fn solve_lower<'a>(&'a mut self, _: &Triangular, load: &'a mut [f64]) -> Result<&'a [f64]> {
-        self.solve(System::Lower, load)
+        self.solve(FactorSystem::Lower, load)
     }
 }
 
-impl Drop for Factor {
+impl Drop for CholmodFactor {
     fn drop(&mut self) {
         let common: *mut sys::cholmod_common = self.common.as_mut();
         let mut raw = self.raw.as_ptr();

@@ -33,13 +33,13 @@ use super::sparse::{self, Groups, LowerFactor, Pattern, SparseCondensed};
 use super::{Condensed, Partition, Prediction, SymmetricCsc, check};
 use crate::error::Result;
 use common::Common;
-use factor::{Factor, System};
+use factor::{CholmodFactor, FactorSystem};
 use matrix::SymmetricView;
 use openmp::Serial;
-use ordering::Ordering;
+use ordering::CholmodOrdering;
 
 /// A matrix factored by CHOLMOD and condensed.
-type CholmodCondensed = SparseCondensed<Factor>;
+type CholmodCondensed = SparseCondensed<CholmodFactor>;
 
 /// Orders, factors and condenses `matrix + diag(shift)`.
 ///
@@ -196,7 +196,7 @@ fn unconstrained(matrix: &SymmetricCsc, load: Option<&[f64]>) -> Result<Unconstr
     let mut common = Common::start()?;
     common.choose_ordering();
     let pattern = Pattern::new(matrix);
-    let mut factor = Factor::analyze(common, &SymmetricView::new(&pattern), None)?;
+    let mut factor = CholmodFactor::analyze(common, &SymmetricView::new(&pattern), None)?;
     let analyse_seconds = lap();
     {
         let _entered = blas::enter()?;
@@ -204,7 +204,7 @@ fn unconstrained(matrix: &SymmetricCsc, load: Option<&[f64]>) -> Result<Unconstr
     }
     let factor_seconds = lap();
     if let Some(load) = load {
-        factor.solve(System::Whole, load)?;
+        factor.solve(FactorSystem::Whole, load)?;
     }
     let solve_seconds = lap();
     Ok(Unconstrained {
@@ -221,14 +221,14 @@ fn analyze(
     pattern: &Pattern,
     groups: &Groups,
     method: Method,
-) -> Result<(Factor, &'static str)> {
-    let Ordering {
+) -> Result<(CholmodFactor, &'static str)> {
+    let CholmodOrdering {
         name,
         mut permutation,
         ..
     } = ordering::choose(&mut common, pattern, groups, method)?;
     let matrix = SymmetricView::new(pattern);
-    let factor = Factor::analyze(common, &matrix, Some(&mut permutation))?;
+    let factor = CholmodFactor::analyze(common, &matrix, Some(&mut permutation))?;
     sparse::require_groups(groups, factor.permutation(), name)?;
     Ok((factor, name))
 }

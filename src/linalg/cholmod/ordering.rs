@@ -37,7 +37,7 @@ const BORDER: i64 = i64::MAX;
 static METIS: Mutex<()> = Mutex::new(());
 
 /// A fill-reducing ordering with its cost.
-pub(super) struct Ordering {
+pub(super) struct CholmodOrdering {
     /// Name of the ordering in reports.
     pub(super) name: &'static str,
     /// Freedom of each column of the factor.
@@ -64,7 +64,7 @@ pub(super) fn choose(
     matrix: &Pattern,
     groups: &Groups,
     method: Method,
-) -> Result<Ordering> {
+) -> Result<CholmodOrdering> {
     let compressed = Supervariables::find(matrix, groups);
     choose_for(common, &compressed, matrix.rows().len() as f64, method)
 }
@@ -75,11 +75,12 @@ pub(super) fn choose_for(
     compressed: &Supervariables,
     entries: f64,
     method: Method,
-) -> Result<Ordering> {
+) -> Result<CholmodOrdering> {
     let (pattern, groups) = (compressed.pattern(), compressed.groups());
     // Factor from the operations on the pattern of supervariables to those on the whole matrix.
     let scale = compressed.size().powi(3);
-    let is_expensive = |order: &Ordering| scale * order.flops > TRY_DISSECTION_ABOVE * entries;
+    let is_expensive =
+        |order: &CholmodOrdering| scale * order.flops > TRY_DISSECTION_ABOVE * entries;
     let mut order = match method {
         Method::Dissection => dissection(common, &pattern, groups)?,
         _ => minimum_degree(common, &pattern, groups)?,
@@ -101,7 +102,7 @@ fn complete(
     groups: &Groups,
     name: &'static str,
     permutation: &[i64],
-) -> Result<Ordering> {
+) -> Result<CholmodOrdering> {
     let n = pattern.n();
     let matrix = SymmetricView::new(pattern);
     // CAMD puts rows that it finds dense last, whatever their group, so the groups are sorted.
@@ -130,7 +131,7 @@ fn complete(
     common.check("column counts", n)?;
     let flops = common.get().fl;
     let permutation = groups.postorder(&permutation, &parent, &counts);
-    Ok(Ordering {
+    Ok(CholmodOrdering {
         name,
         permutation,
         flops,
@@ -138,7 +139,11 @@ fn complete(
 }
 
 /// Finds an approximate minimum degree ordering with the groups as constraint sets.
-fn minimum_degree(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result<Ordering> {
+fn minimum_degree(
+    common: &mut Common,
+    pattern: &Pattern,
+    groups: &Groups,
+) -> Result<CholmodOrdering> {
     let mut member = sets(groups, |_| 0);
     let permutation = constrained_degree(common, pattern, &mut member)?;
     complete(common, pattern, groups, "CAMD", &permutation)
@@ -151,7 +156,7 @@ fn minimum_degree(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Re
 /// Zone freedoms that touch the interior are all coupled with one another once the interior is
 /// eliminated, whatever the ordering: they take no part in the dissection and come last in the
 /// zone.
-fn dissection(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result<Ordering> {
+fn dissection(common: &mut Common, pattern: &Pattern, groups: &Groups) -> Result<CholmodOrdering> {
     let border = groups.border(pattern);
     let mut parts = vec![BORDER; pattern.n()];
     for group in 0..2 {

@@ -1,10 +1,12 @@
 //! Sparse Cholesky factor by faer: analyse, factorise, read columns.
 
-use super::ordering::Ordering;
+use super::ordering::FaerOrdering;
 use crate::error::{Error, Result};
 use crate::linalg::NotDefinite;
 use crate::linalg::SymmetricCsc;
-use crate::linalg::sparse::{Columns, LowerFactor, Pattern, Supernodes, Triangular, prefer_large};
+use crate::linalg::sparse::{
+    FactorColumns, LowerFactor, Pattern, Supernodes, Triangular, prefer_large,
+};
 use ::faer::Par;
 use ::faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use ::faer::linalg::cholesky::llt::factor::{LltError, LltParams};
@@ -17,7 +19,7 @@ use ::faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 const PARALLELISM: Par = Par::Seq;
 
 /// Factor `P K P' = L L'` with supernodal storage.
-pub(super) struct Factor {
+pub(super) struct FaerFactor {
     permutation: Vec<i64>,
     counts: Vec<i64>,
     nonzeros: f64,
@@ -34,9 +36,9 @@ pub(super) struct Factor {
 /// Symbolic factor of faer, needed until the values are computed.
 pub(super) struct Symbolic(supernodal::SymbolicSupernodalCholesky<usize>);
 
-impl Factor {
+impl FaerFactor {
     /// Analyses a matrix symbolically, with exactly the given ordering.
-    pub(super) fn analyze(pattern: &Pattern, order: Ordering) -> Result<(Self, Symbolic)> {
+    pub(super) fn analyze(pattern: &Pattern, order: FaerOrdering) -> Result<(Self, Symbolic)> {
         let n = pattern.n();
         let no_memory = || out_of_memory("symbolic analysis", n);
         let place = places(&order.permutation);
@@ -68,7 +70,7 @@ impl Factor {
             default(),
         );
         let below = symbolic.row_idx().len();
-        let factor = Factor {
+        let factor = FaerFactor {
             nonzeros: order.counts.iter().sum::<i64>() as f64,
             flops: order.flops,
             // The row lists of the supernodes, by column and by row.
@@ -152,7 +154,7 @@ impl Factor {
     }
 }
 
-impl LowerFactor for Factor {
+impl LowerFactor for FaerFactor {
     fn permutation(&self) -> &[i64] {
         &self.permutation
     }
@@ -179,8 +181,8 @@ impl LowerFactor for Factor {
             + 64.0 * self.permutation.len() as f64
     }
 
-    fn columns(&self) -> Columns<'_> {
-        Columns::Supernodal(self.supernodes())
+    fn columns(&self) -> FactorColumns<'_> {
+        FactorColumns::Supernodal(self.supernodes())
     }
 
     fn solve_lower<'a>(

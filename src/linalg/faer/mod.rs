@@ -18,8 +18,8 @@ pub(in crate::linalg) mod tests;
 use super::sparse::{self, Groups, Pattern, SparseCondensed};
 use super::{Condensed, Partition, Prediction, SymmetricCsc, check};
 use crate::error::Result;
-use factor::{Factor, Symbolic};
-use ordering::Method;
+use factor::{FaerFactor, Symbolic};
+use ordering::FillReduction;
 
 /// Orders, factors and condenses `matrix + diag(shift)`.
 ///
@@ -30,7 +30,7 @@ pub fn condense(
     partition: &Partition,
     shift: &[f64],
 ) -> Result<Box<dyn Condensed>> {
-    let condensed = with_method(matrix, partition, shift, Method::Automatic)?;
+    let condensed = with_method(matrix, partition, shift, FillReduction::Automatic)?;
     Ok(Box::new(condensed))
 }
 
@@ -38,8 +38,8 @@ fn with_method(
     matrix: &SymmetricCsc,
     partition: &Partition,
     shift: &[f64],
-    method: Method,
-) -> Result<SparseCondensed<Factor>> {
+    method: FillReduction,
+) -> Result<SparseCondensed<FaerFactor>> {
     check::arguments(matrix, partition, shift)?;
     let groups = Groups::new(partition);
     let (mut factor, symbolic, name) = analyze(&Pattern::new(matrix), &groups, method)?;
@@ -55,13 +55,13 @@ fn with_method(
 /// # Errors
 /// Errors of [`super::predict`].
 pub fn predict(matrix: &SymmetricCsc, partition: &Partition) -> Result<Prediction> {
-    predict_with_method(matrix, partition, Method::Automatic)
+    predict_with_method(matrix, partition, FillReduction::Automatic)
 }
 
 fn predict_with_method(
     matrix: &SymmetricCsc,
     partition: &Partition,
-    method: Method,
+    method: FillReduction,
 ) -> Result<Prediction> {
     check::arguments(matrix, partition, &[])?;
     let groups = Groups::new(partition);
@@ -73,11 +73,11 @@ fn predict_with_method(
 fn analyze(
     pattern: &Pattern,
     groups: &Groups,
-    method: Method,
-) -> Result<(Factor, Symbolic, &'static str)> {
+    method: FillReduction,
+) -> Result<(FaerFactor, Symbolic, &'static str)> {
     let order = ordering::choose(pattern, groups, method)?;
     let name = order.name;
     sparse::require_groups(groups, &order.permutation, name)?;
-    let (factor, symbolic) = Factor::analyze(pattern, order)?;
+    let (factor, symbolic) = FaerFactor::analyze(pattern, order)?;
     Ok((factor, symbolic, name))
 }

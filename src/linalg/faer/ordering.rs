@@ -29,7 +29,7 @@ const TRY_DISSECTION_ABOVE: f64 = 20_000.0;
 
 /// Method by which the ordering is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Method {
+pub(super) enum FillReduction {
     /// The candidate with the fewest floating point operations; the expensive candidate is only
     /// tried if it may pay.
     #[default]
@@ -43,7 +43,7 @@ pub(super) enum Method {
 }
 
 /// A fill-reducing ordering with its cost.
-pub(super) struct Ordering {
+pub(super) struct FaerOrdering {
     /// Name of the ordering in reports.
     pub(super) name: &'static str,
     /// Freedom of each column of the factor.
@@ -58,15 +58,19 @@ pub(super) struct Ordering {
 type Order = fn(&CscPattern) -> std::result::Result<Vec<i32>, OrderingError>;
 
 /// Finds the ordering of a matrix with groups.
-pub(super) fn choose(matrix: &Pattern, groups: &Groups, method: Method) -> Result<Ordering> {
+pub(super) fn choose(
+    matrix: &Pattern,
+    groups: &Groups,
+    method: FillReduction,
+) -> Result<FaerOrdering> {
     let compressed = Supervariables::find(matrix, groups);
     let entries = matrix.rows().len() as f64;
-    let expensive = |order: &Ordering| order.flops > TRY_DISSECTION_ABOVE * entries;
+    let expensive = |order: &FaerOrdering| order.flops > TRY_DISSECTION_ABOVE * entries;
     let mut order = match method {
-        Method::Dissection => dissection(&compressed)?,
+        FillReduction::Dissection => dissection(&compressed)?,
         _ => by_groups(&compressed, "AMD", feral_amd::amd_order)?,
     };
-    if method == Method::Automatic && expensive(&order) {
+    if method == FillReduction::Automatic && expensive(&order) {
         let other = dissection(&compressed)?;
         if other.flops < order.flops {
             order = other;
@@ -75,12 +79,16 @@ pub(super) fn choose(matrix: &Pattern, groups: &Groups, method: Method) -> Resul
     Ok(order)
 }
 
-fn dissection(compressed: &Supervariables) -> Result<Ordering> {
+fn dissection(compressed: &Supervariables) -> Result<FaerOrdering> {
     by_groups(compressed, "nested dissection", feral_metis::metis_order)
 }
 
 /// Orders each group by `order`, postorders the result, and counts its operations.
-fn by_groups(compressed: &Supervariables, name: &'static str, order: Order) -> Result<Ordering> {
+fn by_groups(
+    compressed: &Supervariables,
+    name: &'static str,
+    order: Order,
+) -> Result<FaerOrdering> {
     let (pattern, groups) = (compressed.pattern(), compressed.groups());
     let sizes = compressed.sizes();
     let border = groups.border(&pattern);
@@ -104,7 +112,7 @@ fn by_groups(compressed: &Supervariables, name: &'static str, order: Order) -> R
         let (count, size) = (of_vertex[vertex as usize], sizes[vertex as usize]);
         (0..size).map(move |k| count - k)
     });
-    Ok(Ordering {
+    Ok(FaerOrdering {
         name,
         counts: counts.collect(),
         permutation: compressed.expand(&ordered),

@@ -9,7 +9,11 @@ use crate::linalg::sparse::tests::{
 use crate::linalg::tests::laplacian;
 use crate::linalg::tests::matrices::{Grid, Support};
 
-const METHODS: [Method; 3] = [Method::Automatic, Method::MinimumDegree, Method::Dissection];
+const METHODS: [FillReduction; 3] = [
+    FillReduction::Automatic,
+    FillReduction::MinimumDegree,
+    FillReduction::Dissection,
+];
 
 /// The faer backend with each ordering.
 pub(in crate::linalg) fn ways() -> Vec<Way> {
@@ -30,8 +34,8 @@ pub(in crate::linalg) fn ways() -> Vec<Way> {
             is_chosen: true,
             condense,
         },
-        way!("faer, AMD", Method::MinimumDegree),
-        way!("faer, dissection", Method::Dissection),
+        way!("faer, AMD", FillReduction::MinimumDegree),
+        way!("faer, dissection", FillReduction::Dissection),
     ]
 }
 
@@ -55,7 +59,7 @@ fn the_cheaper_order_is_chosen() {
 #[test]
 fn subtrees_are_solved_like_the_whole() {
     assert_subtrees_are_solved_like_the_whole(|matrix, partition| {
-        with_method(matrix, partition, &[], Method::Automatic).unwrap()
+        with_method(matrix, partition, &[], FillReduction::Automatic).unwrap()
     });
 }
 

@@ -27,7 +27,7 @@ const GIVEN: i32 = 1;
 const TRIPLET: f64 = 16.0;
 
 /// Variables, ordering and size of a factor that is not computed yet.
-pub(super) struct Analysis {
+pub(super) struct SymbolicFactor {
     /// Name of the ordering for reports.
     pub(super) order_name: &'static str,
     variables: Variables,
@@ -137,7 +137,7 @@ impl Variables {
     }
 }
 
-impl Analysis {
+impl SymbolicFactor {
     /// Orders the interior, which consists of the freedoms without a number in `trailing`. The
     /// trailing freedoms that it has `touched` come last.
     pub(super) fn new(
@@ -181,7 +181,7 @@ impl Analysis {
                 by_rank[0].order
             )));
         }
-        Ok(Analysis {
+        Ok(SymbolicFactor {
             order_name,
             variables,
             factor,
@@ -246,7 +246,8 @@ impl Analysis {
     }
 }
 
-/// Checks memory as [`Analysis::require_memory`] does, with the figures that the ranks reported.
+/// Checks memory as [`SymbolicFactor::require_memory`] does, with the figures that the ranks
+/// reported.
 fn require_memory(needed: &[f64], by_rank: &[Analysed]) -> Result<()> {
     let figures = |needed: f64, left: f64| {
         format!(
@@ -292,7 +293,7 @@ impl Exterior {
     ///
     /// # Errors
     /// Errors of MUMPS, in words; a rank without enough memory; an interior that is not held.
-    pub(super) fn new(matrix: &Shared, mut analysis: Analysis) -> Result<(Self, Schur)> {
+    pub(super) fn new(matrix: &Shared, mut analysis: SymbolicFactor) -> Result<(Self, Schur)> {
         let m = analysis.host.kept.len();
         let schur = &mut analysis.host.schur;
         schur.try_reserve_exact(m * m).map_err(|_| {
@@ -303,7 +304,7 @@ impl Exterior {
         })?;
         schur.resize(m * m, 0.0);
         let freedoms = analysis.kept();
-        let Analysis {
+        let SymbolicFactor {
             variables,
             factor,
             mut host,

@@ -51,7 +51,7 @@ use super::{
 };
 use crate::error::{Error, Result};
 use crate::memory;
-use exterior::{Analysis, Exterior};
+use exterior::{Exterior, SymbolicFactor};
 
 /// Backend that condenses the trailing freedoms on the first rank.
 const INNER: Backend = Backend::Cholmod;
@@ -158,7 +158,7 @@ struct RemainingMatrix {
     /// Entries between the remaining freedoms.
     own: Vec<Entry>,
     /// Analysis of the interior; `None` without an interior.
-    analysis: Option<Analysis>,
+    analysis: Option<SymbolicFactor>,
     /// Bytes of the columns that each rank holds.
     columns: Vec<f64>,
 }
@@ -199,7 +199,7 @@ impl RemainingMatrix {
         }
         let analysis = match freedoms.len() == n {
             true => None,
-            false => Some(Analysis::new(matrix, &place, &touched, coupling)?),
+            false => Some(SymbolicFactor::new(matrix, &place, &touched, coupling)?),
         };
         Ok(RemainingMatrix {
             freedoms,
@@ -255,7 +255,7 @@ impl RemainingMatrix {
     /// ordering is found, while the interior is factored, and, on the first rank, while the
     /// remaining matrix is factored.
     fn cost(&self) -> Result<Prediction> {
-        let schur = self.analysis.as_ref().map(Analysis::unknown);
+        let schur = self.analysis.as_ref().map(SymbolicFactor::unknown);
         let m = schur.as_ref().map_or(0, |schur| schur.freedoms.len()) as f64;
         // The pattern, and its copies in the analysis.
         memory::require("matrix of what the ranks leave to the first", 24.0 * m * m)?;

@@ -4,7 +4,7 @@ use super::task::{Analysed, Factored, MadeOnRank, Near, Product, Task};
 use crate::error::Result;
 use crate::linalg::SymmetricCsc;
 use crate::linalg::cholmod;
-use crate::linalg::residual::Rows;
+use crate::linalg::residual::RowSums;
 use crate::memory;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -297,7 +297,7 @@ impl KeptOnRank {
 
 impl Columns {
     fn product(&self, u: &[f64]) -> Product {
-        let rows = Rows::new(&self.matrix, &vec![0.0; u.len()], u);
+        let rows = RowSums::new(&self.matrix, &vec![0.0; u.len()], u);
         Product {
             values: rows.residual.into_iter().map(|r| -r).collect(),
             terms: rows.terms,

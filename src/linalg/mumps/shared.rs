@@ -5,7 +5,7 @@ use super::task::{MadeOnRank, Near, Product, Task};
 use super::{Entry, Traffic, World};
 use crate::error::{Error, Result};
 use crate::linalg::SymmetricCsc;
-use crate::linalg::residual::Rows;
+use crate::linalg::residual::RowSums;
 use crate::results::Ranks;
 use serde::de::DeserializeOwned;
 use std::sync::Arc;
@@ -211,10 +211,10 @@ impl Shared {
     }
 
     /// Row sums from one pass over the matrix, for a solution `u` with the load `f`.
-    pub(in crate::linalg) fn rows(&self, f: &[f64], u: &[f64]) -> Result<Rows> {
+    pub(in crate::linalg) fn rows(&self, f: &[f64], u: &[f64]) -> Result<RowSums> {
         let task = |rank| Task::Product(self.index(), self.own(rank, |freedom| u[freedom]));
         let products: Vec<Option<Product>> = self.ask(task, &mut Host::default())?;
-        let mut rows = Rows {
+        let mut rows = RowSums {
             residual: f.to_vec(),
             terms: vec![0.0; u.len()],
             stiffness: vec![0.0; u.len()],

@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 /// A column of `L`: its rows, ascending from the diagonal, and their values.
-pub(crate) struct Column<'a> {
+pub(crate) struct FactorColumn<'a> {
     pub(crate) rows: &'a [i64],
     pub(crate) values: &'a [f64],
 }
 
 /// Columns of `L` in one of two storage schemes.
-pub(crate) enum Columns<'a> {
+pub(crate) enum FactorColumns<'a> {
     /// Dense trapezoids of neighbouring columns.
     Supernodal(Supernodes<'a>),
     /// Compressed sparse columns.
@@ -65,46 +65,46 @@ impl<'a> Supernodes<'a> {
     }
 }
 
-impl<'a> Columns<'a> {
+impl<'a> FactorColumns<'a> {
     /// Diagonal entries of `L`.
     pub(crate) fn pivots(&self) -> Vec<f64> {
         match self {
-            Columns::Supernodal(supernodes) => (0..supernodes.len())
+            FactorColumns::Supernodal(supernodes) => (0..supernodes.len())
                 .flat_map(|s| {
                     let (values, height) = (supernodes.values(s), supernodes.rows(s).len());
                     (0..supernodes.columns(s).len()).map(move |k| values[k * height + k])
                 })
                 .collect(),
-            Columns::Simplicial { starts, values, .. } => {
+            FactorColumns::Simplicial { starts, values, .. } => {
                 starts.iter().map(|&start| values[start as usize]).collect()
             }
         }
     }
 
     /// Finds column `j` within its supernode.
-    pub(crate) fn get(&self, j: usize) -> Column<'a> {
+    pub(crate) fn get(&self, j: usize) -> FactorColumn<'a> {
         match self {
-            Columns::Supernodal(supernodes) => {
+            FactorColumns::Supernodal(supernodes) => {
                 let s = supernodes
                     .starts
                     .partition_point(|&start| start as usize <= j)
                     - 1;
                 let within = j - supernodes.columns(s).start;
                 let rows = supernodes.rows(s);
-                Column {
+                FactorColumn {
                     rows: &rows[within..],
                     values: &supernodes.values(s)[within * rows.len() + within..]
                         [..rows.len() - within],
                 }
             }
-            Columns::Simplicial {
+            FactorColumns::Simplicial {
                 starts,
                 counts,
                 rows,
                 values,
             } => {
                 let range = starts[j] as usize..(starts[j] + counts[j]) as usize;
-                Column {
+                FactorColumn {
                     rows: &rows[range.clone()],
                     values: &values[range],
                 }

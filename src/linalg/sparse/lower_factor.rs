@@ -1,6 +1,6 @@
 //! What a backend's factor offers to the condensation.
 
-use super::{Columns, Triangular};
+use super::{FactorColumns, Triangular};
 use crate::error::Result;
 
 /// Factor `L` of a backend after the analysis; it has values once it is computed.
@@ -22,7 +22,7 @@ pub(crate) trait LowerFactor: Send {
     fn bytes(&self, entries: usize) -> f64;
 
     /// Columns of the numerical factor, to be read one by one.
-    fn columns(&self) -> Columns<'_>;
+    fn columns(&self) -> FactorColumns<'_>;
 
     /// Computes `L^-1 load` in the order of the factor; `load` serves as workspace.
     ///

@@ -27,7 +27,7 @@ mod trailing;
 mod tree;
 mod triangular;
 
-pub(crate) use columns::{Columns, Supernodes};
+pub(crate) use columns::{FactorColumns, Supernodes};
 pub(crate) use groups::Groups;
 pub(crate) use lower_factor::LowerFactor;
 pub(crate) use pages::prefer_large;
@@ -52,13 +52,13 @@ pub(crate) struct SparseCondensed<F> {
     zone: Vec<usize>,
     shift: Vec<f64>,
     pub(crate) trailing: TrailingFactor,
-    solver: Mutex<Solver<F>>,
+    solver: Mutex<FactorSolver<F>>,
     cost: Prediction,
     weakest: Pivot,
 }
 
 /// Factor with the vectors of its solves.
-pub(crate) struct Solver<F> {
+pub(crate) struct FactorSolver<F> {
     pub(crate) factor: F,
     pub(crate) triangular: Triangular,
     /// Load in the order of the factor.
@@ -93,7 +93,7 @@ impl<F: LowerFactor> SparseCondensed<F> {
             zone,
             partition: partition.clone(),
             shift: shift.to_vec(),
-            solver: Mutex::new(Solver {
+            solver: Mutex::new(FactorSolver {
                 triangular: Triangular::new(&factor.columns()),
                 factor,
                 load: vec![0.0; partition.n],
@@ -110,7 +110,7 @@ impl<F: LowerFactor> SparseCondensed<F> {
         self.partition.n - self.partition.zone.len() - self.partition.contact.len()
     }
 
-    pub(crate) fn solver(&self) -> MutexGuard<'_, Solver<F>> {
+    pub(crate) fn solver(&self) -> MutexGuard<'_, FactorSolver<F>> {
         self.solver.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -187,7 +187,7 @@ impl<F: LowerFactor> Condensed for SparseCondensed<F> {
         let n_contact = self.partition.contact.len();
         check::length("contact displacement", contact.len(), n_contact)?;
         let mut solver = self.solver();
-        let Solver {
+        let FactorSolver {
             factor,
             triangular,
             load,

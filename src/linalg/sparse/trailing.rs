@@ -18,7 +18,7 @@
 mod changed;
 mod substitution;
 
-use super::{Columns, Groups, LowerFactor, panel};
+use super::{FactorColumns, Groups, LowerFactor, panel};
 use crate::error::{Error, Result};
 use crate::linalg::{ContactBlock, ContactStiffness, Partition, blocked};
 pub(crate) use changed::Changed;
@@ -56,7 +56,7 @@ impl Panel {
 
 /// Workspace of one solve.
 #[derive(Debug, Default)]
-struct Work {
+struct SolveWorkspace {
     /// Values of all trailing freedoms in the order of the factor.
     vector: Vec<f64>,
     /// Values in the rows of one panel.
@@ -84,7 +84,7 @@ pub(crate) struct TrailingFactor {
     subtrees: Vec<Subtree>,
     rows: Vec<u32>,
     values: Vec<f64>,
-    work: Mutex<Work>,
+    work: Mutex<SolveWorkspace>,
 }
 
 impl TrailingFactor {
@@ -171,7 +171,7 @@ impl TrailingFactor {
             vector: vec![0.0; t.columns.len() + t.outer.len()],
             rows: vec![0.0; tallest(&self.panels[t.panels.clone()])],
         });
-        let work = Work {
+        let work = SolveWorkspace {
             vector: vec![0.0; self.kept.len()],
             rows: vec![0.0; tallest(&self.panels)],
             subtrees: subtrees.collect(),
@@ -183,7 +183,7 @@ impl TrailingFactor {
     /// ones; `origin` is the factor's first trailing column.
     fn copy_panels(
         &mut self,
-        columns: &Columns,
+        columns: &FactorColumns,
         number: &[u32],
         origin: usize,
         range: Range<usize>,
@@ -362,7 +362,7 @@ impl TrailingFactor {
 /// Marks the trailing columns (numbered from the first of the zone) that are needed: the wanted
 /// ones, the rows of their structure, and all contact columns.
 fn needed(
-    columns: &Columns,
+    columns: &FactorColumns,
     permutation: &[i64],
     zone: Range<usize>,
     n: usize,

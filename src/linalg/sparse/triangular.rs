@@ -3,7 +3,7 @@
 //!
 //! The time of a solve is the time in which memory delivers `L` once.
 
-use super::Columns;
+use super::FactorColumns;
 #[cfg(feature = "faer")]
 use super::columns::Supernodes;
 use super::tree::Forest;
@@ -25,8 +25,8 @@ pub(crate) struct Triangular {
 
 impl Triangular {
     /// Finds the subtrees of a numerical factor.
-    pub(crate) fn new(columns: &Columns) -> Self {
-        let Columns::Supernodal(supernodes) = columns else {
+    pub(crate) fn new(columns: &FactorColumns) -> Self {
+        let FactorColumns::Supernodal(supernodes) = columns else {
             return Triangular {
                 subtrees: Vec::new(),
                 columns: Vec::new(),
@@ -133,13 +133,13 @@ impl Triangular {
     /// `known`. All rows of a known column are known. `above` is workspace of the same length.
     pub(crate) fn backward(
         &self,
-        columns: &Columns,
+        columns: &FactorColumns,
         known: &[bool],
         x: &mut [f64],
         above: &mut [f64],
     ) {
         let supernodes = match columns {
-            Columns::Supernodal(supernodes) => supernodes,
+            FactorColumns::Supernodal(supernodes) => supernodes,
             simplicial => {
                 for j in (0..x.len()).rev().filter(|&j| !known[j]) {
                     let column = simplicial.get(j);

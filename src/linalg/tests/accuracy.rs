@@ -176,7 +176,7 @@ fn the_componentwise_error_sees_a_small_row() {
 /// measured by its own stiffness.
 #[test]
 fn the_pass_in_parts_gives_every_row_its_own() {
-    use crate::linalg::residual::Rows;
+    use crate::linalg::residual::RowSums;
     let mut numbers = Numbers::new(3);
     for n in [1, 2, 3, 7, 400] {
         let mut k = sprs::TriMatI::<f64, i64>::new((n, n));
@@ -204,7 +204,7 @@ fn the_pass_in_parts_gives_every_row_its_own() {
                 // No load acts in a third of the rows: their displacements are round-off.
                 (0..n).step_by(3).for_each(|i| f[i] = 0.0);
             }
-            let rows = Rows::new(&k, &f, &u);
+            let rows = RowSums::new(&k, &f, &u);
             let moved = u.iter().fold(0.0f64, |m, v| m.max(v.abs()));
             let tiny = 1000.0 * n as f64 * f64::EPSILON;
             let mut worst = 0.0f64;
@@ -235,7 +235,7 @@ fn the_pass_in_parts_gives_every_row_its_own() {
                 "{n} {still}: {found} {worst}"
             );
             u[n / 2] = f64::NAN;
-            let lost = Rows::new(&k, &f, &u);
+            let lost = RowSums::new(&k, &f, &u);
             assert!(lost.componentwise_error(&f, &u).is_nan());
         }
     }

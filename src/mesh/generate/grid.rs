@@ -19,7 +19,7 @@ pub(super) struct BodyBuilder<'m> {
 }
 
 /// A finished patch: nodes by half steps, elements by cells.
-pub(super) struct Grid {
+pub(super) struct PatchGrid {
     cells: [usize; 2],
     stride: usize,
     nodes: Vec<u32>,
@@ -72,7 +72,7 @@ impl<'m> BodyBuilder<'m> {
         closed: bool,
         point: impl Fn(usize, usize) -> [f64; 2],
         shared: impl Fn(usize, usize) -> Option<u32>,
-    ) -> Grid {
+    ) -> PatchGrid {
         let stride = if self.shape.is_quadratic() { 1 } else { 2 };
         let [columns, rows] = cells.map(|n| 2 * n / stride + 1);
         let mut nodes = vec![NONE; columns * rows];
@@ -92,7 +92,7 @@ impl<'m> BodyBuilder<'m> {
                 };
             }
         }
-        let grid = Grid {
+        let grid = PatchGrid {
             cells,
             stride,
             nodes,
@@ -108,7 +108,7 @@ impl<'m> BodyBuilder<'m> {
     }
 
     /// Adds the elements of one cell.
-    fn cell(&mut self, grid: &Grid, i: usize, j: usize) {
+    fn cell(&mut self, grid: &PatchGrid, i: usize, j: usize) {
         // Corners, mid-side nodes and middle of the cell, counter-clockwise from (0, 0).
         let at = |a: usize, b: usize| grid.node(2 * i + a, 2 * j + b);
         let [a, b, c, d] = [at(0, 0), at(2, 0), at(2, 2), at(0, 2)];
@@ -166,7 +166,7 @@ impl<'m> BodyBuilder<'m> {
     }
 }
 
-impl Grid {
+impl PatchGrid {
     /// The node at half steps `(i, j)`; with linear elements both must be even.
     pub(super) fn node(&self, i: usize, j: usize) -> u32 {
         let columns = 2 * self.cells[0] / self.stride + 1;

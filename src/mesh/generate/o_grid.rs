@@ -15,7 +15,7 @@
 
 use super::angle::{direction, directions, turned};
 use super::grading;
-use super::grid::{BodyBuilder, Grid, Side};
+use super::grid::{BodyBuilder, PatchGrid, Side};
 use super::polar::Sector;
 use crate::Result;
 use crate::mesh::Facet;
@@ -28,7 +28,7 @@ const BULGE: f64 = 0.5;
 const SPREAD: f64 = std::f64::consts::FRAC_PI_2 / (2.0 * CORE);
 
 /// A disc or a sector of 90 or 180 degrees, with its named parts.
-pub(super) struct Disc {
+pub(super) struct OGrid {
     /// Facets on the circle, beginning at the start angle.
     pub outer: Vec<Facet>,
     /// Facets on the radius at the start angle; empty for a full disc.
@@ -59,7 +59,7 @@ pub(super) fn disc_grid(
     sector: &Sector,
     quarters: usize,
     radius: f64,
-) -> Result<Disc> {
+) -> Result<OGrid> {
     let per_quarter = sector.n_angle / quarters;
     let side = per_quarter / 2;
     let core_shape = Core::new(per_quarter, radius);
@@ -117,7 +117,7 @@ pub(super) fn disc_grid(
     );
 
     let (start, end) = radii(&core, &ring, quarters, side);
-    Ok(Disc {
+    Ok(OGrid {
         outer: ring.side(Side::Right),
         start,
         end,
@@ -127,7 +127,12 @@ pub(super) fn disc_grid(
 }
 
 /// Facets on the straight sides of a disc sector.
-fn radii(core: &Grid, ring: &Grid, quarters: usize, side: usize) -> (Vec<Facet>, Vec<Facet>) {
+fn radii(
+    core: &PatchGrid,
+    ring: &PatchGrid,
+    quarters: usize,
+    side: usize,
+) -> (Vec<Facet>, Vec<Facet>) {
     let (mut start, mut end) = match quarters {
         1 => (core.side(Side::Bottom), core.side(Side::Left)),
         2 => (

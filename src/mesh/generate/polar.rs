@@ -1,7 +1,7 @@
 //! Ring sectors, as a grid in radius (first index) and angle (second index).
 
 use super::angle::directions;
-use super::grid::{BodyBuilder, Grid};
+use super::grid::{BodyBuilder, PatchGrid};
 
 /// A sector of a ring.
 pub(super) struct Sector {
@@ -29,7 +29,7 @@ pub(super) fn is_full_circle(span: f64) -> bool {
 
 /// Adds the grid of a ring sector with the given radii by half steps. Mid-side nodes of every
 /// circular grid line lie on the circle; otherwise thin layers of coarse arcs would overlap.
-pub(super) fn ring_grid(builder: &mut BodyBuilder, sector: &Sector, radii: &[f64]) -> Grid {
+pub(super) fn ring_grid(builder: &mut BodyBuilder, sector: &Sector, radii: &[f64]) -> PatchGrid {
     let span = if sector.is_closed() {
         360.0
     } else {

@@ -2,7 +2,7 @@
 
 use super::content::{Content, RawElement};
 use super::cursor::Cursor;
-use super::kind::Kind;
+use super::kind::ElementUse;
 use crate::mesh::{Facet, Mesh, Shape};
 use crate::shape::MAX_NODES;
 use crate::{Error, Result};
@@ -115,7 +115,7 @@ fn add_elements(content: &Content, kept: &[u32], mesh: &mut Mesh) {
     }
     let mut last = None;
     for (element, of_file) in of_bodies() {
-        let (Kind::Element(shape), Some(group)) = (element.kind, element.group) else {
+        let (ElementUse::Element(shape), Some(group)) = (element.kind, element.group) else {
             continue;
         };
         let mut nodes = [0u32; MAX_NODES];

@@ -1,21 +1,21 @@
 //! The content of a file, common to both versions of the format, before a mesh is made of it.
 
 use super::cursor::Cursor;
-use super::kind::Kind;
+use super::kind::ElementUse;
 use crate::labels::LabelIndex;
 use crate::shape::MAX_NODES;
 use crate::{Error, ErrorKind, Result};
 use std::collections::BTreeMap;
 
 /// A physical group, given by dimension and tag.
-pub(super) type Group = (u64, u64);
+pub(super) type PhysicalGroup = (u64, u64);
 
 /// Nodes, elements and physical groups of a file. Elements refer to nodes by index. Byte offsets
 /// lead messages back to the line in the file.
 #[derive(Default)]
 pub(super) struct Content {
     /// Names of physical groups.
-    pub names: BTreeMap<Group, String>,
+    pub names: BTreeMap<PhysicalGroup, String>,
     /// Node numbers as given in the file.
     pub node_labels: Vec<u64>,
     /// Coordinates, three per node.
@@ -33,7 +33,7 @@ pub(super) struct Content {
 /// An element of a body or of the boundary. Nodes are stored in [`Content::connectivity`] in the
 /// order of the elements. An element in several groups is stored once for each.
 pub(super) struct RawElement {
-    pub kind: Kind,
+    pub kind: ElementUse,
     pub label: u64,
     /// Tag of the physical group; `None` if the element is in no group.
     pub group: Option<u64>,
@@ -65,7 +65,7 @@ impl Content {
     }
 
     /// The name of a group, or its number if it has no name.
-    pub(super) fn group_name(&self, group: Group) -> String {
+    pub(super) fn group_name(&self, group: PhysicalGroup) -> String {
         match self.names.get(&group) {
             Some(name) => name.clone(),
             None => group.1.to_string(),
@@ -86,8 +86,8 @@ impl Content {
     }
 
     /// The kind of an element type, or an error that names the unsupported type.
-    pub(super) fn kind(cursor: &Cursor, at: usize, element_type: u64) -> Result<Kind> {
-        Kind::from_type(element_type).map_err(|name| {
+    pub(super) fn kind(cursor: &Cursor, at: usize, element_type: u64) -> Result<ElementUse> {
+        ElementUse::from_type(element_type).map_err(|name| {
             let place = cursor.error_at(at, format!("unsupported {name}"));
             Error::new(
                 ErrorKind::Unsupported,
@@ -106,7 +106,7 @@ impl Content {
     pub(super) fn read_element(
         &mut self,
         cursor: &mut Cursor,
-        kind: Kind,
+        kind: ElementUse,
         label: u64,
         groups: &[u64],
         at: usize,
@@ -125,12 +125,12 @@ impl Content {
         }
         cursor.end_line()?;
         match kind {
-            Kind::Point => self.points.extend(groups.iter().map(|&group| RawPoint {
+            ElementUse::Point => self.points.extend(groups.iter().map(|&group| RawPoint {
                 node: nodes[0],
                 group,
                 at,
             })),
-            Kind::Line(_) if groups.is_empty() => {}
+            ElementUse::Line(_) if groups.is_empty() => {}
             _ => {
                 let several = groups.iter().copied().map(Some);
                 let none = groups.is_empty().then_some(None);

@@ -8,7 +8,7 @@ const POINT: u64 = 15;
 
 /// Use of an element of the file in brinell.
 #[derive(Debug, Clone, Copy)]
-pub(super) enum Kind {
+pub(super) enum ElementUse {
     /// A point, which becomes a node of a node set.
     Point,
     /// A line, which is an edge of a plane surface. If it has three nodes, the last is the mid-side
@@ -18,21 +18,21 @@ pub(super) enum Kind {
     Element(Shape),
 }
 
-impl Kind {
+impl ElementUse {
     /// The kind of a type number; an error with the name of the type if brinell has no such
     /// element.
-    pub(super) fn from_type(number: u64) -> Result<Kind, String> {
+    pub(super) fn from_type(number: u64) -> Result<ElementUse, String> {
         if let Some(shape) = Shape::of_gmsh(number) {
-            return Ok(Kind::Element(shape));
+            return Ok(ElementUse::Element(shape));
         }
         if let Some(facet) = FacetReference::ALL
             .into_iter()
             .find(|f| f.gmsh == number && f.dimension() == 1)
         {
-            return Ok(Kind::Line(facet));
+            return Ok(ElementUse::Line(facet));
         }
         let name = match number {
-            POINT => return Ok(Kind::Point),
+            POINT => return Ok(ElementUse::Point),
             10 => {
                 return Err(
                     "9-node quadrilateral (type 10): set Mesh.SecondOrderIncomplete = 1 in Gmsh \
@@ -74,36 +74,36 @@ impl Kind {
     /// Number of nodes of the element.
     pub(super) fn n_nodes(self) -> usize {
         match self {
-            Kind::Point => 1,
-            Kind::Line(facet) => facet.nodes.len(),
-            Kind::Element(shape) => shape.n_nodes(),
+            ElementUse::Point => 1,
+            ElementUse::Line(facet) => facet.nodes.len(),
+            ElementUse::Element(shape) => shape.n_nodes(),
         }
     }
 
     /// Dimension of the physical groups that can hold such elements.
     pub(super) fn dimension(self) -> u64 {
         match self {
-            Kind::Point => 0,
-            Kind::Line(_) => 1,
-            Kind::Element(shape) => shape.reference().dimension as u64,
+            ElementUse::Point => 0,
+            ElementUse::Line(_) => 1,
+            ElementUse::Element(shape) => shape.reference().dimension as u64,
         }
     }
 
     /// Number of corners of the element.
     pub(super) fn n_corners(self) -> usize {
         match self {
-            Kind::Point => 1,
-            Kind::Line(facet) => facet.n_corners,
-            Kind::Element(shape) => shape.n_corners(),
+            ElementUse::Point => 1,
+            ElementUse::Line(facet) => facet.n_corners,
+            ElementUse::Element(shape) => shape.n_corners(),
         }
     }
 
     /// Number of the element type in Gmsh.
     pub(super) fn type_number(self) -> u64 {
         match self {
-            Kind::Point => POINT,
-            Kind::Line(facet) => facet.gmsh,
-            Kind::Element(shape) => shape.reference().gmsh,
+            ElementUse::Point => POINT,
+            ElementUse::Line(facet) => facet.gmsh,
+            ElementUse::Element(shape) => shape.reference().gmsh,
         }
     }
 }

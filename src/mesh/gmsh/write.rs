@@ -1,6 +1,6 @@
 //! Writing in version 2.2: one line per node and element, which all tools can read.
 
-use super::kind::Kind;
+use super::kind::ElementUse;
 use crate::mesh::Mesh;
 use std::collections::BTreeSet;
 use std::io::{Error, ErrorKind, Result, Write};
@@ -67,7 +67,7 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     for element in 0..n_elements {
         let label = mesh.element_label(element);
         largest = largest.max(label);
-        let kind = Kind::Element(mesh.shapes[element]);
+        let kind = ElementUse::Element(mesh.shapes[element]);
         let group = mesh.element_body[element] + 1;
         write!(out, "{label} {} 2 {group} {group}", kind.type_number())?;
         let own = mesh.nodes(element);
@@ -93,7 +93,7 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     for (group, surface) in (1..).zip(mesh.surfaces.values()) {
         for &facet in &surface.facets {
             let number = next();
-            let kind = Kind::Line(mesh.facet_reference(facet));
+            let kind = ElementUse::Line(mesh.facet_reference(facet));
             write!(out, "{number} {} 2 {group} {group}", kind.type_number())?;
             for node in mesh.facet_nodes(facet) {
                 write!(out, " {}", mesh.node_label(node))?;
@@ -104,7 +104,7 @@ fn write_elements(mesh: &Mesh, out: &mut dyn Write) -> Result<()> {
     for (group, nodes) in (1..).zip(mesh.node_sets.values()) {
         for &node in nodes {
             let number = next();
-            let kind = Kind::Point.type_number();
+            let kind = ElementUse::Point.type_number();
             writeln!(
                 out,
                 "{number} {kind} 2 {group} {group} {}",

@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Surface};
-use crate::model::names::Entry;
+use crate::model::names::SceneEntry;
 use crate::scene::{Contact, SlaveSide};
 use std::collections::BTreeSet;
 
@@ -21,7 +21,7 @@ pub(super) struct Only {
 /// one that the scene makes the slave.
 pub(super) fn nodes(
     contact: &Contact,
-    (entry, mesh): (&Entry, &Mesh),
+    (entry, mesh): (&SceneEntry, &Mesh),
     surfaces: [&Surface; 2],
 ) -> Result<Option<Only>> {
     let Some(name) = &contact.nodes else {

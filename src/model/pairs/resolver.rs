@@ -11,7 +11,7 @@ use super::{
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::model::given::{Given, NodePair};
-use crate::model::names::Entry;
+use crate::model::names::SceneEntry;
 use crate::model::rigid::{RigidBodies, RigidBody};
 use crate::model::supports::{Moved, Supports};
 use crate::number::exact;
@@ -41,7 +41,7 @@ pub(in crate::model) fn resolve(
     };
     let mut contacts = Vec::new();
     for (index, contact) in scene.contact.iter().enumerate() {
-        let entry = Entry::of_list(scene, "contact", index);
+        let entry = SceneEntry::of_list(scene, "contact", index);
         let names = [&contact.first, &contact.second];
         let what = format!("contact {} (`{}` on `{}`)", index + 1, names[0], names[1]);
         let refused = |error: Error| entry.refused(error.within(&what));

@@ -1,7 +1,7 @@
 //! Gaps and interferences that a contact states instead of taking them from the mesh.
 
 use super::super::contact_basis::ContactBasis;
-use super::super::names::Entry;
+use super::super::names::SceneEntry;
 use super::super::on_mesh::OnMesh;
 use super::{ContactSurface, Pair};
 use crate::error::Result;
@@ -77,7 +77,7 @@ pub(in crate::model) fn at_control_points(
         {
             continue;
         }
-        let refused = |error| Entry::of_list(scene, "contact", index).refused(error);
+        let refused = |error| SceneEntry::of_list(scene, "contact", index).refused(error);
         let stated = Stated::of(contact, scene, mesh).map_err(refused)?;
         for pair in own {
             let Some(ends) = basis.ends(pair.slave) else {

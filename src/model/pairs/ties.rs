@@ -5,14 +5,14 @@ use super::{ContactInput, ContactSurface, Pair, list, mortar};
 use crate::error::{Error, Result};
 use crate::mesh::surface::FEATURE_ANGLE;
 use crate::mesh::{Facet, Mesh, Surface};
-use crate::model::names::Entry;
+use crate::model::names::SceneEntry;
 use crate::scene::{Contact, Scene, Tie};
 use crate::space::dot;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A tie of the scene with its rows.
+/// A tie of the scene resolved to its rows.
 #[derive(Debug, Clone)]
-pub(in crate::model) struct Tied {
+pub(in crate::model) struct ResolvedTie {
     /// Description of the tie for messages.
     pub what: String,
     /// Name of the surface whose nodes follow.
@@ -36,11 +36,11 @@ pub(in crate::model) fn resolve(
     mesh: &Mesh,
     contacts: &[ContactSurface],
     notes: &mut Vec<String>,
-) -> Result<Vec<Tied>> {
-    let mut out: Vec<Tied> = Vec::new();
+) -> Result<Vec<ResolvedTie>> {
+    let mut out: Vec<ResolvedTie> = Vec::new();
     let mut row_of: BTreeMap<usize, [usize; 2]> = BTreeMap::new();
     for (index, tie) in scene.tie.iter().enumerate() {
-        let entry = Entry::of_list(scene, "tie", index);
+        let entry = SceneEntry::of_list(scene, "tie", index);
         let surfaces = [
             entry.surface(mesh, "first", &tie.first)?,
             entry.surface(mesh, "second", &tie.second)?,
@@ -115,7 +115,7 @@ fn rows(
     (index, tie): (usize, &Tie),
     surfaces: [&Surface; 2],
     notes: &mut Vec<String>,
-) -> Result<Tied> {
+) -> Result<ResolvedTie> {
     let sides = Contact {
         first: tie.first.clone(),
         second: tie.second.clone(),
@@ -143,7 +143,7 @@ fn rows(
             names[1 - found.slave],
         ));
     }
-    Ok(Tied {
+    Ok(ResolvedTie {
         what: format!("tie {}", index + 1),
         slaves: names[found.slave].clone(),
         rows: found.pairs,

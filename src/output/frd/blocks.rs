@@ -10,7 +10,7 @@ use crate::scene::{FileRequest, ResultItem};
 use std::io::{self, Write};
 
 /// Values at the nodes of a state.
-pub(super) struct Values<'a> {
+pub(super) struct NodalValues<'a> {
     model: &'a Model,
     state: &'a State,
     fields: &'a Fields,
@@ -23,10 +23,10 @@ pub(super) struct OfNodes {
     values: Vec<f64>,
 }
 
-impl<'a> Values<'a> {
+impl<'a> NodalValues<'a> {
     pub(super) fn new(model: &'a Model, state: &'a State, fields: &'a Fields) -> Self {
         let points = fields.points.as_ref();
-        Values {
+        NodalValues {
             model,
             state,
             fields,

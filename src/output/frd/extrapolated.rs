@@ -2,7 +2,7 @@
 
 use crate::mesh::{Mesh, Shape};
 use crate::results::PointValues;
-use crate::shape::{Extrapolation, Integration};
+use crate::shape::{Integration, NodalExtrapolation};
 
 /// Extrapolated values at the nodes, averaged over the elements of each node.
 pub(in crate::output) struct Extrapolated {
@@ -13,13 +13,13 @@ pub(in crate::output) struct Extrapolated {
     /// Equivalent plastic strain, `n_nodes`.
     pub(in crate::output) plastic_strain: Vec<f64>,
     /// Extrapolations, indexed by the numbers of integration and shape.
-    of_shapes: Vec<Extrapolation>,
+    of_shapes: Vec<NodalExtrapolation>,
 }
 
 impl Extrapolated {
     pub(in crate::output) fn new(mesh: &Mesh, points: &PointValues) -> Self {
         let integrated = |by: Integration| {
-            let of = move |shape: Shape| Extrapolation::new(shape, shape.rule(by));
+            let of = move |shape: Shape| NodalExtrapolation::new(shape, shape.rule(by));
             Shape::ALL.into_iter().map(of)
         };
         let of_shapes: Vec<_> = Integration::ALL.into_iter().flat_map(integrated).collect();
@@ -82,7 +82,7 @@ fn count(mesh: &Mesh) -> Vec<u32> {
 /// Returns the values of an element at its nodes, indexed by node and component.
 fn at_nodes<'a>(
     mesh: &'a Mesh,
-    of_shapes: &'a [Extrapolation],
+    of_shapes: &'a [NodalExtrapolation],
     points: &PointValues,
     (element, values, size): (usize, &'a [f64], usize),
 ) -> impl Iterator<Item = (usize, Vec<f64>)> + 'a {

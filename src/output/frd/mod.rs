@@ -8,7 +8,7 @@
 //! | block | values at a node |
 //! |---|---|
 //! | `DISP` | displacements |
-//! | `STRESS`, `TOSTRAIN`, `PE` | mean over the elements of a node of what the integration points of each give there ([`crate::shape::Extrapolation`]) |
+//! | `STRESS`, `TOSTRAIN`, `PE` | mean over the elements of a node of what the integration points of each give there ([`crate::shape::NodalExtrapolation`]) |
 //! | `FORC` | forces that act from outside: loads and reactions |
 //! | `CONTACT` | at slave nodes gap (negative where surfaces overlap) and pressure, compressive positive |
 //! | `ZZSTR` | stresses of the polynomials fitted around a node ([`crate::results::Fields::nodal_stress`]) |
@@ -35,7 +35,7 @@ use crate::labels::LabelIndex;
 use crate::model::Model;
 use crate::results::Results;
 use crate::scene::{FileRequest, Moment};
-use blocks::Values;
+use blocks::NodalValues;
 use mesh::Numbered;
 use std::io::{self, Write};
 use std::path::Path;
@@ -80,7 +80,7 @@ pub(super) fn write(out: &mut impl Write, model: &Model, results: &Results) -> i
             continue;
         };
         n_moments += 1;
-        let values = Values::new(model, state, fields);
+        let values = NodalValues::new(model, state, fields);
         for request in &moment.file {
             if let Some(of_nodes) = values.of(request) {
                 n_blocks += 1;

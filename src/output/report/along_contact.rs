@@ -1,6 +1,6 @@
 //! Charts along a contact of a plane model: pressures at the states, and the shape of the dent.
 
-use super::chart::{Chart, Curve, Pen};
+use super::chart::{Chart, ChartCurve, Pen};
 use super::fields::chosen;
 use super::titled::{Titled, curve};
 use super::window::mirrors;
@@ -106,7 +106,7 @@ pub(super) fn pressure_profiles(
     let shown = chosen(&results.states, MOST_PROFILES, of_interest);
     let states: Vec<&State> = shown.iter().map(|&i| &results.states[i]).collect();
     let top = (0..states.len()).max_by(|&a, &b| states[a].load.total_cmp(&states[b].load))?;
-    let mut curves: Vec<Curve> = states
+    let mut curves: Vec<ChartCurve> = states
         .iter()
         .enumerate()
         .map(|(i, state)| {
@@ -142,7 +142,7 @@ pub(super) fn pressure_profiles(
             " The grey line is Hertz\u{2019}s pressure under the load of \u{201c}{}\u{201d}.",
             state.name
         ));
-        curves.push(Curve {
+        curves.push(ChartCurve {
             label: "Hertz".to_string(),
             color: None,
             pen: Pen::Line,

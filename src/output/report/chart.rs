@@ -27,7 +27,7 @@ pub(super) enum Pen {
 }
 
 /// A curve of a chart.
-pub(super) struct Curve {
+pub(super) struct ChartCurve {
     /// Name in the legend; empty if there is none.
     pub label: String,
     /// Index of the colour; `None` for a faint curve.
@@ -43,7 +43,7 @@ pub(super) struct Chart {
     /// Labels of the axes, with units.
     pub labels: [String; 2],
     /// Curves of the chart.
-    pub curves: Vec<Curve>,
+    pub curves: Vec<ChartCurve>,
     /// Whether each axis includes 0 even if no value does.
     pub from_zero: [bool; 2],
     /// Share by which the horizontal axis is longer than the curves, to make room for the legend.
@@ -52,7 +52,7 @@ pub(super) struct Chart {
     pub legend: SeriesLabelPosition,
 }
 
-impl Curve {
+impl ChartCurve {
     /// Draws the curve, with its entry in the legend if it has a name.
     fn draw<'a>(&self, chart: &mut Axes<'a>) -> Result<()> {
         let color = match self.color {
@@ -188,7 +188,7 @@ fn strokes(pen: Pen) -> [[f64; 2]; 2] {
 }
 
 /// Returns a range that contains all values and ends at nice numbers.
-fn range(curves: &[Curve], axis: usize, from_zero: bool) -> [f64; 2] {
+fn range(curves: &[ChartCurve], axis: usize, from_zero: bool) -> [f64; 2] {
     let values = curves.iter().flat_map(|c| &c.points).map(|p| p[axis]);
     let finite = values.filter(|v| v.is_finite());
     let (mut low, mut high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| {
@@ -253,8 +253,8 @@ fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 mod tests {
     use super::*;
 
-    fn curve(points: Vec<[f64; 2]>) -> Curve {
-        Curve {
+    fn curve(points: Vec<[f64; 2]>) -> ChartCurve {
+        ChartCurve {
             label: "a".into(),
             color: Some(0),
             pen: Pen::Line,

@@ -23,7 +23,7 @@ pub(super) fn charts(
         out.extend(against_load(
             results,
             labels,
-            Figure {
+            LoadFigure {
                 name: "pressure",
                 title: "Maximum contact pressure",
                 label: labelled("maximum pressure", labels.stress()),
@@ -36,7 +36,7 @@ pub(super) fn charts(
         out.extend(against_load(
             results,
             labels,
-            Figure {
+            LoadFigure {
                 name: "half_width",
                 title: &capitalised(labels.half_width()),
                 label: labelled(labels.half_width(), labels.length()),
@@ -98,7 +98,7 @@ impl AtZero {
 }
 
 /// A figure that is drawn over the load.
-struct Figure<'t> {
+struct LoadFigure<'t> {
     name: &'t str,
     title: &'t str,
     label: String,
@@ -110,7 +110,7 @@ struct Figure<'t> {
 fn against_load(
     results: &Results,
     labels: &Labels,
-    figure: Figure,
+    figure: LoadFigure,
     value: impl Fn(&HistoryRow) -> f64,
     between: impl Fn(&PathPoint) -> f64,
     at_yield: impl Fn(&crate::results::YieldPoint) -> f64,

@@ -60,7 +60,7 @@ use crate::results::Results;
 use crate::text::shown;
 use captioned::Captioned;
 #[cfg(feature = "cli")]
-use chart::{Chart, Curve, Pen};
+use chart::{Chart, ChartCurve, Pen};
 use contact_frame::ContactFrame;
 use page::PageFigures;
 #[cfg(feature = "cli")]
@@ -77,7 +77,7 @@ pub(super) fn line_chart(
     labels: [String; 2],
     curves: Vec<(String, Vec<[f64; 2]>)>,
 ) -> Result<String> {
-    let curve = |(index, (label, points)): (usize, (String, Vec<[f64; 2]>))| Curve {
+    let curve = |(index, (label, points)): (usize, (String, Vec<[f64; 2]>))| ChartCurve {
         label,
         color: Some(index),
         pen: Pen::Dotted,

@@ -1,6 +1,6 @@
 //! Stresses over the depth below the middle of the contact, by which bearings are judged.
 
-use super::chart::{Chart, Curve, Pen};
+use super::chart::{Chart, ChartCurve, Pen};
 use super::contact_frame::{ContactFrame, global};
 use super::contours::TriangleSheet;
 use super::patchwork::{Patchwork, seen};
@@ -74,7 +74,7 @@ pub(super) fn chart(
             ("von Mises", Pen::Line, of_mises),
             ("shear", Pen::Dashed, of_shear),
         ] {
-            curves.push(Curve {
+            curves.push(ChartCurve {
                 label: format!("{kind}, {name}"),
                 color: Some(index),
                 pen,
@@ -233,7 +233,7 @@ mod tests {
         let labels = Labels::of(model);
         let titled = chart(model, &results, &labels, None).unwrap();
         let state = &results.states[0];
-        let shear: Vec<&Curve> = (titled.chart.curves.iter())
+        let shear: Vec<&ChartCurve> = (titled.chart.curves.iter())
             .filter(|curve| curve.label.starts_with("shear"))
             .collect();
         assert_eq!(shear.len(), 2);

@@ -1,6 +1,6 @@
 //! Charts with their titles, and what their curves have in common.
 
-use super::chart::{Chart, Curve, Pen};
+use super::chart::{Chart, ChartCurve, Pen};
 use crate::output::labels::{Labels, labelled};
 
 /// A chart with its title and caption.
@@ -21,8 +21,8 @@ pub(super) fn load_label(labels: &Labels) -> String {
 }
 
 /// Returns a curve in one of the colours.
-pub(super) fn curve(label: &str, color: usize, pen: Pen, points: Vec<[f64; 2]>) -> Curve {
-    Curve {
+pub(super) fn curve(label: &str, color: usize, pen: Pen, points: Vec<[f64; 2]>) -> ChartCurve {
+    ChartCurve {
         label: label.to_string(),
         color: Some(color),
         pen,

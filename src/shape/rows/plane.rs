@@ -1,6 +1,6 @@
 //! Rows of plane shapes.
 
-use crate::shape::{Place, Reference, Rule, functions};
+use crate::shape::{Place, ReferenceElement, Rule, functions};
 
 /// Node order of the shapes whose nodes Gmsh numbers in the same way.
 pub(super) const IN_ORDER: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
@@ -61,7 +61,7 @@ const INNER_3: &Rule = &[
     ([SIXTH, 4.0 * SIXTH, 0.0], SIXTH),
 ];
 
-pub(super) static TRI3: Reference = Reference {
+pub(super) static TRI3: ReferenceElement = ReferenceElement {
     name: "tri3",
     dimension: 2,
     n_corners: 3,
@@ -80,7 +80,7 @@ pub(super) static TRI3: Reference = Reference {
     gmsh_order: IN_ORDER.split_at(3).0,
 };
 
-pub(super) static TRI6: Reference = Reference {
+pub(super) static TRI6: ReferenceElement = ReferenceElement {
     name: "tri6",
     dimension: 2,
     n_corners: 3,
@@ -99,7 +99,7 @@ pub(super) static TRI6: Reference = Reference {
     gmsh_order: IN_ORDER.split_at(6).0,
 };
 
-pub(super) static QUAD4: Reference = Reference {
+pub(super) static QUAD4: ReferenceElement = ReferenceElement {
     name: "quad4",
     dimension: 2,
     n_corners: 4,
@@ -119,7 +119,7 @@ pub(super) static QUAD4: Reference = Reference {
     gmsh_order: IN_ORDER.split_at(4).0,
 };
 
-pub(super) static QUAD8: Reference = Reference {
+pub(super) static QUAD8: ReferenceElement = ReferenceElement {
     name: "quad8",
     dimension: 2,
     n_corners: 4,

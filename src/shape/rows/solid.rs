@@ -1,7 +1,7 @@
 //! Rows of solid shapes.
 
 use super::plane::{G2, IN_ORDER, LINE3, SIXTH, W3};
-use crate::shape::{Place, Reference, Rule, functions};
+use crate::shape::{Place, ReferenceElement, Rule, functions};
 
 /// Corners of each edge of a tetrahedron, in the order of the mid-side nodes.
 pub(in crate::shape) const EDGES_OF_TETRAHEDRON: [[usize; 2]; 6] =
@@ -130,7 +130,7 @@ const INNER_4: &Rule = {
     ]
 };
 
-pub(super) static TET4: Reference = Reference {
+pub(super) static TET4: ReferenceElement = ReferenceElement {
     name: "tet4",
     dimension: 3,
     n_corners: 4,
@@ -149,7 +149,7 @@ pub(super) static TET4: Reference = Reference {
     gmsh_order: IN_ORDER.split_at(4).0,
 };
 
-pub(super) static TET10: Reference = Reference {
+pub(super) static TET10: ReferenceElement = ReferenceElement {
     name: "tet10",
     dimension: 3,
     n_corners: 4,
@@ -198,7 +198,7 @@ const INNER_3X3: &Rule = &{
 };
 const CENTER_OF_PRISM: &Rule = &[([1.0 / 3.0, 1.0 / 3.0, 0.0], 1.0)];
 
-pub(super) static PRISM6: Reference = Reference {
+pub(super) static PRISM6: ReferenceElement = ReferenceElement {
     name: "prism6",
     dimension: 3,
     n_corners: 6,
@@ -223,7 +223,7 @@ pub(super) static PRISM6: Reference = Reference {
     gmsh_order: IN_ORDER.split_at(6).0,
 };
 
-pub(super) static PRISM15: Reference = Reference {
+pub(super) static PRISM15: ReferenceElement = ReferenceElement {
     name: "prism15",
     dimension: 3,
     n_corners: 6,
@@ -249,7 +249,7 @@ pub(super) static PRISM15: Reference = Reference {
     gmsh_order: &[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11],
 };
 
-pub(super) static HEX8: Reference = Reference {
+pub(super) static HEX8: ReferenceElement = ReferenceElement {
     name: "hex8",
     dimension: 3,
     n_corners: 8,
@@ -275,7 +275,7 @@ pub(super) static HEX8: Reference = Reference {
     gmsh_order: &IN_ORDER,
 };
 
-pub(super) static HEX20: Reference = Reference {
+pub(super) static HEX20: ReferenceElement = ReferenceElement {
     name: "hex20",
     dimension: 3,
     n_corners: 8,

@@ -22,7 +22,7 @@
 //! No single pressure of a pair at the edge is trusted, so that a half width does not depend on
 //! where in a face the contact ends (`half_widths_of_long_ellipses_are_those_of_hertz`).
 
-use super::fit::Fit;
+use super::fit::LocalPolynomial;
 use super::moments::{PatchSums, Polygon, where_positive};
 use crate::root;
 
@@ -37,7 +37,7 @@ pub(super) struct EdgeFace {
     /// Parts of the face that the other body covers.
     pub(super) parts: Vec<Polygon>,
     /// The square of the pressure, fitted to the trusted pairs.
-    pub(super) fit: Fit,
+    pub(super) fit: LocalPolynomial,
     /// Number of layers from each corner to the trusted pairs.
     pub(super) layers: Vec<f64>,
     /// Pressure at each corner; 0 at open corners.

@@ -34,11 +34,11 @@ impl Cloud {
     }
 
     /// Fits a polynomial around a place to the values near it and to some `more`.
-    pub(super) fn fit(&self, origin: [f64; 2], more: &[Known]) -> Option<Fit> {
+    pub(super) fn fit(&self, origin: [f64; 2], more: &[Known]) -> Option<LocalPolynomial> {
         let near = self.tree.nearest_few(in_space(origin), 2 * FITTED);
         let near = near.into_iter().map(|(_, item)| self.known[item]);
         let near: Vec<Known> = near.chain(more.iter().copied()).collect();
-        Fit::new(&near, origin)
+        LocalPolynomial::new(&near, origin)
     }
 }
 
@@ -48,13 +48,13 @@ fn in_space([x, y]: [f64; 2]) -> [f64; 3] {
 
 /// A polynomial around a place: quadratic, or linear if the known values do not determine a
 /// quadratic.
-pub(super) struct Fit {
+pub(super) struct LocalPolynomial {
     origin: [f64; 2],
     scale: f64,
     coefficients: Terms,
 }
 
-impl Fit {
+impl LocalPolynomial {
     /// Fits the nearest known values by least squares, weighted by nearness; `None` if they do not
     /// determine even a plane.
     fn new(known: &[Known], origin: [f64; 2]) -> Option<Self> {
@@ -78,7 +78,7 @@ impl Fit {
                 1 => FittedPlane::through(points, LEAST_PIVOT),
                 _ => FittedQuadratic::through(points, LEAST_PIVOT),
             }?;
-            Some(Fit {
+            Some(LocalPolynomial {
                 origin,
                 scale,
                 coefficients,

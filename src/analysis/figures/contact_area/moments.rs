@@ -8,7 +8,7 @@ const PIECES: usize = 4;
 /// Corners of a convex polygon in order.
 pub(super) type Polygon = Vec<[f64; 2]>;
 /// Corners of a triangle.
-pub(super) type Triangle = [[f64; 2]; 3];
+pub(super) type TriangleCorners = [[f64; 2]; 3];
 
 /// Moments of a patch's part of the model in the two coordinates of the patch.
 #[derive(Clone, Copy)]
@@ -58,7 +58,7 @@ impl PatchSums {
     }
 
     /// Adds a triangle with `int x x' dA = A/12 (sum p p' + 9 c c')`, c its centroid.
-    fn add_whole(&mut self, [p, q, r]: Triangle) {
+    fn add_whole(&mut self, [p, q, r]: TriangleCorners) {
         let [a, b] = [q, r].map(|x| [x[0] - p[0], x[1] - p[1]]);
         let area = 0.5 * (a[0] * b[1] - a[1] * b[0]).abs();
         let center = [0, 1].map(|d| (p[d] + q[d] + r[d]) / 3.0);
@@ -107,7 +107,7 @@ impl PatchSums {
 pub(super) fn where_positive(
     parts: &[Polygon],
     level: impl Fn([f64; 2]) -> f64,
-    show: &mut dyn FnMut(Triangle),
+    show: &mut dyn FnMut(TriangleCorners),
 ) {
     for corners in parts {
         match corners.len() {
@@ -121,7 +121,11 @@ pub(super) fn where_positive(
 
 /// Passes the part of a face in which a function is positive to `show`, divided into small pieces
 /// with straight edges.
-fn of_face(corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64, show: &mut dyn FnMut(Triangle)) {
+fn of_face(
+    corners: &[[f64; 2]],
+    level: impl Fn([f64; 2]) -> f64,
+    show: &mut dyn FnMut(TriangleCorners),
+) {
     let n = PIECES;
     let share = |i: usize| i as f64 / n as f64;
     let mixed = |weights: &[f64]| {
@@ -174,7 +178,7 @@ fn of_face(corners: &[[f64; 2]], level: impl Fn([f64; 2]) -> f64, show: &mut dyn
 
 /// Passes the part of a triangle in which a linear function, given at the corners, is positive to
 /// `show`.
-fn cut(corners: Triangle, levels: [f64; 3], show: &mut dyn FnMut(Triangle)) {
+fn cut(corners: TriangleCorners, levels: [f64; 3], show: &mut dyn FnMut(TriangleCorners)) {
     let mut inside: Vec<[f64; 2]> = Vec::with_capacity(4);
     for k in 0..3 {
         let (p, q) = (corners[k], corners[(k + 1) % 3]);

@@ -3,7 +3,7 @@
 use super::edge::{Edge, EdgeFace};
 use super::fit::{Cloud, Known};
 use super::moments::{Moments, PatchSums, Polygon};
-use super::shape::{Shape, middle};
+use super::shape::{ProjectedPatch, middle};
 use crate::model::images::Reflection;
 use crate::space::{difference, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
@@ -17,7 +17,7 @@ const STEEP: usize = 1;
 /// faces.
 const CORRECTED: usize = 3;
 
-impl Shape<'_> {
+impl ProjectedPatch<'_> {
     /// The patch's moments, and a second reading of them: the difference is an estimate of the
     /// error. There is no second reading if the pairs are too few.
     pub(super) fn readings(&self) -> (Moments, Option<Moments>) {

@@ -38,7 +38,7 @@ pub(super) fn middle(places: &[[f64; 2]]) -> [f64; 2] {
 }
 
 /// A patch projected on the plane across its mean normal.
-pub(super) struct Shape<'a> {
+pub(super) struct ProjectedPatch<'a> {
     pub(super) model: &'a Model,
     pub(super) topology: &'a Topology<'a>,
     pub(super) pressure: &'a [f64],
@@ -58,7 +58,7 @@ pub(super) struct Shape<'a> {
     pub(super) units: [f64; 2],
 }
 
-impl<'a> Shape<'a> {
+impl<'a> ProjectedPatch<'a> {
     pub(super) fn new(
         model: &'a Model,
         (surface, topology): (&'a ContactSurface, &'a Topology<'a>),
@@ -109,7 +109,7 @@ impl<'a> Shape<'a> {
             });
             (between.fold(0.0, f64::max), plane.normal())
         });
-        let mut shape = Shape {
+        let mut shape = ProjectedPatch {
             model,
             topology,
             pressure,

@@ -5,7 +5,7 @@
 
 use super::super::panel;
 use super::super::tree::Forest;
-use super::{Panel, TrailingFactor, Work};
+use super::{Panel, SolveWorkspace, TrailingFactor};
 use crate::linalg::ZonePart;
 use rayon::prelude::*;
 use std::ops::Range;
@@ -162,7 +162,7 @@ impl TrailingFactor {
     /// is for the kept ones in the partition's order.
     pub(crate) fn condensed_load(&self, y: &[f64], zone: &mut [f64], contact: &mut [f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
-        let Work { vector, rows, .. } = &mut *work;
+        let SolveWorkspace { vector, rows, .. } = &mut *work;
         for (value, &column) in vector.iter_mut().zip(&self.kept) {
             *value = y[column as usize];
         }
@@ -187,7 +187,7 @@ impl TrailingFactor {
     /// from `contact`.
     pub(crate) fn eliminate_zone(&self, zone: &mut [f64], contact: &mut [f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
-        let Work {
+        let SolveWorkspace {
             vector,
             rows,
             subtrees,
@@ -234,7 +234,7 @@ impl TrailingFactor {
     /// `zone` as [`TrailingFactor::eliminate_zone`] left it.
     pub(crate) fn recover_zone(&self, part: &ZonePart, zone: &mut [f64], u_contact: &[f64]) {
         let mut work = self.work.lock().unwrap_or_else(PoisonError::into_inner);
-        let Work {
+        let SolveWorkspace {
             vector,
             rows,
             subtrees,

@@ -4,7 +4,7 @@
 //! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`. If little is covered, this loses only
 //! half of the digits that the inverse of `int phi_j phi_l` would lose.
 
-use super::face::{MortarFace, Plane};
+use super::face::{FacePlane, MortarFace};
 use super::overlap::{self, Point};
 use super::{CoveredFacet, NOTHING, Sides};
 use crate::error::{Error, Result};
@@ -120,7 +120,7 @@ struct Coverage {
 
 impl Coverage {
     /// Intersects a slave facet with the masters near it, in the slave's plane.
-    fn new(sides: &Sides, face: &MortarFace, plane: &Plane) -> Self {
+    fn new(sides: &Sides, face: &MortarFace, plane: &FacePlane) -> Self {
         let pieces = face.pieces(plane);
         let mut out = Coverage {
             samples: Vec::new(),
@@ -213,7 +213,7 @@ impl<'a> TraceFactor<'a> {
 /// # Errors
 /// A facet that masters cover twice.
 pub(super) fn integrate(sides: &Sides, face: &MortarFace) -> Result<OfFacet> {
-    let plane = Plane::new(face.center, face.normal, face.is_solid());
+    let plane = FacePlane::new(face.center, face.normal, face.is_solid());
     let coverage = Coverage::new(sides, face, &plane);
     let parts = || by_pieces(face, &plane, &coverage.polygons);
     let none = || OfFacet {
@@ -280,7 +280,7 @@ pub(super) fn integrate(sides: &Sides, face: &MortarFace) -> Result<OfFacet> {
 }
 
 /// Cuts polygons in the plane of a facet to its pieces, and returns them in space.
-fn by_pieces(face: &MortarFace, plane: &Plane, polygons: &[Vec<Point>]) -> CoveredFacet {
+fn by_pieces(face: &MortarFace, plane: &FacePlane, polygons: &[Vec<Point>]) -> CoveredFacet {
     let mut out = Vec::new();
     for polygon in polygons.iter().filter(|polygon| !polygon.is_empty()) {
         let parts = face.by_pieces(plane, polygon);
@@ -331,7 +331,7 @@ fn trace(face: &MortarFace, values: [f64; MAX_FACET_NODES]) -> [f64; MAX_FACET_N
 fn sample(
     sides: &Sides,
     [face, master]: [&MortarFace; 2],
-    plane: &Plane,
+    plane: &FacePlane,
     point: Point,
     weight: f64,
 ) -> Option<CoveredPoint> {

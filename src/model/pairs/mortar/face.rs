@@ -24,13 +24,13 @@ pub(super) struct MortarFace {
 }
 
 /// A plane at right angles to a direction; in plane models a line.
-pub(super) struct Plane {
+pub(super) struct FacePlane {
     pub origin: Vector,
     pub normal: Vector,
     axes: [Vector; 2],
 }
 
-impl Plane {
+impl FacePlane {
     pub(super) fn new(origin: Vector, normal: Vector, is_solid: bool) -> Self {
         let axes = if is_solid {
             let least = (0..3).min_by(|&a, &b| normal[a].abs().total_cmp(&normal[b].abs()));
@@ -40,7 +40,7 @@ impl Plane {
             // The nodes of a facet run with the body on the left.
             [cross(unit(2), normal), [0.0; 3]]
         };
-        Plane {
+        FacePlane {
             origin,
             normal,
             axes,
@@ -116,7 +116,7 @@ impl MortarFace {
     }
 
     /// Place in the reference facet that projects to a point of a plane.
-    pub(super) fn locate(&self, plane: &Plane, point: Point) -> Option<Place> {
+    pub(super) fn locate(&self, plane: &FacePlane, point: Point) -> Option<Place> {
         let mut place = self.reference.center();
         let mut nodes = [[0.0; 2]; MAX_FACET_NODES];
         for (node, &x) in nodes.iter_mut().zip(&self.x) {
@@ -173,7 +173,7 @@ impl MortarFace {
     /// Pieces of the facet in a plane, counter-clockwise as seen against its normal: the facet
     /// itself if its edges are straight in the plane, otherwise triangles and a quadrilateral
     /// between all of its nodes.
-    pub(super) fn pieces(&self, plane: &Plane) -> Vec<Vec<Point>> {
+    pub(super) fn pieces(&self, plane: &FacePlane) -> Vec<Vec<Point>> {
         let points: Vec<Point> = self.x.iter().map(|&x| plane.project(x)).collect();
         let n = self.reference.n_corners;
         let mut pieces: Vec<Vec<Point>> = if self.is_straight(&points) {
@@ -192,7 +192,7 @@ impl MortarFace {
 
     /// Cuts a polygon to each piece between the nodes of the facet, in the order of
     /// [`FacetReference::pieces`]; a line is one piece.
-    pub(super) fn by_pieces(&self, plane: &Plane, polygon: &[Point]) -> Vec<Vec<Point>> {
+    pub(super) fn by_pieces(&self, plane: &FacePlane, polygon: &[Point]) -> Vec<Vec<Point>> {
         if !self.is_solid() {
             return vec![polygon.to_vec()];
         }

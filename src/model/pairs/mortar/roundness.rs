@@ -1,7 +1,7 @@
 //! True shapes of surfaces: circles, spheres and cylinders on which their nodes lie, and gaps
 //! between the true surfaces.
 
-use super::face::Plane;
+use super::face::FacePlane;
 use super::{Sides, spheres};
 use crate::mesh::surface::ordered_nodes;
 use crate::mesh::{Curve, Mesh, Surface};
@@ -79,7 +79,7 @@ impl Sides<'_> {
     pub(super) fn meet(&self, node: usize, normal: Vector, faced: &[usize]) -> Option<Met> {
         let mesh = self.entries.mesh;
         let x = mesh.point(node);
-        let plane = Plane::new(x, normal, mesh.is_solid());
+        let plane = FacePlane::new(x, normal, mesh.is_solid());
         let mut nearest: Option<(f64, Met)> = None;
         for &number in faced {
             let face = &self.masters[number];

@@ -27,7 +27,7 @@ fn an_extent_does_not_grow_with_the_load_from_zero() {
     let scene = crate::scene::Scene::load(scene).unwrap();
     let labels = Labels::of(&Model::new(&scene).unwrap());
     let points = |at_zero: AtZero, value: fn(&HistoryRow) -> f64| -> Vec<Vec<[f64; 2]>> {
-        let figure = Figure {
+        let figure = LoadFigure {
             name: "",
             title: "",
             label: String::new(),
