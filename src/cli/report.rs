@@ -55,10 +55,10 @@ pub(super) fn results(
     report.list("Warnings", &results.warnings);
     if let Some(next) = for_a_tenth(scene, results) {
         report.paragraph(&format!(
-            "For a tenth of the largest estimated error ({} of {}): elements {} times smaller, \
-             about {}, {}",
-            percent(next.relative_error),
+            "For a tenth of the error of {} ({}, the largest that a demand on all counts): \
+             elements {} times smaller, about {}, {}",
             next.quantity,
+            percent(next.relative_error),
             significant(next.finer, 2),
             seconds(next.seconds),
             bytes(next.memory_bytes)

@@ -12,7 +12,7 @@ use super::dat::fortran;
 use super::{write_frd, write_prints};
 use crate::error::{Error, Result};
 use crate::model::Model;
-use crate::results::{HistoryRow, Results, State, Status};
+use crate::results::{Results, State, Status};
 use crate::scene::Moment;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -97,14 +97,13 @@ struct DeckIncrement {
 /// Returns the increments of a run. The increments that brinell took within each are added up.
 fn rows(model: &Model, results: &Results) -> Vec<DeckIncrement> {
     let moments = &model.scene.requests.moments;
-    let mut ahead = &results.history[..];
+    let mut behind = 0;
     let mut before = (0, 0.0);
     let states = results.states.iter().zip(moments);
     let row = |(state, moment): (&State, &Moment)| {
-        let is_last = |row: &HistoryRow| row.event == "target" && row.alpha == state.alpha;
-        let n = ahead.iter().position(is_last).map_or(0, |last| last + 1);
-        let (own, rest) = ahead.split_at(n);
-        ahead = rest;
+        let own = results.history.get(behind..state.increments);
+        let own = own.unwrap_or_default();
+        behind = state.increments;
         let from = if before.0 == moment.step {
             before.1
         } else {

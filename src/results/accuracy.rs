@@ -89,10 +89,7 @@ pub struct Companion {
 
 /// Figures of parts of a state that have errors of their own: what their paths contain, how these
 /// end, and the figures in words.
-const PARTS: [(&str, &str, &str); 13] = [
-    ("reference.", ".pressure", "pressures at places"),
-    ("reference.", ".displacement", "displacements at places"),
-    ("reference.", "", "stresses at places"),
+const PARTS: [(&str, &str, &str); 10] = [
     (".residual_depth_by_body.", "", "dents of bodies"),
     (".patches.", ".force", "forces of patches"),
     (".patches.", ".max_pressure", "their pressures"),
@@ -105,6 +102,14 @@ const PARTS: [(&str, &str, &str); 13] = [
     (".contact_", ".force", "forces of contacts"),
 ];
 
+/// The same of values at places of the scene's reference values, whose paths begin with
+/// `reference.`.
+const AT_PLACES: [(&str, &str, &str); 3] = [
+    ("", ".pressure", "pressures at places"),
+    ("", ".displacement", "displacements at places"),
+    ("", "", "stresses at places"),
+];
+
 impl QuantityError {
     /// In words, what the quantity is if it is one of a part of a state: of a body, a contact, a
     /// patch, a set that the history follows, or a place.
@@ -112,9 +117,12 @@ impl QuantityError {
         // Components end with their axis.
         let end = self.quantity.trim_end_matches(['x', 'y', 'z']);
         let end = end.trim_end_matches('_');
-        let mut parts = PARTS.into_iter();
+        let mut parts = match end.starts_with("reference.") {
+            true => AT_PLACES.iter(),
+            false => PARTS.iter(),
+        };
         let found = parts.find(|(part, key, _)| end.contains(part) && end.ends_with(key));
-        found.map(|(_, _, words)| words)
+        found.map(|(_, _, words)| *words)
     }
 }
 
