@@ -102,7 +102,7 @@ const PARTS: [(&str, &str, &str); 10] = [
     (".contact_", ".force", "forces of contacts"),
 ];
 
-/// The same of values at places of the scene's reference values, whose paths begin with
+/// Relative errors of values at places of the scene's reference values, whose paths begin with
 /// `reference.`.
 const AT_PLACES: [(&str, &str, &str); 3] = [
     ("", ".pressure", "pressures at places"),
