@@ -18,7 +18,7 @@ const FINER: [f64; 4] = [1.0 / 1.5, 0.5, 1.0 / 3.0, 0.25];
 const LEAST_RATIO: f64 = 1.15;
 /// Closed pairs on a side of a contact over which its edge is read: the last two, and four before
 /// them from which the pressure near it is fitted ([`crate::results::EdgeReading`]).
-const READABLE: usize = 6;
+pub(super) const READABLE: usize = 6;
 /// Closed pairs over the smaller half axis of a patch of solids over which its area is read: the
 /// last one, two that are believed, and the middle.
 const READABLE_PATCH: usize = 4;

@@ -4,15 +4,18 @@
 //! The sequence begins with elements [`COARSEST`] times as large as the scene's. Each mesh is
 //! judged by those before it, the last [`MESHES`] of them, as any run is judged by its companions
 //! ([`super::estimate()`]): they cost nothing again. The order that the meshes show says how much
-//! finer the next has to be. It ends with the first mesh on which every quantity that is asked for
-//! is within its demand, by meshes that span element sizes of [`SPAN`], or with the reason why not:
-//! a quantity that has no limit under refinement, memory, time, a run that failed. What is reported
-//! are the values of the last mesh that was run to its end.
+//! finer the next has to be. If a mesh as fine as the scene's own leaves a contact unresolved, the
+//! sequence begins anew with meshes that are refined around it ([`super::graded`]). It ends with
+//! the first mesh on which every quantity that is asked for is within its demand, by meshes that
+//! span element sizes of [`SPAN`], or with the reason why not: a quantity that has no limit under
+//! refinement, memory, time, a run that failed. What is reported are the values of the last mesh
+//! that was run to its end.
 
 use super::companions::{Level, member};
 use super::effort::{Effort, work_of_finer};
 use super::estimate::{Judged, assess};
 use super::extrapolation::LEAST_ORDER;
+use super::graded;
 use super::meter::work;
 use super::outcome::{Outcome, PATH};
 use super::path::with_error_over;
@@ -46,6 +49,8 @@ const SPAN: f64 = 1.9;
 /// How often the increments are made finer: an error that more increments do not reduce has another
 /// source.
 const MORE_STEPS: usize = 3;
+/// How many contacts meshes are refined around.
+const MOST_PLACES: usize = 4;
 /// Ratio of element sizes over which a quantity comes hardly nearer until it counts as without a
 /// limit.
 const WITHOUT_LIMIT: f64 = 3.0;
@@ -82,6 +87,7 @@ pub fn reach(
         backend,
         extent,
         budget: budget.unwrap_or(f64::INFINITY),
+        asked_for: scene.mesh.refine.len(),
         start: Instant::now(),
         runs: Runs::new(backend, extent),
         sequence: Vec::new(),
@@ -101,6 +107,8 @@ struct Pursuit {
     backend: Backend,
     extent: Extent,
     budget: f64,
+    /// Number of refinements that the scene itself asks for.
+    asked_for: usize,
     start: Instant,
     runs: Runs,
     /// Element sizes of the meshes so far over those of the scene, and the seconds they took.
@@ -123,6 +131,7 @@ struct MeshRun {
 enum Next {
     Within,
     Finer(f64),
+    Graded(Box<Scene>),
     ShorterPath(Box<Scene>, String),
     Never(String),
 }
@@ -163,7 +172,10 @@ impl Pursuit {
                 };
             }
             let mesh = self.judged(ran?, ratio, begun.elapsed().as_secs_f64(), observer)?;
-            let next = self.after(&mesh.outcome, ratio, &mesh.reached.results);
+            let next = match self.graded(&mesh, ratio, observer) {
+                Some(next) => next,
+                None => self.after(&mesh.outcome, ratio, &mesh.reached.results),
+            };
             if observer.stop_requested() {
                 return self.stopped(mesh);
             }
@@ -172,6 +184,12 @@ impl Pursuit {
                 Next::Within => return self.end(last, String::new()),
                 Next::Never(why) => return self.end(last, why),
                 Next::Finer(by) => ratio / by,
+                Next::Graded(base) => {
+                    self.base = *base;
+                    self.sequence.clear();
+                    self.slow.clear();
+                    COARSEST
+                }
                 Next::ShorterPath(base, words) => {
                     let why = "longer ones leave too much of the error";
                     self.choices.push(format!("{words}: {why}"));
@@ -274,6 +292,20 @@ impl Pursuit {
                 duration(left.max(0.0))
             )
         })
+    }
+
+    /// The scene with a mesh that is refined around a contact, where one as fine as the scene's own
+    /// leaves the contact unresolved and figures that are demanded therefore unknown.
+    fn graded(&self, mesh: &MeshRun, ratio: f64, observer: &mut dyn Observer) -> Option<Next> {
+        let is_own = ratio <= 1.0 && !mesh.outcome.unknown.is_empty();
+        let places = self.base.mesh.refine.len() - self.asked_for;
+        if !is_own || places == MOST_PLACES {
+            return None;
+        }
+        let run = (&mesh.reached.scene, &mesh.reached.results);
+        let in_time = || self.start.elapsed().as_secs_f64() < self.budget;
+        let found = graded::resolving(run, (self.backend, self.extent), in_time, observer)?;
+        Some(Next::Graded(Box::new(graded::with(&self.base, found))))
     }
 
     /// What to do after a mesh.

@@ -8,7 +8,7 @@
 //! | `path` | the error of increments and tolerances |
 //! | `runs`, `estimate` | runs, each made once; discretisation, path and algebraic error of every quantity |
 //! | `effort`, `next_digit` | what an estimate may take; what a tenth of the error would |
-//! | `demand`, `outcome` | finer and finer meshes until a demanded accuracy is reached; what a mesh states about it |
+//! | `demand`, `outcome`, `graded` | finer and finer meshes until a demanded accuracy is reached; what a mesh states about it; smaller elements around contacts |
 //! | `knobs`, `meter`, `record`, `study` | a study: what to turn, what a run takes, the runs |
 //! | `verdict`, `advice` | what the runs of a study show, and the same in words |
 //!
@@ -38,6 +38,7 @@ mod demand;
 mod effort;
 mod estimate;
 mod extrapolation;
+mod graded;
 mod knobs;
 mod meter;
 mod next_digit;

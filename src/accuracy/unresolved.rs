@@ -7,9 +7,11 @@
 //! uncertain, it is not known whether they touch.
 
 use super::extrapolation::extrapolate;
+use super::graded;
 use super::quantities::{CONTACT_FORCE, Quantity};
+use crate::number::significant;
 use crate::results::{EdgeReading, Results, State};
-use crate::scene::{Scene, Unit};
+use crate::scene::{LocalRefinement, Scene, Unit};
 use std::collections::BTreeSet;
 
 /// Figures of a state that the contact does not decide, but the equilibrium of the whole.
@@ -34,6 +36,8 @@ pub(super) struct Unresolved {
     states: BTreeSet<String>,
     /// States in which it is not known whether the surfaces touch.
     nearly_closed: BTreeSet<String>,
+    /// Refinement of the mesh that would help.
+    refinement: Option<LocalRefinement>,
 }
 
 /// The smallest gap of a loaded state without contact forces; `None` if there are any, no pairs, or
@@ -63,6 +67,7 @@ impl Unresolved {
                 .map(|state| state.name.clone())
                 .collect(),
             nearly_closed: BTreeSet::new(),
+            refinement: graded::suggested(scene, results),
         }
     }
 
@@ -132,11 +137,24 @@ impl Unresolved {
             format!(
                 "no more than {} pairs of nodes carry a side of the contact ({}): the mesh \
                  does not resolve it, and the errors of pressures and of the strains below them \
-                 are unknown; make the elements there smaller",
+                 are unknown; make the elements there smaller{}",
                 EdgeReading::AT_EDGE,
-                places.join(", ")
+                places.join(", "),
+                self.in_words()
             )
         })
+    }
+
+    /// The refinement that would help, as a key of the scene.
+    fn in_words(&self) -> String {
+        let Some(LocalRefinement { at, radius, times }) = &self.refinement else {
+            return String::new();
+        };
+        let [x, y, radius] = [at[0], at[1], *radius].map(|c| significant(c, 3));
+        format!(
+            ": `mesh.refine = [{{ at = [{x}, {y}], radius = {radius}, times = {times} }}]`, or \
+             more times"
+        )
     }
 }
 

@@ -17,7 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 use std::collections::{BTreeMap, HashMap};
 
 /// Largest number of elements that subdivision makes.
-const MOST_ELEMENTS: usize = 50_000_000;
+pub(super) const MOST_ELEMENTS: usize = 50_000_000;
 /// Steps of Newton's method for a point on a facet or a curve: it converges quadratically from the
 /// middle of half a facet.
 const NEWTON: usize = 8;
@@ -42,26 +42,21 @@ pub fn subdivided(mesh: Mesh, times: usize, contacts: &[Contact]) -> Result<Mesh
         )));
     }
     let mut out = mesh;
+    let cut = |mesh: &Mesh, element: usize| {
+        let shape = mesh.shapes[element];
+        &cuts(shape)[cut_of(shape, &of_element(mesh, element))]
+    };
     for _ in 0..times {
-        out = subdivided_once(&out, contacts)?;
+        check_node_sets(&out, |_| true)?;
+        let finer = Finer::new(&out, |element| cut(&out, element));
+        out = finer.laid(contacts).mesh();
     }
     Ok(out)
 }
 
-fn subdivided_once(mesh: &Mesh, contacts: &[Contact]) -> Result<Mesh> {
-    check_node_sets(mesh)?;
-    let mut finer = Finer::new(mesh);
-    finer.lay_on_curves();
-    for contact in contacts {
-        finer.face(contact);
-    }
-    finer.follow();
-    Ok(finer.mesh())
-}
-
-/// Refuses node sets that contain both ends of an edge: a node set, unlike a surface, does not
-/// determine whether the new node on the edge belongs to it.
-fn check_node_sets(mesh: &Mesh) -> Result<()> {
+/// Refuses node sets that contain both ends of an edge that is divided: a node set, unlike a
+/// surface, does not determine whether the new node on the edge belongs to it.
+pub(super) fn check_node_sets(mesh: &Mesh, is_divided: impl Fn([u32; 2]) -> bool) -> Result<()> {
     let mut marked = vec![false; mesh.n_nodes()];
     for (name, nodes) in mesh.node_sets.iter().filter(|(_, nodes)| nodes.len() > 1) {
         for &node in nodes {
@@ -70,7 +65,8 @@ fn check_node_sets(mesh: &Mesh) -> Result<()> {
         for element in 0..mesh.n_elements() {
             for edge in mesh.shapes[element].reference().edges {
                 let ends = edge.map(|k| mesh.nodes(element)[k] as usize);
-                if ends.iter().all(|&n| marked[n]) {
+                let is_held = ends.iter().all(|&n| marked[n]);
+                if is_held && is_divided(ends.map(|n| n as u32)) {
                     let (what, physical) = match mesh.is_solid() {
                         true => ("edge", "surface"),
                         false => ("side", "curve"),
@@ -118,7 +114,7 @@ struct New {
 }
 
 /// The finer mesh under construction.
-struct Finer<'m> {
+pub(super) struct Finer<'m> {
     mesh: &'m Mesh,
     cuts: Vec<&'static Cut>,
     /// Index in `nodes` at which each element's nodes begin.
@@ -130,7 +126,8 @@ struct Finer<'m> {
 }
 
 impl<'m> Finer<'m> {
-    fn new(mesh: &'m Mesh) -> Self {
+    /// The mesh with each element divided by a cut.
+    pub(super) fn new(mesh: &'m Mesh, cut: impl Fn(usize) -> &'static Cut) -> Self {
         let mut out = Finer {
             mesh,
             cuts: Vec::with_capacity(mesh.n_elements()),
@@ -140,15 +137,24 @@ impl<'m> Finer<'m> {
             by_corners: HashMap::new(),
         };
         for element in 0..mesh.n_elements() {
-            out.enter(element);
+            out.enter(element, cut(element));
         }
         out
     }
 
-    fn enter(&mut self, element: usize) {
+    /// Moves the new nodes onto the curves and opposite the surfaces that face them.
+    pub(super) fn laid(mut self, contacts: &[Contact]) -> Self {
+        self.lay_on_curves();
+        for contact in contacts {
+            self.face(contact);
+        }
+        self.follow();
+        self
+    }
+
+    fn enter(&mut self, element: usize, cut: &'static Cut) {
         let (shape, own) = (self.mesh.shapes[element], self.mesh.nodes(element));
-        let points: Vec<Vector> = own.iter().map(|&n| self.mesh.point(n as usize)).collect();
-        let cut = &cuts(shape)[cut_of(shape, &points)];
+        let points = of_element(self.mesh, element);
         self.nodes.extend(own);
         let new = cut.places.iter().zip(&cut.between).skip(own.len());
         for (&place, between) in new {
@@ -300,7 +306,8 @@ impl<'m> Finer<'m> {
         }
     }
 
-    fn mesh(&self) -> Mesh {
+    /// The finer mesh.
+    pub(super) fn mesh(&self) -> Mesh {
         let mesh = self.mesh;
         let mut out = Mesh {
             dimension: mesh.dimension,
@@ -311,15 +318,14 @@ impl<'m> Finer<'m> {
         };
         let new = self.new.iter().flat_map(|new| &new.x[..mesh.dimension]);
         out.coordinates.extend(new);
-        // All elements of the mesh have the same dimension, and so the same number of children.
         let mut first = Vec::with_capacity(mesh.n_elements());
         for element in 0..mesh.n_elements() {
             first.push(out.n_elements());
             let nodes = self.of(element);
             for child in &self.cuts[element].children {
-                let child: Vec<u32> = child.iter().map(|&k| nodes[k]).collect();
+                let own: Vec<u32> = child.nodes.iter().map(|&k| nodes[k]).collect();
                 let body = mesh.element_body[element] as usize;
-                out.push_element(mesh.shapes[element], body, &child);
+                out.push_element(child.shape, body, &own);
             }
         }
         for (name, surface) in &mesh.surfaces {
@@ -347,12 +353,17 @@ impl<'m> Finer<'m> {
     }
 }
 
+fn of_element(mesh: &Mesh, element: usize) -> Vec<Vector> {
+    let nodes = mesh.nodes(element).iter();
+    nodes.map(|&n| mesh.point(n as usize)).collect()
+}
+
 fn points(mesh: &Mesh, facet: Facet) -> Vec<Vector> {
     mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect()
 }
 
 /// The node of the first surface that faces each node of the second surface, if there is one.
-fn partners(
+pub(super) fn partners(
     mesh: &Mesh,
     contact: &Contact,
     first: &Surface,

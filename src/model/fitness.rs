@@ -5,7 +5,7 @@ use crate::error::{Error, Result};
 use crate::mesh::{self, Mesh};
 use crate::number::significant;
 use crate::scene::Scene;
-use crate::shape::Integration;
+use crate::shape::{Integration, Shape};
 use std::path::Path;
 
 /// Completes and checks the mesh of a scene, and adds the elements of rigid surfaces to it.
@@ -35,14 +35,27 @@ fn integration(scene: &Scene, mesh: &Mesh) -> Vec<Integration> {
     }
 }
 
-/// Warns of elements that lock where bodies flow.
-pub(super) fn warn_of_locking(mesh: &Mesh, may_yield: &[bool], warnings: &mut Vec<String>) {
+/// Warns of elements that lock where bodies flow: elements of the mesh, or those that a local
+/// refinement of quadrilaterals leaves at its rim.
+pub(super) fn warn_of_locking(
+    scene: &Scene,
+    mesh: &Mesh,
+    may_yield: &[bool],
+    warnings: &mut Vec<String>,
+) {
     let locks = (0..mesh.n_elements())
         .filter(|&e| {
             mesh.shapes[e].has_constant_strain() && may_yield[mesh.element_body[e] as usize]
         })
         .count();
-    if locks > 0 {
+    let is_rim = !scene.mesh.refine.is_empty() && mesh.shapes.contains(&Shape::Quad4);
+    if locks > 0 && is_rim {
+        warnings.push(format!(
+            "{locks} tri3 elements at the rim of what `mesh.refine` divides belong to bodies that \
+             may yield: they are too stiff where plastic flow reaches them; a larger `radius` puts \
+             them farther out, and quad8 elements have tri6 there, which do not lock"
+        ));
+    } else if locks > 0 {
         warnings.push(format!(
             "{locks} {} elements belong to bodies that may yield: they lock in isochoric plastic \
              flow, limit loads come out too high; use {}",

@@ -204,7 +204,7 @@ impl Model {
         warnings.extend(scene.beyond_rows());
         let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
         warnings.extend(plausible::of_materials(scene));
-        fitness::warn_of_locking(&mesh, &may_yield, &mut warnings);
+        fitness::warn_of_locking(scene, &mesh, &may_yield, &mut warnings);
         warnings.extend(mesh::warning_of_folds(&mesh));
         if kind.is_axisymmetric() {
             fitness::check_radii(&mesh)?;
@@ -360,6 +360,11 @@ fn build_mesh(scene: &Scene) -> Result<Mesh> {
                       the depth of the elements along it?)",
             )
         })?;
+    }
+    if !scene.mesh.refine.is_empty() {
+        mesh::validate(&mesh)?;
+        let found = mesh::refined(mesh, &scene.mesh.refine, &scene.contact);
+        mesh = found.map_err(|error| scene.places.in_front("mesh.refine", error))?;
     }
     let (key, solid) = match (&scene.mesh.extrude, &scene.mesh.revolve) {
         (Some(extrusion), _) => ("mesh.extrude", mesh::extruded(&mesh, extrusion)),

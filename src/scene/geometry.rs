@@ -1,5 +1,6 @@
 //! Where the mesh comes from: a generator with its parameters, or a file.
 
+use super::local_refinement::LocalRefinement;
 use crate::shape::Shape;
 use crate::space::Space;
 use schemars::JsonSchema;
@@ -34,6 +35,9 @@ pub struct MeshSource {
     /// on these shapes.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub subdivisions: usize,
+    /// Places of a plane mesh around which elements are made smaller.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub refine: Vec<LocalRefinement>,
     /// Surfaces of the mesh file that lie on spheres.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub spheres: Vec<SurfaceSphere>,

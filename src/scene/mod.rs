@@ -22,6 +22,7 @@ mod equation;
 mod field;
 mod geometry;
 mod key_places;
+mod local_refinement;
 mod material;
 mod over_temperature;
 mod overrides;
@@ -52,6 +53,7 @@ pub use geometry::{
     SurfaceSphere, SurfaceTorus,
 };
 pub use key_places::KeyPlaces;
+pub use local_refinement::LocalRefinement;
 pub use material::{Body, Material, Plastic};
 pub use over_temperature::MaterialRow;
 pub use program::{

@@ -1,5 +1,7 @@
-//! Division of elements into smaller ones of the same shape and half the size: four in the plane,
-//! eight in space.
+//! Division of elements into smaller ones.
+//!
+//! Everywhere ([`cuts`]), the children have the element's shape and half its size: four in the
+//! plane, eight in space.
 //!
 //! Each corner keeps a child that is the element at half its size. Between these children lie: in a
 //! triangle, one child turned by half a turn; in a prism, two such children; in a tetrahedron, an
@@ -8,8 +10,17 @@
 //! Ong, *SIAM J. Sci. Comput.* 15, 1994, 1134).
 
 use super::{Place, Shape};
-use crate::space::{Vector, cross, difference, dot, unit};
+use crate::space::{Vector, along, cross, difference, dot, unit};
 use std::sync::OnceLock;
+
+/// One of the elements into which an element is divided.
+#[derive(Debug)]
+pub struct CutChild {
+    /// Shape of the child.
+    pub shape: Shape,
+    /// Nodes of the child, as indices of [`Cut::places`].
+    pub nodes: Vec<usize>,
+}
 
 /// A division of a shape into children.
 #[derive(Debug)]
@@ -21,8 +32,8 @@ pub struct Cut {
     /// in parts of [`WHOLE`]. For a place on a facet, both elements at the facet give the same
     /// list.
     pub between: Vec<Vec<(usize, u32)>>,
-    /// Nodes of each child, as indices of `places`.
-    pub children: Vec<Vec<usize>>,
+    /// The elements into which the shape is divided.
+    pub children: Vec<CutChild>,
     /// For each facet of the element, the children's facets of which it consists: child and local
     /// facet.
     pub of_facet: Vec<Vec<[usize; 2]>>,
@@ -79,9 +90,27 @@ pub fn cuts(shape: Shape) -> &'static [Cut] {
         [const { OnceLock::new() }; Shape::ALL.len()];
     CUTS[shape as usize].get_or_init(|| match shape {
         Shape::Tet4 | Shape::Tet10 => (0..3)
-            .map(|diagonal| Cut::new(shape, octahedron(shape, diagonal)))
+            .map(|diagonal| Cut::halved(shape, octahedron(shape, diagonal)))
             .collect(),
-        _ => vec![Cut::new(shape, between_corners(shape))],
+        _ => vec![Cut::halved(shape, between_corners(shape))],
+    })
+}
+
+/// Whether an element of a plane shape can be divided at these sides and no others. Bit `k` of
+/// `sides` stands for side `k`.
+pub fn can_be_cut_at(shape: Shape, sides: usize) -> bool {
+    let n = shape.n_corners() as u32;
+    sides.count_ones() != n - 1
+}
+
+/// The divisions of a plane shape at some of its sides; the index is made of one bit for each
+/// divided side ([`can_be_cut_at`]). The last one divides all sides.
+pub fn partial_cuts(shape: Shape) -> &'static [Cut] {
+    static CUTS: [OnceLock<Vec<Cut>>; Shape::PLANE.len()] =
+        [const { OnceLock::new() }; Shape::PLANE.len()];
+    CUTS[shape as usize].get_or_init(|| {
+        let all = 0..1 << shape.n_corners();
+        all.map(|sides| Cut::at_sides(shape, sides)).collect()
     })
 }
 
@@ -137,7 +166,79 @@ fn octahedron(shape: Shape, diagonal: usize) -> Vec<ChildMap> {
 }
 
 impl Cut {
-    fn new(shape: Shape, inner: Vec<ChildMap>) -> Cut {
+    /// Children of half the size at the corners, and others between them.
+    fn halved(shape: Shape, inner: Vec<ChildMap>) -> Cut {
+        let row = shape.reference();
+        let half = |corner: &Place| ChildMap::scaled(corner.map(|c| 0.5 * c), [0.5; 3]);
+        let outer = row.nodes[..row.n_corners].iter().map(half);
+        let child = |map: ChildMap| (shape, row.nodes.iter().map(|&at| map.apply(at)).collect());
+        Cut::new(shape, outer.chain(inner).map(child).collect())
+    }
+
+    /// The division of a plane shape at some sides. Where these sides alone allow none, all sides
+    /// are divided.
+    fn at_sides(shape: Shape, sides: usize) -> Cut {
+        let n = shape.n_corners();
+        let divided: Vec<usize> = (0..n).filter(|side| sides >> side & 1 == 1).collect();
+        let corners = &shape.reference().nodes[..n];
+        let corner = |k: usize| corners[k % n];
+        let middle = |k: usize| [0, 1, 2].map(|d| 0.5 * (corner(k)[d] + corner(k + 1)[d]));
+        let children: Vec<Vec<Place>> = match (n, &divided[..]) {
+            (_, []) => vec![corners.to_vec()],
+            (3, &[a]) => {
+                let m = middle(a);
+                vec![
+                    vec![corner(a), m, corner(a + 2)],
+                    vec![m, corner(a + 1), corner(a + 2)],
+                ]
+            }
+            (4, &[a]) => {
+                let (m, opposite) = (middle(a), [corner(a + 2), corner(a + 3)]);
+                vec![
+                    vec![corner(a), m, opposite[1]],
+                    vec![m, corner(a + 1), opposite[0]],
+                    vec![m, opposite[0], opposite[1]],
+                ]
+            }
+            (4, &[a, b]) if b == a + 2 => {
+                let [m, opposite] = [middle(a), middle(b)];
+                vec![
+                    vec![corner(a), m, opposite, corner(a + 3)],
+                    vec![m, corner(a + 1), corner(a + 2), opposite],
+                ]
+            }
+            (4, &[a, b]) => {
+                // The side `first` is followed by the other divided side.
+                let first = if b == a + 1 { a } else { b };
+                let [m, next] = [middle(first), middle(first + 1)];
+                let (centre, far) = ([0.0; 3], corner(first + 3));
+                vec![
+                    vec![m, corner(first + 1), next, centre],
+                    vec![corner(first), m, centre, far],
+                    vec![far, centre, next, corner(first + 2)],
+                ]
+            }
+            _ => return Cut::halved(shape, between_corners(shape)),
+        };
+        let child = |corners: Vec<Place>| {
+            let shape = match (corners.len(), shape.is_quadratic()) {
+                (3, false) => Shape::Tri3,
+                (3, true) => Shape::Tri6,
+                (_, false) => Shape::Quad4,
+                (_, true) => Shape::Quad8,
+            };
+            let nodes = shape.reference().nodes.iter().map(|&at| {
+                let values = shape.linear().functions(at).values;
+                let terms = values.iter().zip(&corners);
+                terms.fold([0.0; 3], |sum, (value, x)| along(sum, *value, *x))
+            });
+            (shape, nodes.collect())
+        };
+        Cut::new(shape, children.into_iter().map(child).collect())
+    }
+
+    /// The division into children with these shapes and reference coordinates of their nodes.
+    fn new(shape: Shape, children: Vec<(Shape, Vec<Place>)>) -> Cut {
         let row = shape.reference();
         let mut out = Cut {
             places: row.nodes.to_vec(),
@@ -147,13 +248,10 @@ impl Cut {
             on_facet: Vec::new(),
             follows: Vec::new(),
         };
-        let half = |corner: &Place| ChildMap::scaled(corner.map(|c| 0.5 * c), [0.5; 3]);
-        let outer = row.nodes[..row.n_corners].iter().map(half);
-        for map in outer.chain(inner) {
+        for (shape, places) in children {
             // All coordinates are multiples of a quarter, so equal coordinates have equal bits.
-            let child = row.nodes.iter().map(|&at| out.entered(map.apply(at)));
-            let child = child.collect();
-            out.children.push(child);
+            let nodes = places.into_iter().map(|place| out.entered(place)).collect();
+            out.children.push(CutChild { shape, nodes });
         }
         let linear = |at: &Place| {
             let values = shape.linear().functions(*at).values;
@@ -168,12 +266,13 @@ impl Cut {
                 corners.all(|(corner, _)| facet.contains(corner))
             };
             let part = |&[child, local]: &[usize; 2]| {
-                let nodes = &out.children[child];
-                row.facets[local].iter().all(|&k| lies_on(&nodes[k]))
+                let CutChild { shape, nodes } = &out.children[child];
+                shape.facet(local).iter().all(|&k| lies_on(&nodes[k]))
             };
-            let locals = 0..row.facets.len();
-            let all = (0..out.children.len())
-                .flat_map(|child| locals.clone().map(move |local| [child, local]));
+            let children = out.children.iter().enumerate();
+            let all = children.flat_map(|(child, CutChild { shape, .. })| {
+                (0..shape.n_facets()).map(move |local| [child, local])
+            });
             let new = row.nodes.len()..out.places.len();
             let (parts, places) = (all.filter(part).collect(), new.filter(lies_on).collect());
             out.of_facet.push(parts);

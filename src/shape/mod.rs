@@ -10,7 +10,7 @@ mod functions;
 mod integration;
 mod rows;
 
-pub use cut::{Cut, WHOLE, cut_of, cuts};
+pub use cut::{Cut, WHOLE, can_be_cut_at, cut_of, cuts, partial_cuts};
 pub use extrapolation::NodalExtrapolation;
 pub use facets::FacetReference;
 pub use functions::Functions;

@@ -206,7 +206,7 @@ fn children_are_elements_of_half_the_size_that_fill_it() {
             assert_eq!(cut.places[..row.nodes.len()], *row.nodes);
             let mut volume = 0.0;
             for child in &cut.children {
-                let nodes: Vec<Place> = child.iter().map(|&k| cut.places[k]).collect();
+                let nodes: Vec<Place> = child.nodes.iter().map(|&k| cut.places[k]).collect();
                 for &(at, weight) in row.gauss {
                     let jacobian = jacobian(shape, at, &nodes);
                     let expected = 1.0 / parts as f64;
@@ -218,7 +218,7 @@ fn children_are_elements_of_half_the_size_that_fill_it() {
             for (parts, facet) in cut.of_facet.iter().zip(row.facets) {
                 assert_eq!(parts.len(), 1 << (row.dimension - 1), "{shape:?}");
                 let kind = |&&[child, local]: &&[usize; 2]| {
-                    cut.children[child].len() == row.nodes.len()
+                    cut.children[child].nodes.len() == row.nodes.len()
                         && row.facets[local].len() == facet.len()
                 };
                 assert_eq!(parts.iter().filter(kind).count(), parts.len());

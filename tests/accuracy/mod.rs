@@ -1,7 +1,7 @@
 //! What a run says about its own errors, against closed forms and finer meshes.
 
 mod claims;
-mod demand;
+pub mod demand;
 mod estimate;
 mod families;
 mod file_mesh;

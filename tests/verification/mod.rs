@@ -22,6 +22,7 @@ mod hertz_line;
 mod hertz_line_history;
 mod hertz_point;
 mod initial_state;
+mod local_refinement;
 mod nafems_cb1;
 mod over_temperature;
 mod pin_in_hole;

@@ -9,7 +9,10 @@
 //! are its subdivisions.
 
 use crate::mesh::Shape;
-use crate::scene::{Block, CurvedBodies, CylinderOnHalfPlane, DiscInPlate, MeshSource, Part};
+use crate::number::significant;
+use crate::scene::{
+    Block, CurvedBodies, CylinderOnHalfPlane, DiscInPlate, LocalRefinement, MeshSource, Part,
+};
 
 /// Largest relative difference in element ratio between parts of a mesh that rounding to whole
 /// elements may cause.
@@ -78,7 +81,7 @@ impl Family for MeshSource {
     }
 
     fn words(&self) -> String {
-        if let Some(p) = &self.cylinder_on_half_plane {
+        let mut out = if let Some(p) = &self.cylinder_on_half_plane {
             p.words()
         } else if let Some(p) = &self.disc_in_plate {
             p.words()
@@ -88,7 +91,15 @@ impl Family for MeshSource {
             p.words()
         } else {
             format!("subdivisions {}", self.subdivisions)
+        };
+        for LocalRefinement {
+            at: [x, y], times, ..
+        } in &self.refine
+        {
+            let [x, y] = [x, y].map(|c| significant(*c, 3));
+            out += &format!(", refined {times} times at ({x}, {y})");
         }
+        out
     }
 
     fn shape(&self) -> Option<Shape> {

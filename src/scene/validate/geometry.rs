@@ -3,7 +3,9 @@
 use super::Checks;
 use crate::analytical::HertzEllipse;
 use crate::number::exact;
-use crate::scene::{CurvedBodies, CylinderOnHalfPlane, DiscInPlate, MeshSource, Scene};
+use crate::scene::{
+    CurvedBodies, CylinderOnHalfPlane, DiscInPlate, LocalRefinement, MeshSource, Scene,
+};
 use crate::shape::Shape;
 use crate::space::{Space, length};
 use std::collections::BTreeSet;
@@ -58,8 +60,29 @@ impl Checks {
             "is for meshes from a file; give the generator more elements instead",
         );
         self.declared_shapes(mesh);
+        for (index, refinement) in mesh.refine.iter().enumerate() {
+            self.refinement(&format!("mesh.refine.{index}"), refinement);
+        }
         self.sweep(scene);
         self.bodies_of_mesh(scene);
+    }
+
+    fn refinement(&mut self, key: &str, refinement: &LocalRefinement) {
+        self.require(
+            refinement.at.iter().all(|c| c.is_finite()),
+            format!("{key}.at"),
+            "must be two numbers",
+        );
+        self.positive(format!("{key}.radius"), refinement.radius);
+        self.require(
+            (1..=LocalRefinement::MOST_TIMES).contains(&refinement.times),
+            format!("{key}.times"),
+            format!(
+                "{} must be between 1 and {}",
+                refinement.times,
+                LocalRefinement::MOST_TIMES
+            ),
+        );
     }
 
     /// Checks the shapes that are declared for surfaces of a file.

@@ -1,0 +1,29 @@
+//! Smaller elements around points of a plane mesh.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Makes the elements of a plane mesh smaller around a point, by dividing them into four again and
+/// again. Element sizes double with the distance from there. A quadrilateral beside divided ones
+/// may become three triangles. `subdivisions` come first, an extrusion or revolution comes
+/// afterwards.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LocalRefinement {
+    /// The point.
+    pub at: [f64; 2],
+    /// Distance from the point up to which elements have the smallest size.
+    pub radius: f64,
+    /// Number of times that elements within the radius are divided: their size becomes `2^-times`.
+    pub times: usize,
+}
+
+impl LocalRefinement {
+    /// Largest number of times: the size becomes a millionth.
+    pub(crate) const MOST_TIMES: usize = 20;
+
+    /// Distance up to which elements are divided in a pass, the first of which has number 1.
+    pub(crate) fn radius_in(&self, pass: usize) -> f64 {
+        self.radius * 2f64.powi(self.times.saturating_sub(pass) as i32)
+    }
+}
