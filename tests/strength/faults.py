@@ -185,12 +185,12 @@ f(40, "analysis/increments/elastic.rs", "let t = before + share * (self.path.t()
   "let t = " + x(40, "share * self.path.t()", "before + share * (self.path.t() - before)") + ";",
   "analysis", "the load of first yield is interpolated from the start of the stretch, not from the last event",
   "verification (yield_load, hertz_line, run), unit analysis")
-f(41, "model/mirror.rs",
+f(41, "model/symmetry.rs",
   "let is_loaded = |other: &MirrorSide| other.nodes.iter().all(|&n| conditions.loaded[n]);",
   "let is_loaded = |other: &MirrorSide| {\n    let mut loads = other.nodes.iter().map(|&n| conditions.loaded[n]);\n"
   "    if " + on(41) + " { loads.any(|l| l) } else { loads.all(|l| l) }\n};",
   "analysis", "a plane counts as one of symmetry although a single node at its rim is pushed along it",
-  "unit model::mirror; stability (whether_it_yields)")
+  "unit model::symmetry; stability (whether_it_yields)")
 f(42, "analysis/increments/landing.rs", "let accuracy = Accuracy::both(MONITOR_ACCURACY);",
   "let accuracy = Accuracy::both(" + x(42, "1e3 * MONITOR_ACCURACY", "MONITOR_ACCURACY") + ");",
   "analysis", "landing on a target (half width, displacement) in plastic steps is a thousand times less accurate",
