@@ -22,6 +22,7 @@ mod equation;
 mod field;
 mod geometry;
 mod key_places;
+mod listed_materials;
 mod material;
 mod over_temperature;
 mod overrides;
@@ -52,8 +53,7 @@ pub use geometry::{
     SurfaceSphere, SurfaceTorus,
 };
 pub use key_places::KeyPlaces;
-pub use material::{Body, Material, Plastic};
-pub use over_temperature::MaterialRow;
+pub use material::{Body, Material, MaterialRow, Plastic};
 pub use program::{
     LEAST_PATH_ERROR, PlasticIteration, Program, Settings, Stepping, Unit, YieldMethod,
 };
