@@ -279,7 +279,7 @@ f(63, "results/quality.rs", ".filter(|(_, value, most)| value.is_nan() || value 
   ".filter(|(_, value, most)| (value.is_nan() && !" + on(63) + ") || value > most)",
   "results", "a figure of quality that is not a number misses no tolerance",
   "unit analysis::figures::quality, unit results; stability (quality)")
-f(64, "cli/sweep.rs", "common.overrides.iter().cloned().chain(of_point).collect()",
+f(64, "cli/sweep/arguments.rs", "common.overrides.iter().cloned().chain(of_point).collect()",
   "if " + on(64) + " {\n        return of_point.chain(common.overrides.iter().cloned()).collect();\n    }\n    "
   "common.overrides.iter().cloned().chain(of_point).collect()",
   "cli", "in a sweep --set of the same key wins over --vary",
