@@ -140,7 +140,7 @@ f(29, "assembly/mod.rs", "for (place, &e) in elements.iter().enumerate() {",
   "for (place, &e) in elements.iter().enumerate().take(elements.len().saturating_sub(usize::from(" + on(29) + "))) {",
   "assembly", "the last element with prescribed displacements gives no load",
   "unit assembly; stability (prescribed), verification")
-f(30, "linalg/residual.rs", "rows.terms[row] += terms;",
+f(30, "linalg/row_sums.rs", "rows.terms[row] += terms;",
   "rows.terms[row] += " + x(30, "0.0", "terms") + ";",
   "linalg", "the size of the terms of a row misses what other parts of the matrix hold (componentwise error)",
   "unit linalg (accuracy); stability (quality)")
