@@ -2,12 +2,12 @@
 //!
 //! The implicit rule lets the whole increment flow in the direction that flow has at its end. This
 //! is exact while the direction does not turn; otherwise the error is half the angle, of first
-//! order in the increments. Here the path is cut into [`parts::PARTS`] in which the direction of flow
-//! turns by the same angle, a few tenths at most, and each part is integrated twice by the implicit
-//! rule, in one step and in two halves. Twice the second result minus the first is of second order
-//! (Richardson), and where the material loses most of its stiffness it stays as stable as the
-//! implicit rule itself. The result changes smoothly with the end of the path, so that iterations
-//! converge.
+//! order in the increments. Here the path is cut into [`parts::PARTS`] in which the direction of
+//! flow turns by the same angle, a few tenths at most, and each part is integrated twice by the
+//! implicit rule, in one step and in two halves. Twice the second result minus the first is of
+//! second order (Richardson), and where the material loses most of its stiffness it stays as stable
+//! as the implicit rule itself. The result changes smoothly with the end of the path, so that
+//! iterations converge.
 //!
 //! In plane stress the strain across the plane turns a path that is straight in the plane as soon
 //! as flow begins, even in a bar under tension. There the implicit rule, which is exact for
@@ -33,9 +33,9 @@ impl Material {
     ///
     /// The tangent is that of the implicit rule over the whole path with two changes: its normal is
     /// the one at the end, and the reduction of stiffness across the flow is that of the path while
-    /// flow does not turn ([`parts::Across`]). One step takes off `3 G d/q = x/(1 + x)` where the path
-    /// takes `1 - (1 - exp(-x))/x`, a difference that would determine the speed of iterations. If
-    /// back stresses fade, the tangent is that of one step.
+    /// flow does not turn ([`parts::Across`]). One step takes off `3 G d/q = x/(1 + x)` where the
+    /// path takes `1 - (1 - exp(-x))/x`, a difference that would determine the speed of iterations.
+    /// If back stresses fade, the tangent is that of one step.
     pub(crate) fn integrate_along<const S: usize>(
         &self,
         law: &Lame,

@@ -1,4 +1,5 @@
-//! Numbers of the freedoms of a scene, from its supports, loads, contact normals, ties and equations.
+//! Numbers of the freedoms of a scene, from its supports, loads, contact normals, ties and
+//! equations.
 
 use super::carried::Carried;
 use super::contact_basis::ContactBasis;

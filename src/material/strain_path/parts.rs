@@ -41,8 +41,8 @@ pub(super) struct Across {
 
 impl Across {
     /// Continues over a share of the path in which flow gives the ratio `across` of plastic strain
-    /// to trial stress ([`crate::material::radial_return::PlasticFlow::across`]); `moduli` are `2 G` and the
-    /// modulus of the back stresses.
+    /// to trial stress ([`crate::material::radial_return::PlasticFlow::across`]); `moduli` are `2
+    /// G` and the modulus of the back stresses.
     pub(super) fn after(self, share: f64, across: f64, moduli: [f64; 2]) -> Self {
         let trial = self.stress + share;
         Across {

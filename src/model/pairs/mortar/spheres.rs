@@ -10,8 +10,8 @@ use crate::space::{Vector, along, cross, difference, direction, dot, length, uni
 use nalgebra::{Matrix3, SMatrix, SVector, SymmetricEigen};
 use std::collections::BTreeMap;
 
-/// Largest distance of a node from a curved surface at which the surface is recognised, relative to the
-/// sagitta of the chords between nodes.
+/// Largest distance of a node from a curved surface at which the surface is recognised, relative to
+/// the sagitta of the chords between nodes.
 pub(super) const OFF: f64 = 1e-2;
 /// Smallest ratio of sagitta to chord at which nodes count as off a straight line.
 pub(super) const BENT: f64 = 1e-8;
