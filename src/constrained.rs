@@ -22,6 +22,7 @@
 mod arrays;
 mod displacements;
 mod held;
+mod loaded_state;
 mod path;
 
 pub use arrays::{Triangle, rows_from_csr, stiffness_from_csc};
@@ -32,8 +33,8 @@ use crate::error::{Error, Result};
 use crate::linalg::{self, Backend, Condensed, Partition, SymmetricCsc};
 use crate::substructure::{RowEntries, Rows, Tied};
 use held::{condense, pushed_away};
+use loaded_state::{LoadedState, Way};
 use nalgebra::{DMatrix, DVector};
-use path::Way;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -97,16 +98,6 @@ pub struct ConstrainedStructure {
     tableau: Tableau,
     state: LoadedState,
     way: Option<Way>,
-}
-
-/// Load of a state with its gaps and forces.
-#[derive(Clone)]
-struct LoadedState {
-    load: Vec<f64>,
-    /// Load condensed on the contact freedoms.
-    condensed: DVector<f64>,
-    gap: Arc<Vec<f64>>,
-    force: Arc<Vec<f64>>,
 }
 
 impl ConstrainedStructure {

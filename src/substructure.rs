@@ -35,10 +35,10 @@ pub use trailing::Trailing;
 use crate::assembly::System;
 use crate::contact::{PairBlock, PairMatrix, Tableau};
 use crate::error::Result;
-use crate::linalg::{self, Backend, ContactStiffness, Partition, Recovered, ZonePart};
+use crate::linalg::{self, Backend, Partition, Recovered, ZonePart};
 use crate::memory;
 use crate::model::{Model, Work};
-use groups::TiedGroups;
+use groups::{TiedGroups, tie};
 use nalgebra::DMatrix;
 use sharing::{Condensation, HeldFactor};
 use singular::name_freedom;
@@ -346,21 +346,6 @@ impl Substructure {
         let tied = self.tied.as_ref().map_or(0, TiedGroups::n_entries);
         (size_of::<f64>() * (2 * self.contact_matrix.n_entries() + tied)) as u64
     }
-}
-
-/// Builds the tied structure of a condensed stiffness and its contact matrix.
-fn tie(
-    model: &Model,
-    partition: &Partition,
-    stiffness: ContactStiffness,
-) -> Result<(TiedGroups, PairMatrix)> {
-    let contact = groups::GroupedRows {
-        rows: &model.rows.entries,
-        freedoms: &partition.contact,
-        part: &model.floating.part_of_contact,
-        rigid: &model.rigid_contact(),
-    };
-    TiedGroups::new(stiffness, &model.floating.motions, contact)
 }
 
 /// Cost of the dense part of contact, known from the model alone. A group of `p` rows and `m`

@@ -1,8 +1,8 @@
 //! What a study states about a quantity in words: what accuracies cost, what limits, what would do.
 
 use super::knobs::Knob;
-use super::record::StudyRun;
-use super::verdict::{Price, StudyReference, is_own, path_correction, value};
+use super::quantity_study::{Price, StudyReference};
+use super::record::{StudyRun, is_own, path_correction, value};
 use crate::number::{duration, percent};
 use std::cmp::Ordering;
 

@@ -99,3 +99,32 @@ impl StudyRun {
         out
     }
 }
+
+/// Value of a quantity in a run; `None` if the run lacks it.
+pub(super) fn value(run: &StudyRun, path: &str) -> Option<f64> {
+    run.values.iter().find(|v| v.0 == path).map(|v| v.1)
+}
+
+/// What the increments of the scene's own run lack: the two finest runs with fixed steps, on the
+/// same mesh, extrapolated with the first order of the flow rule; and by how much that may be
+/// wrong: the last change.
+pub(super) fn path_correction(runs: &[StudyRun], path: &str) -> Option<(f64, f64)> {
+    let own = runs.iter().find(|r| is_own(r))?;
+    let mut stepped: Vec<(usize, f64)> = runs
+        .iter()
+        .filter(|r| r.knob == Knob::Stepping && r.failed.is_none() && r.value != "events")
+        .filter_map(|r| Some((r.increments, value(r, path)?)))
+        .collect();
+    stepped.sort_unstable_by_key(|s| std::cmp::Reverse(s.0));
+    let [(fine, at_fine), (coarse, at_coarse)] = stepped.get(..2)?.try_into().ok()?;
+    if fine <= coarse || fine <= own.increments {
+        return None;
+    }
+    let last = (at_fine - at_coarse) / (fine as f64 / coarse as f64 - 1.0);
+    Some((at_fine + last - value(own, path)?, last.abs()))
+}
+
+/// Whether this is the scene as it stands.
+pub(super) fn is_own(run: &StudyRun) -> bool {
+    run.knob == Knob::Resolution && run.ratio == 1.0 && !run.series.contains(',')
+}

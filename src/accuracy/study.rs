@@ -2,9 +2,10 @@
 
 use super::knobs::{Knob, Setting, settings};
 use super::meter::{Forecast, Meter, Pace, forecast};
+use super::quantity_study::QuantityStudy;
 use super::record::StudyRun;
 use super::runs::{Extent, Quiet, run};
-use super::verdict::{QuantityStudy, assess};
+use super::verdict::assess;
 use crate::error::{ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::progress::Observer;

@@ -5,9 +5,9 @@ use super::advice;
 use super::extrapolation::extrapolate;
 use super::knobs::Knob;
 use super::quantities::{formal_order, is_demanded_with_all};
-use super::record::StudyRun;
+use super::quantity_study::{Price, QuantityStudy, StudyReference};
+use super::record::{StudyRun, is_own, path_correction, value};
 use crate::results::ReferenceRow;
-use serde::Serialize;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
@@ -17,49 +17,6 @@ pub(super) const TARGETS: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
 const FINEST: usize = 4;
 /// Error below which a difference is round-off and shows no order.
 const ROUND_OFF: f64 = 1e-12;
-
-/// What the runs are measured against.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct StudyReference {
-    /// The reference value.
-    pub value: f64,
-    /// Uncertainty of the reference itself, absolute: 0 for a closed form.
-    pub uncertainty: f64,
-    /// The closed form's source, or how it was extrapolated.
-    pub source: String,
-    /// The value extrapolated from the meshes, where the reference is a closed form from which it
-    /// differs by more than it is uncertain: what the model itself converges to.
-    pub limit: Option<f64>,
-}
-
-/// The cheapest setting that reaches an accuracy.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Price {
-    /// Relative accuracy.
-    pub accuracy: f64,
-    /// Index of the run; `None` where none reaches it.
-    pub run: Option<usize>,
-}
-
-/// A quantity over all runs.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct QuantityStudy {
-    /// Path of the quantity; `all` stands for the worst of those that govern.
-    pub quantity: String,
-    /// The reference; `None` for `all`.
-    pub reference: Option<StudyReference>,
-    /// Error of each run relative to the largest reference of its kind; `None` where the run failed
-    /// or lacks the quantity.
-    pub errors: Vec<Option<f64>>,
-    /// Observed order of convergence in the element size, by series of meshes.
-    pub orders: Vec<(String, f64)>,
-    /// Runs of which none is both faster and more accurate, by time.
-    pub pareto: Vec<usize>,
-    /// What accuracies cost.
-    pub prices: Vec<Price>,
-    /// The verdict in words, what limits, and which looser settings would do.
-    pub words: Vec<String>,
-}
 
 /// Judges the runs of a scene.
 pub fn assess(runs: &[StudyRun], references: &[ReferenceRow]) -> Vec<QuantityStudy> {
@@ -104,10 +61,6 @@ pub fn assess(runs: &[StudyRun], references: &[ReferenceRow]) -> Vec<QuantityStu
         out.insert(0, finished(runs, "all", None, worst));
     }
     out
-}
-
-pub(super) fn value(run: &StudyRun, path: &str) -> Option<f64> {
-    run.values.iter().find(|v| v.0 == path).map(|v| v.1)
 }
 
 /// Runs of a series of meshes that have the quantity, finest first: (index, element size).
@@ -181,30 +134,6 @@ fn reference(runs: &[StudyRun], references: &[ReferenceRow], path: &str) -> Opti
         ),
         limit: None,
     })
-}
-
-/// What the increments of the scene's own run lack: the two finest runs with fixed steps, on the
-/// same mesh, extrapolated with the first order of the flow rule; and by how much that may be
-/// wrong: the last change.
-pub(super) fn path_correction(runs: &[StudyRun], path: &str) -> Option<(f64, f64)> {
-    let own = runs.iter().find(|r| is_own(r))?;
-    let mut stepped: Vec<(usize, f64)> = runs
-        .iter()
-        .filter(|r| r.knob == Knob::Stepping && r.failed.is_none() && r.value != "events")
-        .filter_map(|r| Some((r.increments, value(r, path)?)))
-        .collect();
-    stepped.sort_unstable_by_key(|s| std::cmp::Reverse(s.0));
-    let [(fine, at_fine), (coarse, at_coarse)] = stepped.get(..2)?.try_into().ok()?;
-    if fine <= coarse || fine <= own.increments {
-        return None;
-    }
-    let last = (at_fine - at_coarse) / (fine as f64 / coarse as f64 - 1.0);
-    Some((at_fine + last - value(own, path)?, last.abs()))
-}
-
-/// Whether this is the scene as it stands.
-pub(super) fn is_own(run: &StudyRun) -> bool {
-    run.knob == Knob::Resolution && run.ratio == 1.0 && !run.series.contains(',')
 }
 
 /// The quantities a reader wants first: `all`, those at first yield, and of the states, key by key,

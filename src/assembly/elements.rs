@@ -1,9 +1,7 @@
 //! Elements whose stiffness is assembled: all elements of a model, or a self-contained part of
 //! them.
 
-use super::pattern::Incidence;
-use crate::element::{packed, with_kernel};
-use crate::linalg::SymmetricCsc;
+use crate::element::with_kernel;
 use crate::material::Lame;
 use crate::model::{Continuum, Model, Slot, Sums};
 use rayon::prelude::*;
@@ -119,51 +117,6 @@ impl<'a> Elements<'a> {
     /// Freedoms of an element, -1 where a displacement is held.
     pub(super) fn freedoms(&self, element: usize) -> &[i64] {
         &self.freedoms[self.offsets[element]..self.offsets[element + 1]]
-    }
-
-    /// Assembles the upper triangle of the stiffness; columns of freedoms not `wanted` stay empty.
-    ///
-    /// Every column is owned by one thread and gathers its elements' contributions in ascending
-    /// element order, so the result has the same bits for any number of threads.
-    pub(super) fn stiffness(&self, wanted: impl Fn(usize) -> bool + Sync) -> SymmetricCsc {
-        let incidence = Incidence::new(self);
-        let matrices = Matrices::new(self);
-        let (pointers, rows) = incidence.pattern(self, wanted);
-        let mut values = vec![0.0; rows.len()];
-        let mut columns: Vec<&mut [f64]> = Vec::with_capacity(self.n);
-        let mut rest = values.as_mut_slice();
-        for j in 0..self.n {
-            let (column, tail) = rest.split_at_mut((pointers[j + 1] - pointers[j]) as usize);
-            columns.push(column);
-            rest = tail;
-        }
-        let columns = columns.into_par_iter().enumerate().with_min_len(1024);
-        columns.for_each(|(j, column)| {
-            if column.is_empty() {
-                return;
-            }
-            let rows = &rows[pointers[j] as usize..pointers[j + 1] as usize];
-            for &(element, local) in incidence.elements(j) {
-                let matrix = matrices.of(element as usize);
-                for (i, &freedom) in self.freedoms(element as usize).iter().enumerate() {
-                    if (0..=j as i64).contains(&freedom)
-                        && let Ok(at) = rows.binary_search(&freedom)
-                    {
-                        column[at] += matrix[packed(i, local as usize)];
-                    }
-                }
-            }
-        });
-        SymmetricCsc::new_csc((self.n, self.n), pointers, rows, values)
-    }
-
-    /// For each freedom, whether the same elements hold it as hold the freedom before.
-    #[cfg(feature = "mumps")]
-    pub(super) fn continued(&self) -> Vec<bool> {
-        let incidence = Incidence::new(self);
-        let of = |j: usize| incidence.elements(j).iter().map(|(element, _)| element);
-        let same = |j: usize| j > 0 && of(j).eq(of(j - 1));
-        (0..self.n).map(same).collect()
     }
 }
 

@@ -4,6 +4,7 @@ mod elements;
 mod pattern;
 #[cfg(feature = "mumps")]
 pub mod shares;
+mod stiffness;
 
 use crate::element::packed;
 use crate::error::Result;

@@ -1,9 +1,8 @@
 //! `brinell completions` and `brinell man`, made from the same definitions as the help.
 
-use super::arguments::Arguments;
 use super::streams::print;
 use crate::error::{Error, Result};
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
 /// Arguments of `brinell completions`.
@@ -14,28 +13,22 @@ pub(super) struct CompletionsArguments {
     pub shell: Shell,
 }
 
-/// Prints completions.
-pub(super) fn run(arguments: &CompletionsArguments) -> Result<()> {
+/// Prints completions for the definition of the program.
+pub(super) fn run(arguments: &CompletionsArguments, mut program: Command) -> Result<()> {
     let mut text = Vec::new();
-    clap_complete::generate(
-        arguments.shell,
-        &mut Arguments::command(),
-        "brinell",
-        &mut text,
-    );
+    clap_complete::generate(arguments.shell, &mut program, "brinell", &mut text);
     print(&String::from_utf8_lossy(&text))
 }
 
 /// Prints the manual page: the program, then each command.
-pub(super) fn man() -> Result<()> {
+pub(super) fn man(mut program: Command) -> Result<()> {
     let failed = |cause| Error::internal("the manual page cannot be made").because(cause);
-    let mut command = Arguments::command();
-    command.build();
+    program.build();
     let mut text = Vec::new();
-    clap_mangen::Man::new(command.clone())
+    clap_mangen::Man::new(program.clone())
         .render(&mut text)
         .map_err(failed)?;
-    for command in command.get_subcommands().filter(|c| c.get_name() != "help") {
+    for command in program.get_subcommands().filter(|c| c.get_name() != "help") {
         let man = clap_mangen::Man::new(command.clone());
         let heading = format!(".SH \"COMMAND {}\"\n", command.get_name().to_uppercase());
         text.extend(heading.into_bytes());

@@ -12,14 +12,17 @@ mod ccx;
 mod commands;
 mod common_arguments;
 mod completions;
+mod compute;
 mod convert;
 mod deck;
+mod ending;
 mod example;
 mod forecast;
 mod fresh;
 mod hardness;
 mod hertz;
 mod interrupt;
+mod itself;
 mod materials;
 mod new;
 mod progress;
@@ -27,6 +30,8 @@ mod ranks;
 mod remaining;
 mod report;
 mod restart;
+mod run_arguments;
+mod runs;
 mod schema;
 mod selftest;
 mod streams;
@@ -41,17 +46,14 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::text;
 use arguments::Arguments;
 use clap::Parser;
+use ending::ending;
 use serde_json::json;
 use std::borrow::Cow;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::PathBuf;
-use std::process::{Command, ExitCode};
-use std::sync::OnceLock;
+use std::process::ExitCode;
 use std::time::Instant;
-
-/// Words of the command that runs this program, if it is not an executable file of its own.
-static WITHIN: OnceLock<Vec<OsString>> = OnceLock::new();
 
 /// Runs the program with the arguments of the process and returns its exit code.
 pub fn main() -> ExitCode {
@@ -62,18 +64,8 @@ pub fn main() -> ExitCode {
 /// so that it runs this program. The arguments begin with the name of the program; returns the exit
 /// code.
 pub fn program_within(itself: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
-    let _ = WITHIN.set(itself);
+    itself::set(itself);
     program(arguments)
-}
-
-/// Returns a command that runs this program.
-fn itself() -> io::Result<Command> {
-    if let Some([program, arguments @ ..]) = WITHIN.get().map(Vec::as_slice) {
-        let mut command = Command::new(program);
-        command.args(arguments);
-        return Ok(command);
-    }
-    Ok(Command::new(std::env::current_exe()?))
 }
 
 fn program(mut words: Vec<OsString>) -> u8 {
@@ -117,15 +109,6 @@ fn program(mut words: Vec<OsString>) -> u8 {
             exit_code
         }
     }
-}
-
-/// Returns the exit code of an error, and its message.
-fn ending(error: &Error) -> (u8, String) {
-    let exit_code = match error.kind() {
-        ErrorKind::Stopped => interrupt::exit_code(),
-        kind => kind.exit_code(),
-    };
-    (exit_code, explain(error))
 }
 
 /// Prints the output of clap: help and version, or a usage error (exit code 2), which repeats the
@@ -178,30 +161,4 @@ pub fn new_scene(words: impl IntoIterator<Item = OsString>) -> Result<String> {
         Error::input(text.trim_start_matches("error: ").trim_end())
     })?;
     new::start(&line.problem, line.out.as_deref()).map(|started| started.text)
-}
-
-/// Formats an error with its causes, as lines for a reader.
-fn explain(error: &Error) -> String {
-    let mut text = format!("error: {}", error.to_string().replace('\n', "\n       "));
-    let signal = interrupt::name().filter(|_| error.kind() == ErrorKind::Stopped);
-    text.push_str(&signal.map_or("\n".to_string(), |signal| format!(" ({signal})\n")));
-    for cause in error.causes() {
-        text.push_str(&format!("  caused by: {cause}\n"));
-    }
-    text::shown(&text).into_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_error_is_printed_with_its_causes_and_aligned_lines() {
-        let cause = io::Error::other("disk full");
-        let error = Error::new(ErrorKind::Io, "first\nsecond").because(cause);
-        assert_eq!(
-            explain(&error),
-            "error: first\n       second\n  caused by: disk full\n"
-        );
-    }
 }

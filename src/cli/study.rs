@@ -1,11 +1,12 @@
 //! `brinell accuracy SCENE`: the cost of accuracy.
 
-use super::commands::{at_once, header, prepare};
 use super::common_arguments::CommonArguments;
+use super::compute::{at_once, header, prepare};
 use super::interrupt;
 use super::progress::{Progress, ProgressKind};
 use super::streams::{json, print};
 use super::table::{ColumnAlignment::*, Table, page_width, wrap};
+use super::values::duration;
 use crate::accuracy::{Knob, Plan, Price, QuantityStudy, Study, Usage, foremost, study};
 use crate::error::{Error, ErrorKind, Result};
 use crate::model::Model;
@@ -44,23 +45,6 @@ pub(super) struct StudyArguments {
     /// No progress, only results and errors
     #[arg(long, short)]
     pub quiet: bool,
-}
-
-/// Reads a duration in seconds: `60`, `60s`, `2min` or `1h`.
-pub(super) fn duration(text: &str) -> std::result::Result<f64, String> {
-    let wanted = "give a positive time, such as 60s or 10min";
-    let digits = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-    let unit = match &text[digits.len()..] {
-        "" | "s" => 1.0,
-        "min" | "m" => 60.0,
-        "h" => 3600.0,
-        _ if digits.is_empty() => return Err(wanted.to_string()),
-        other => return Err(format!("unknown unit `{other}`; give s, min or h")),
-    };
-    match digits.trim().parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value * unit),
-        _ => Err(wanted.to_string()),
-    }
 }
 
 /// Runs the study, writes it and prints the findings.
@@ -229,21 +213,5 @@ fn bullet(item: &str, text: &mut String) {
     for (i, line) in wrap(item, page_width() - 6).iter().enumerate() {
         let mark = if i == 0 { "    - " } else { "      " };
         text.push_str(&format!("{mark}{line}\n"));
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn durations_have_units() {
-        assert_eq!(duration("60"), Ok(60.0));
-        assert_eq!(duration("90s"), Ok(90.0));
-        assert_eq!(duration("1.5min"), Ok(90.0));
-        assert_eq!(duration("2h"), Ok(7200.0));
-        for wrong in ["", "s", "-3s", "3 weeks", "infs", "0s"] {
-            assert!(duration(wrong).is_err(), "{wrong}");
-        }
     }
 }

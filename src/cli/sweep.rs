@@ -1,13 +1,14 @@
 //! `brinell sweep`: the same scene with other values of some keys, run in separate processes.
 
+mod arguments;
 mod cost;
 mod demand;
 mod points;
 mod worker;
 
-pub(super) use worker::serve as runs;
+pub(super) use arguments::SweepArguments;
+pub(super) use worker::Ended;
 
-use super::common_arguments::{CommonArguments, EstimateArguments};
 use super::interrupt;
 use super::streams::{json, print};
 use super::table::{ColumnAlignment, Table, page_width};
@@ -17,83 +18,15 @@ use crate::files;
 use crate::number::{number, seconds};
 use crate::output::sweep::{Sweep, SweepOutcome, SweepPoint, folder};
 use crate::scene::Field;
-use clap::{Args, ValueEnum};
-use points::{Points, Shard, Varied, varied};
+use clap::ValueEnum;
+use points::{Points, Shard};
 use std::collections::BTreeSet;
 use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
-use worker::{Ended, Worker};
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+use std::time::Instant;
+use worker::{Worker, ask_to_stop, lock};
 use xxhash_rust::xxh3::xxh3_128;
-
-const VARY_HELP: &str = "\
-Values of a key of the scene, separated by commas; may be repeated: all combinations are run.
-KEY is as of --set, values with commas of their own stand in brackets, braces or quotes:
-  --vary materials.steel.yield_stress=400,500,600
-  --vary 'load.0.force=[0.0, -10.0],[0.0, -20.0]'";
-
-/// Arguments of `brinell sweep`.
-#[derive(Debug, Args)]
-#[command(
-    after_help = "Example: brinell sweep ball.toml --vary materials.steel.yield_stress=400,500,600 \
-                  --vary mesh.cylinder_on_half_plane.radius=5,10 --jobs 2"
-)]
-pub(super) struct SweepArguments {
-    #[command(flatten)]
-    pub common: CommonArguments,
-    #[arg(
-        long,
-        value_name = "KEY=A,B,...",
-        required_unless_present = "points",
-        value_parser = varied,
-        help = "Values of a key, separated by commas (see --help)",
-        long_help = VARY_HELP
-    )]
-    pub vary: Vec<Varied>,
-    /// CSV file whose first line has keys of the scene: each line below it is a point, combined
-    /// with all that --vary says
-    #[arg(long, value_name = "FILE")]
-    pub points: Option<PathBuf>,
-    /// Take the values of all --vary together, the first with the first, in place of all
-    /// combinations
-    #[arg(long, requires = "vary")]
-    pub zip: bool,
-    /// Run only the I-th of N shares of the points, for job arrays. Each share writes a record of
-    /// its own; the same command without --shard gathers them all
-    #[arg(long, value_name = "I/N")]
-    pub shard: Option<Shard>,
-    /// Run nothing: predict the time and the memory of each point and of the whole
-    #[arg(long)]
-    pub check: bool,
-    /// Number of points that run at the same time; each takes its share of the threads
-    #[arg(
-        long,
-        value_name = "N",
-        default_value_t = 1,
-        value_parser = clap::value_parser!(u16).range(1..=256)
-    )]
-    pub jobs: u16,
-    /// Directory for the points, the table (sweep.csv) and the charts; if it is not given, SCENE
-    /// with the ending .sweep. Points that are finished in this directory are not run again
-    #[arg(long, value_name = "DIR")]
-    pub out: Option<PathBuf>,
-    /// Figures that the table and the charts show, such as yield.load or
-    /// states.pressed.max_pressure; sweep.csv has all figures
-    #[arg(long, value_name = "PATH,...", value_delimiter = ',')]
-    pub show: Vec<String>,
-    /// Accuracy to reach in each point, as for `brinell run`
-    #[arg(long, value_name = "DEMAND")]
-    pub accuracy: Option<String>,
-    #[command(flatten)]
-    pub estimate: EstimateArguments,
-    /// Write no reports
-    #[arg(long)]
-    pub no_report: bool,
-    /// No progress, only the table and errors
-    #[arg(long, short)]
-    pub quiet: bool,
-}
 
 /// Runs the points that are not finished yet, writes table and charts, and prints the table.
 pub(super) fn execute(arguments: &SweepArguments) -> Result<()> {
@@ -164,7 +97,7 @@ fn point(arguments: &SweepArguments, keys: &[String], values: Vec<String>) -> Re
         small_strain: common.small_strain,
         ..Options::default()
     };
-    let scene = deck::load_with(&common.scene, &overrides(common, keys, &values), options)?;
+    let scene = deck::load_with(&common.scene, &arguments.overrides(keys, &values), options)?;
     let mut text = serde_json::to_string(&scene)
         .map_err(|cause| Error::internal("the scene is not plain data").because(cause))?;
     for choice in [
@@ -212,13 +145,6 @@ fn tell_apart(points: &mut [SweepPoint]) {
     }
 }
 
-/// Returns the scene's overrides, followed by those of a point.
-fn overrides(common: &CommonArguments, keys: &[String], values: &[String]) -> Vec<String> {
-    let of_point = keys.iter().zip(values);
-    let of_point = of_point.map(|(key, value)| format!("{key}={value}"));
-    common.overrides.iter().cloned().chain(of_point).collect()
-}
-
 /// The runs of a sweep, several at a time.
 struct SweepRuns<'w> {
     arguments: &'w SweepArguments,
@@ -229,11 +155,6 @@ struct SweepRuns<'w> {
     running: &'w Mutex<Vec<u32>>,
     sweep: Mutex<&'w mut Sweep>,
     next: Mutex<usize>,
-}
-
-/// Locks a mutex. Data are consistent even after a panic elsewhere: every change is one assignment.
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl SweepRuns<'_> {
@@ -339,7 +260,7 @@ impl SweepRuns<'_> {
             words.extend(["--solver".to_string(), solver.get_name().to_string()]);
         }
         let keys = &lock(&self.sweep).keys;
-        for change in overrides(common, keys, &point.values) {
+        for change in self.arguments.overrides(keys, &point.values) {
             words.extend(["--set".to_string(), change]);
         }
         if let Some(demand) = &self.arguments.accuracy {
@@ -357,30 +278,12 @@ impl SweepRuns<'_> {
     }
 }
 
-/// Interval at which a run is checked.
-const PATIENCE: Duration = Duration::from_millis(20);
-
 /// Forwards a second signal to the running processes, so that it ends them at once, too.
 fn stop(running: &Mutex<Vec<u32>>) {
     for id in lock(running).iter() {
         ask_to_stop(*id);
     }
 }
-
-#[cfg(unix)]
-fn ask_to_stop(id: u32) {
-    let pid = i32::try_from(id)
-        .ok()
-        .and_then(rustix::process::Pid::from_raw);
-    if let Some(pid) = pid {
-        // The process may have ended meanwhile.
-        let _ = rustix::process::kill_process(pid, rustix::process::Signal::INT);
-    }
-}
-
-/// Without signals a run cannot be asked to stop, so it runs to its end.
-#[cfg(not(unix))]
-fn ask_to_stop(_: u32) {}
 
 fn table(sweep: &Sweep, outcome: &SweepOutcome<'_>, shown: &[String]) -> Table {
     let short = |key: &String| {

@@ -1,21 +1,11 @@
 //! Load path of a structure, from one change of contact to the next.
 
+use super::ConstrainedStructure;
 use super::held::pushed_away;
-use super::{ConstrainedStructure, LoadedState};
+use super::loaded_state::Way;
 use crate::contact::{Change, Path, PathEnd};
 use crate::error::{Error, Result};
-use nalgebra::DVector;
 use std::sync::Arc;
-
-/// A piece of the load path, with the state at its start.
-pub(super) struct Way {
-    path: Path,
-    start: LoadedState,
-    rate: Vec<f64>,
-    condensed_rate: DVector<f64>,
-    /// Whether the path stands at an event whose statuses have not been settled yet.
-    at_event: bool,
-}
 
 /// State at which [`ConstrainedStructure::step`] stopped.
 #[derive(Debug, Clone, PartialEq)]

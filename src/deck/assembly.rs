@@ -10,13 +10,14 @@
 //! *Abaqus Analysis User's Guide* 6.14, 2.10.1, "Defining an assembly".
 
 mod flat;
+mod keyword_block;
 mod placement;
 
-use super::fields::LineFields;
 use super::instances::Instances;
 use super::keyword::{Keyword, no_such};
-use super::source::{DeckLines, Line};
+use super::source::DeckLines;
 use crate::error::Result;
+use keyword_block::KeywordBlock;
 use placement::Placement;
 
 /// Keywords that begin and end parts, instances and assemblies.
@@ -45,32 +46,6 @@ const MOST_NAMED: usize = 4;
 /// Whether a keyword begins or ends a part, an instance or an assembly.
 pub(super) fn frames(keyword: &Keyword) -> bool {
     FRAMES.contains(&keyword.name.as_str())
-}
-
-/// A keyword with its data lines.
-struct KeywordBlock {
-    keyword: Keyword,
-    lines: Vec<Line>,
-}
-
-impl KeywordBlock {
-    /// The values of one of the block's lines.
-    fn fields<'a>(&'a self, source: &'a DeckLines, line: Line) -> LineFields<'a> {
-        let place = self.keyword.at(source.file(line), line.place);
-        LineFields::new(source.bytes(line), place)
-    }
-
-    /// Requires the block to have no more than `n` data lines.
-    fn no_more(&self, source: &DeckLines, n: usize) -> Result<()> {
-        self.lines.get(n).map_or(Ok(()), |&line| {
-            let place = self.fields(source, line).place;
-            Err(place.error("this line is one too many; take it out"))
-        })
-    }
-
-    fn is(&self, names: &[&str]) -> bool {
-        names.contains(&self.keyword.name.as_str())
-    }
 }
 
 /// A part with its blocks.

@@ -14,16 +14,7 @@ use super::sets::At;
 use super::source::LinePlace;
 use crate::error::Result;
 use crate::space::Space;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
-
-/// Boundary elements by their numbers: lines and shells, and plane elements in a mesh with solids.
-#[derive(Debug, Clone, Default)]
-pub(super) struct BoundaryElements {
-    /// Nodes of each boundary element, as numbered in the deck.
-    nodes: BTreeMap<u64, Vec<u64>>,
-    /// Place at which each type is named first.
-    types: BTreeMap<String, LinePlace>,
-}
+use std::collections::{BTreeSet, HashMap};
 
 /// The number of nodes of a type of lines or shells, which are boundary elements unless a section
 /// gives them stiffness.
@@ -36,26 +27,6 @@ pub(super) fn nodes_of_boundary(name: &str) -> Option<usize> {
         "S6" | "STRI65" | "M3D6" => Some(6),
         "S8" | "S8R" | "S8R5" | "M3D8" | "M3D8R" => Some(8),
         _ => None,
-    }
-}
-
-impl BoundaryElements {
-    pub(super) fn add(&mut self, label: u64, nodes: Vec<u64>) {
-        self.nodes.insert(label, nodes);
-    }
-
-    pub(super) fn note_type(&mut self, name: &str, place: LinePlace) {
-        self.types.entry(name.to_string()).or_insert(place);
-    }
-
-    pub(super) fn has(&self, label: u64) -> bool {
-        self.nodes.contains_key(&label)
-    }
-
-    /// Whether a boundary element has a number in the range `[first, last, step]`.
-    pub(super) fn any_of(&self, [first, last, step]: [u64; 3]) -> bool {
-        let mut between = self.nodes.range(first..=last);
-        between.any(|(label, _)| (label - first).is_multiple_of(step))
     }
 }
 

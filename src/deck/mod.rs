@@ -26,6 +26,7 @@ mod adjust;
 mod assembly;
 mod bodies;
 mod boundary;
+mod boundary_elements;
 mod constraints;
 mod conversion;
 mod data;
@@ -55,17 +56,13 @@ pub(crate) use element_type::face_number;
 pub use load::{is_deck, load, load_with};
 
 use crate::error::{Error, Result};
-use crate::files;
 use crate::labels::LabelIndex;
 use crate::shape::Shape;
 use crate::space::Vector;
-use boundary::BoundaryElements;
+use boundary_elements::BoundaryElements;
 use data::{DeckElements, DeckProgram, Nodes, Properties, Sets};
 use instances::Instances;
-use reader::Reader;
-use source::{DeckLines, Files, LinePlace};
-use std::borrow::Cow;
-use std::path::Path;
+use source::{Files, LinePlace};
 
 /// A deck that has been read.
 #[derive(Default)]
@@ -94,35 +91,6 @@ pub struct Deck {
 }
 
 impl Deck {
-    /// Reads a deck and the files that it includes, whose paths are relative to the deck's
-    /// directory.
-    ///
-    /// # Errors
-    /// `Io` if a file cannot be read; `Input` with file, line and keyword if the deck is damaged or
-    /// has an unknown keyword; `Unsupported` for elements that brinell does not have.
-    pub fn read(path: &Path) -> Result<Deck> {
-        let text = files::read("read the deck", path, None)?;
-        let name = path.display().to_string();
-        Reader::new(DeckLines::new(Cow::Owned(text), &name, path.parent())).read()
-    }
-
-    /// Reads a deck from the bytes of a file; `name` stands for the file in messages. Paths of
-    /// included files are relative to the working directory.
-    ///
-    /// ```
-    /// use brinell::deck::Deck;
-    ///
-    /// let error = Deck::parse(b"*NODE\n1, 0., zero", "block.inp").err().unwrap();
-    /// let expected = "block.inp, line 2: *NODE: y is `zero`; give a finite number";
-    /// assert_eq!(error.to_string(), expected);
-    /// ```
-    ///
-    /// # Errors
-    /// As for [`Deck::read`].
-    pub fn parse(text: &[u8], name: &str) -> Result<Deck> {
-        Reader::new(DeckLines::new(Cow::Borrowed(text), name, None)).read()
-    }
-
     /// The account of what was understood, interpreted differently, ignored, and refused.
     pub fn account(&self) -> &Account {
         &self.account

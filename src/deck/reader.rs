@@ -16,9 +16,43 @@ use super::keyword::{Keyword, Use};
 use super::source::{DeckLines, Line};
 use super::{Deck, LinePlace};
 use crate::error::Result;
+use crate::files;
+use std::borrow::Cow;
+use std::path::Path;
+
+impl Deck {
+    /// Reads a deck and the files that it includes, whose paths are relative to the deck's
+    /// directory.
+    ///
+    /// # Errors
+    /// `Io` if a file cannot be read; `Input` with file, line and keyword if the deck is damaged or
+    /// has an unknown keyword; `Unsupported` for elements that brinell does not have.
+    pub fn read(path: &Path) -> Result<Deck> {
+        let text = files::read("read the deck", path, None)?;
+        let name = path.display().to_string();
+        Reader::new(DeckLines::new(Cow::Owned(text), &name, path.parent())).read()
+    }
+
+    /// Reads a deck from the bytes of a file; `name` stands for the file in messages. Paths of
+    /// included files are relative to the working directory.
+    ///
+    /// ```
+    /// use brinell::deck::Deck;
+    ///
+    /// let error = Deck::parse(b"*NODE\n1, 0., zero", "block.inp").err().unwrap();
+    /// let expected = "block.inp, line 2: *NODE: y is `zero`; give a finite number";
+    /// assert_eq!(error.to_string(), expected);
+    /// ```
+    ///
+    /// # Errors
+    /// As for [`Deck::read`].
+    pub fn parse(text: &[u8], name: &str) -> Result<Deck> {
+        Reader::new(DeckLines::new(Cow::Borrowed(text), name, None)).read()
+    }
+}
 
 /// A deck that is being read.
-pub(super) struct Reader<'t> {
+struct Reader<'t> {
     source: DeckLines<'t>,
     deck: Deck,
     /// The material to which the next keywords belong.

@@ -18,7 +18,7 @@
 //! Demmel, I. S. Duff (1989), doi:10.1137/0610013 (rows without load).
 
 use super::SymmetricCsc;
-use super::residual::RowSums;
+use super::row_sums::RowSums;
 use crate::error::Result;
 
 /// Largest number of steps, for a condition at which each step gains only one digit.

@@ -2,7 +2,7 @@
 
 #[cfg(feature = "mumps")]
 use super::mumps;
-use super::residual::{RowSums, largest, norm};
+use super::row_sums::{RowSums, largest, norm};
 use super::{Backend, Condensed, Partition, Prediction, SymmetricCsc, condense, predict};
 #[cfg(feature = "mumps")]
 use crate::error::Error;

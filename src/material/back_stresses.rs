@@ -23,7 +23,8 @@
 //! RD/B/N 731 (1966), reprinted in doi:10.3184/096034007X207589; J. L. Chaboche (1989),
 //! doi:10.1016/0749-6419(89)90015-6.
 
-use super::{PlasticState, double_dot, tensor_of};
+use super::history::PlasticState;
+use super::tensor::{double_dot, tensor_of};
 use serde::{Deserialize, Serialize};
 
 /// Back stresses of a material, linear (Prager) and fading ones.

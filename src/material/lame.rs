@@ -1,6 +1,6 @@
 //! Isotropic tensors: the elastic law, and its reduction by plastic flow.
 
-use super::sum;
+use super::tensor::{resized, sum};
 use serde::{Deserialize, Serialize};
 
 /// Isotropic law `lambda 1 1' + 2 mu I` for strain vectors with engineering shear:
@@ -93,7 +93,7 @@ impl<const S: usize> Softening<S> {
         Softening {
             isotropic: self.isotropic,
             along: self.along,
-            normal: super::resized(&self.normal),
+            normal: resized(&self.normal),
         }
     }
 

@@ -22,10 +22,8 @@
 //! N. Ohno (2002), doi:10.1002/nme.428, with their implicit rule for each back stress replaced by
 //! its closed form.
 
-use super::{
-    Hardening, Lame, Material, Past, PlasticState, Softening, Update, double_dot, flow_to_root,
-    von_mises,
-};
+use super::tensor::{double_dot, von_mises};
+use super::{Hardening, Lame, Material, Past, PlasticState, Softening, Update, flow_to_root};
 
 /// Plastic flow of one increment.
 pub(super) struct PlasticFlow<const S: usize> {

@@ -1,3 +1,4 @@
+use super::tensor::{double_dot, tensor_of};
 use super::*;
 
 mod fading;

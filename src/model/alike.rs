@@ -1,6 +1,6 @@
 //! Loads with equal factors, to whose sum the structure responds, whatever their number.
 
-use super::loads::LoadCase;
+use super::load_case::LoadCase;
 
 /// Groups the loads by their histories and by what they measure, each list ascending: the factors
 /// of the loads of one list are equal at every point of the load path. The leading load, whose

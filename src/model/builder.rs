@@ -295,7 +295,7 @@ impl ModelBuilder {
         let mut mesh = self.mesh.clone();
         mesh.node_labels = (0..mesh.n_nodes() as u64).collect();
         mesh.element_labels = (0..mesh.n_elements() as u64).collect();
-        Model::resolve(&scene, mesh, Origin::Arrays(self.given.clone()))
+        Model::made(&scene, mesh, Origin::Arrays(self.given.clone()))
     }
 }
 

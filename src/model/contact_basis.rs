@@ -17,7 +17,7 @@
 //! A. Popp, B. Wohlmuth, M. Gee, W. Wall, *Dual quadratic mortar finite element methods for 3D
 //! finite deformation contact*, SIAM J. Sci. Comput. 34 (2012) B421, doi:10.1137/110848190.
 
-use super::pairs::ties::ResolvedTie;
+use super::pairs::resolved_tie::ResolvedTie;
 use super::pairs::{ContactSurface, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Surface};

@@ -5,13 +5,15 @@
 //! reliable. At a corner of one of the bodies, on a symmetry plane and on the axis of revolution
 //! nothing more could touch.
 
+mod beside;
 mod solid;
 
-use super::pairs::ties::ResolvedTie;
+use super::pairs::resolved_tie::ResolvedTie;
 use super::{ContactSurface, Pair};
 use crate::mesh::surface::FEATURE_ANGLE;
 use crate::mesh::{Facet, Mesh};
 use crate::scene::Scene;
+use beside::Beside;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// An end of a run of pairs: its last pair and the one before it.
@@ -35,38 +37,6 @@ pub(super) fn find(
     }
     for contact in contacts.iter_mut().filter(|contact| contact.is_partial) {
         contact.goes_on.clear();
-    }
-}
-
-/// What may follow a contact beyond its end: another contact, or a tie.
-struct Beside {
-    /// Facets of the surfaces of all contacts and ties.
-    facets: BTreeSet<Facet>,
-    /// Nodes of pairs and of ties, and nodes whose supports carry what would press there.
-    nodes: BTreeSet<usize>,
-}
-
-impl Beside {
-    fn new(
-        scene: &Scene,
-        mesh: &Mesh,
-        (pairs, ties): (&[Pair], &[ResolvedTie]),
-        contacts: &[ContactSurface],
-    ) -> Self {
-        let of_contacts = contacts.iter().flat_map(|contact| &contact.names);
-        let of_ties = scene.tie.iter().flat_map(|tie| [&tie.first, &tie.second]);
-        let surfaces = of_contacts.chain(of_ties);
-        let surfaces = surfaces.filter_map(|name| mesh.surfaces.get(name));
-        let held = contacts
-            .iter()
-            .flat_map(|contact| contact.held.iter().copied());
-        let rows = pairs.iter().chain(ties.iter().flat_map(|tie| &tie.rows));
-        Beside {
-            facets: surfaces
-                .flat_map(|surface| surface.facets.iter().copied())
-                .collect(),
-            nodes: rows.flat_map(Pair::nodes).chain(held).collect(),
-        }
     }
 }
 

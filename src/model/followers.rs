@@ -16,10 +16,10 @@
 //! Held nodes, and nodes of two interfaces: B. Wohlmuth, *Discretization methods and iterative
 //! solvers based on domain decomposition*, Springer 2001, section 1.2.
 
-use super::equations::Following;
+use super::following::Following;
 use super::freedoms::{Freedoms, Prescribed, Slot};
 use super::pairs::Pair;
-use super::pairs::ties::ResolvedTie;
+use super::pairs::resolved_tie::ResolvedTie;
 use super::prescribed::FollowingMiddle;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
@@ -347,43 +347,6 @@ impl Freedoms {
             mesh.coordinates[d * node..d * (node + 1)].copy_from_slice(&x[..d]);
         }
         moved
-    }
-
-    /// Calls `of` with the free freedoms and prescribed displacements of a slot, and their
-    /// coefficients.
-    #[inline]
-    pub(super) fn each(&self, slot: Slot, mut of: impl FnMut(Slot, f64)) {
-        match slot {
-            Slot::Sum(k) => {
-                for &(node, i, c) in self.followed_axes(k) {
-                    match self.slots[node as usize][usize::from(i)] {
-                        Slot::Fixed => {}
-                        slot => of(slot, c),
-                    }
-                }
-                for &(p, c) in &self.follower_values[k as usize] {
-                    of(Slot::Prescribed(p), c);
-                }
-            }
-            Slot::Fixed => {}
-            slot => of(slot, 1.0),
-        }
-    }
-
-    /// Number of displacements that follow others, in ties and equations.
-    pub(crate) fn n_tied(&self) -> usize {
-        self.followers.len()
-    }
-
-    /// Whether the displacement of a slot that is a sum follows others through a tie, not through
-    /// an equation.
-    pub(crate) fn is_of_tie(&self, tied: u32) -> bool {
-        (tied as usize) < self.n_followers_of_ties
-    }
-
-    /// Nodes, axes and coefficients whose sum a tied slot is.
-    pub fn followed_axes(&self, tied: u32) -> &[(u32, u8, f64)] {
-        &self.followers[tied as usize]
     }
 }
 

@@ -11,7 +11,6 @@
 //! The free strain is interpolated between the nodes. Linear elements take the mean of their nodes'
 //! values, as their stress cannot follow more.
 
-use super::Model;
 use crate::element::{Gradients, Kernel, with_kernel};
 use crate::material::Lame;
 use crate::mesh::Mesh;
@@ -113,7 +112,16 @@ pub struct FreeOfLoad<'a> {
     strain: Cow<'a, FreeStrain>,
 }
 
-impl FreeOfLoad<'_> {
+impl<'a> FreeOfLoad<'a> {
+    /// A strain that the load with a number causes in the elements of a body.
+    pub(super) fn new(load: usize, body: u32, strain: &'a FreeStrain) -> Self {
+        FreeOfLoad {
+            load,
+            body,
+            strain: Cow::Borrowed(strain),
+        }
+    }
+
     /// Components in which the load has a free strain.
     pub fn components(&self) -> &Range<usize> {
         &self.strain.components
@@ -138,20 +146,5 @@ impl FreeOfLoad<'_> {
             body: self.body,
             strain: Cow::Owned(strain),
         }
-    }
-}
-
-impl Model {
-    /// Free strains of all loads of the model.
-    pub fn free_of_loads(&self) -> Vec<FreeOfLoad<'_>> {
-        let loads = self.loads.iter().enumerate();
-        let each = loads.flat_map(|(index, load)| {
-            load.free_strain.iter().map(move |strain| FreeOfLoad {
-                load: index,
-                body: load.body,
-                strain: Cow::Borrowed(strain),
-            })
-        });
-        each.collect()
     }
 }

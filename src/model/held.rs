@@ -6,7 +6,8 @@
 
 use super::far_boundary::{FarBoundary, StoppedMotion};
 use super::motions::{self, FREE, Mode, Motions};
-use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary};
+use super::rigid_motion::RigidMotion;
+use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary, springs};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
 use crate::space::Space;
@@ -44,69 +45,6 @@ impl FloatingBodies {
     }
 }
 
-/// A rigid motion that supports leave free: a null vector of the stiffness. It is known exactly,
-/// whereas a factorisation would find it only up to round-off of the body's stiffness.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RigidMotion {
-    /// Number of the part of the model that moves.
-    pub part: usize,
-    /// Displacement of the freedoms that move (free freedom, value), ascending. Rotations are
-    /// scaled to the body's size: values are of order 1.
-    pub values: Vec<(u32, f64)>,
-    /// Weights that give the share of the motion in any displacement `u`, measured on the part's
-    /// far boundary: `sum weight u[freedom]`.
-    pub in_far_boundary: Vec<(u32, f64)>,
-}
-
-impl RigidMotion {
-    /// Displacement of a free freedom in this motion.
-    pub fn at(&self, freedom: usize) -> f64 {
-        let place = self
-            .values
-            .binary_search_by_key(&(freedom as u32), |&(f, _)| f);
-        place.map_or(0.0, |at| self.values[at].1)
-    }
-
-    /// Work of forces on free freedoms (freedom, force) on the motion.
-    pub fn work_of<'f>(&self, forces: impl Iterator<Item = &'f (usize, f64)>) -> Work {
-        let works = forces.map(|&(freedom, force)| force * self.at(freedom));
-        works.fold(Work::default(), |sum, work| sum.and(1.0, work, work.abs()))
-    }
-}
-
-/// Work on a rigid motion: the sum of its terms, and the sum of their sizes.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Work {
-    sum: f64,
-    size: f64,
-}
-
-impl Work {
-    /// Adds `share` of another work with the given sum and size.
-    fn and(self, share: f64, sum: f64, size: f64) -> Self {
-        Work {
-            sum: self.sum + share * sum,
-            size: self.size + share.abs() * size,
-        }
-    }
-
-    /// Work on a motion that is a combination of others.
-    pub fn combined(shares: impl Iterator<Item = (f64, Work)>) -> Self {
-        shares.fold(Work::default(), |all, (share, own)| {
-            all.and(share, own.sum, own.size)
-        })
-    }
-
-    /// Value of the work; zero if it is only the round-off of its terms.
-    pub fn done(self) -> f64 {
-        if self.sum.abs() > NO_WORK * self.size {
-            self.sum
-        } else {
-            0.0
-        }
-    }
-}
-
 /// A freedom that was pinned because nothing else held it and no load does work on its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pin {
@@ -116,8 +54,6 @@ pub struct Pin {
     pub node: usize,
 }
 
-/// Work that counts as zero, relative to the sum of the sizes of its terms.
-const NO_WORK: f64 = 1e-9;
 /// Work that counts as zero on a motion that moves no pair by more than [`FREE`] of its own
 /// displacement, relative to the sum of the sizes of its terms. The centre of a round surface is
 /// known no more accurately than that, and a load through it does about that much work.
@@ -150,7 +86,7 @@ pub(super) fn resolve(
             "{motion}: nothing holds this motion and no load drives it; it is held at node {node}"
         ));
     }
-    freedoms.add_springs(pairs, contacts);
+    springs::add(freedoms, pairs, contacts);
     let rows = ContactRows::of(mesh, freedoms, pairs)?;
     let owner = |&freedom: &usize| motions.group_of_node[freedoms.owners[freedom].0 as usize];
     let group_of_contact: Vec<usize> = rows.freedoms.iter().map(owner).collect();

@@ -9,7 +9,7 @@
 use super::Freedoms;
 use super::depth;
 use super::heat::{self, FreeStrain};
-use super::loads::{LoadCase, Magnitude, on_freedoms};
+use super::load_case::{LoadCase, Magnitude, on_freedoms};
 use super::pairs::ContactSurface;
 use crate::error::Result;
 use crate::interpolation::interpolate;

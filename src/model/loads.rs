@@ -1,7 +1,7 @@
 //! Loads of a scene as vectors on the free freedoms.
 
 use super::given::Given;
-use super::heat::FreeStrain;
+use super::load_case::{LoadCase, Magnitude, name, on_freedoms};
 use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
 use super::openings::{Opening, opened};
@@ -9,133 +9,10 @@ use super::tractions::{Tractions, integrate};
 use super::{ContactSurface, Freedoms, Pair, Slot, volume_loads};
 use crate::analytical::KirschField;
 use crate::error::{Error, Result};
-use crate::interpolation::interpolate;
 use crate::mesh::Mesh;
 use crate::scene::{self, Displacement, Field, History, Scene};
 use crate::space::{Space, Vector, along, dot, length, unit};
-
-/// Quantity that the reported magnitude of a load measures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Magnitude {
-    /// Total force on the whole (all copies of a symmetric model).
-    Force,
-    /// Pressure, traction or remote stress.
-    Stress,
-    /// Prescribed displacement.
-    Displacement,
-    /// Change of temperature.
-    Temperature,
-    /// Change of gaps in contact.
-    Gap,
-    /// Initial strain of a body.
-    Strain,
-    /// Displacements and support forces that an earlier leg of the program has left.
-    Carried,
-}
-
-/// A load: nodal forces per unit of its factor, and how the factor depends on the load factor.
-#[derive(Debug, Clone)]
-pub struct LoadCase {
-    /// Name of the load for messages.
-    pub name: String,
-    /// Nodal forces at factor 1, node by node in global axes (sparse).
-    pub(super) nodal: Vec<(usize, Vector)>,
-    /// Forces on the free freedoms at factor 1 (sparse, ascending).
-    pub forces: Vec<(usize, f64)>,
-    /// Dependence of the load on the load factor.
-    pub history: History,
-    /// Magnitude at factor 1, such as a force, stress or displacement.
-    pub magnitude: f64,
-    /// Quantity that the magnitude measures.
-    pub measures: Magnitude,
-    /// Nodes of the loaded set, for the approach.
-    pub nodes: Vec<usize>,
-    /// Share of each node in the mean over the loaded set: for a surface its part of the area (the
-    /// integral of its shape function), for a node set equal parts. The shares add up to 1.
-    pub shares: Vec<f64>,
-    /// Body to which the loaded nodes belong, for the approach.
-    pub body: u32,
-    /// Unit direction of the load, for the approach.
-    pub direction: Vector,
-    /// Strains without stress at factor 1, from temperature or initial strain, in the elements of
-    /// the load's body.
-    pub free_strain: Vec<FreeStrain>,
-    /// Contacts whose gaps this load changes, with the change at factor 1; empty for other loads.
-    pub opens: Vec<(usize, Opening)>,
-}
-
-impl LoadCase {
-    /// Factor of this load at load factor `alpha`, where `unit` is the value that `alpha = 1`
-    /// represents.
-    pub fn factor(&self, alpha: f64, unit: f64) -> f64 {
-        match &self.history {
-            History::Proportional => alpha * unit,
-            History::Constant => 1.0,
-            History::Table(rows) => interpolate(rows, alpha),
-        }
-    }
-
-    /// Gap that the load adds to a pair at factor 1.
-    pub fn gap(&self, pair: &Pair) -> f64 {
-        let opened = self
-            .opens
-            .iter()
-            .filter(|(contact, _)| *contact == pair.contact);
-        opened
-            .map(|(_, opening)| opening.at(pair.slave) * pair.unit_gap)
-            .sum()
-    }
-
-    /// Whether the load changes anything at factor 1.
-    pub(crate) fn acts(&self) -> bool {
-        match self.measures {
-            Magnitude::Displacement => self.magnitude != 0.0,
-            Magnitude::Gap | Magnitude::Carried => self.magnitude != 0.0,
-            _ => !self.free_strain.is_empty() || self.nodal.iter().any(|(_, f)| *f != [0.0; 3]),
-        }
-    }
-
-    /// Sum of the absolute values of the nodal forces at factor 1.
-    pub fn size(&self) -> f64 {
-        self.nodal.iter().map(|(_, f)| length(*f)).sum()
-    }
-
-    /// Largest magnitude that the load reaches, for proportional loads at a load factor of 1: the
-    /// sum of nodal forces, or the displacement; zero for a constant load.
-    pub fn driven(&self, unit: f64) -> f64 {
-        let factor = match &self.history {
-            History::Proportional => unit.abs(),
-            History::Constant => 0.0,
-            History::Table(rows) => rows.iter().fold(0.0f64, |m, row| m.max(row[1].abs())),
-        };
-        let size = match self.measures {
-            Magnitude::Displacement => self.magnitude.abs(),
-            Magnitude::Carried => 0.0,
-            _ => self.size(),
-        };
-        factor * size
-    }
-
-    /// Load factors at which the history has a kink.
-    pub fn kinks(&self) -> impl Iterator<Item = f64> + '_ {
-        let rows: &[[f64; 2]] = if let History::Table(rows) = &self.history {
-            rows
-        } else {
-            &[]
-        };
-        rows.iter().map(|r| r[0])
-    }
-
-    /// Calls `act` with each slot on which a force acts, and the force at factor 1.
-    pub(crate) fn each_on_slots(&self, freedoms: &Freedoms, act: impl FnMut(Slot, f64)) {
-        each_on_slots(&self.nodal, freedoms, act);
-    }
-
-    /// Nodal forces as vectors in global axes, on control points.
-    pub(super) fn nodal(&self) -> &[(usize, Vector)] {
-        &self.nodal
-    }
-}
+use std::collections::BTreeMap;
 
 pub(super) fn resolve(
     scene: &Scene,
@@ -189,6 +66,35 @@ pub(super) fn renumber(mut loads: Vec<LoadCase>, freedoms: &Freedoms) -> Vec<Loa
     loads
 }
 
+/// Lets prescribed displacements of masters change the gaps of their pairs: by `n . sum_k w_k d_k`,
+/// with the normal `n` from the slave towards the masters `k`, which move by `d_k`.
+pub(super) fn open_by_moved_masters(
+    loads: &mut [LoadCase],
+    freedoms: &Freedoms,
+    (pairs, contacts): (&[Pair], &[ContactSurface]),
+) {
+    for (index, contact) in contacts.iter().enumerate() {
+        let mut of_loads: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
+        for pair in &pairs[contact.range.clone()] {
+            for &(node, weight) in &pair.masters {
+                for (slot, axis) in freedoms.of_node(node).iter().zip(freedoms.local(node)) {
+                    freedoms.each(*slot, |slot, c| {
+                        if let Slot::Prescribed(p) = slot {
+                            let prescribed = freedoms.prescribed[p as usize];
+                            let moved = weight * c * prescribed.value * dot(pair.normal, axis);
+                            let gaps = of_loads.entry(prescribed.load).or_default();
+                            *gaps.entry(pair.slave).or_default() += moved / pair.unit_gap;
+                        }
+                    });
+                }
+            }
+        }
+        for (load, gaps) in of_loads {
+            loads[load].opens.push((index, Opening::At(gaps)));
+        }
+    }
+}
+
 /// Body to which the first of the given nodes belongs.
 fn body_of(mesh: &Mesh, nodes: &[usize]) -> u32 {
     let holds = |e: &usize| {
@@ -197,26 +103,6 @@ fn body_of(mesh: &Mesh, nodes: &[usize]) -> u32 {
     };
     let element = (0..mesh.n_elements()).find(holds);
     element.map_or(0, |e| mesh.element_body[e])
-}
-
-impl LoadCase {
-    /// A load without nodes and forces, for what an earlier leg of the program has left.
-    pub(super) fn carried(name: &str, history: History) -> LoadCase {
-        LoadCase {
-            name: name.to_string(),
-            nodal: Vec::new(),
-            forces: Vec::new(),
-            history,
-            magnitude: 0.0,
-            measures: Magnitude::Carried,
-            nodes: Vec::new(),
-            shares: Vec::new(),
-            body: 0,
-            direction: [0.0; 3],
-            free_strain: Vec::new(),
-            opens: Vec::new(),
-        }
-    }
 }
 
 fn resolve_load(
@@ -269,13 +155,6 @@ fn resolve_load(
         case.press((index, load), &entry, scene, mesh)?;
     }
     Ok(case)
-}
-
-pub(super) fn name(index: usize, load: &scene::Load) -> String {
-    match load.name.is_empty() {
-        true => format!("load {}", index + 1),
-        false => load.name.clone(),
-    }
 }
 
 impl LoadCase {
@@ -386,15 +265,6 @@ impl LoadCase {
         }
         Ok(())
     }
-
-    pub(super) fn set_size(&mut self, vector: Vector, measures: Magnitude) {
-        let size = length(vector);
-        self.magnitude = size;
-        self.measures = measures;
-        if size > 0.0 {
-            self.direction = vector.map(|v| v / size);
-        }
-    }
 }
 
 /// Share of each node in the mean over a surface or node set.
@@ -427,22 +297,4 @@ fn area(space: Space, mesh: &Mesh, surface: &crate::mesh::Surface) -> f64 {
 fn total(nodal: &[(usize, Vector)]) -> Vector {
     let sum = |s: Vector, f: &Vector| std::array::from_fn(|d| s[d] + f[d]);
     nodal.iter().fold([0.0; 3], |s, (_, f)| sum(s, f))
-}
-
-pub(super) fn on_freedoms(nodal: &[(usize, Vector)], freedoms: &Freedoms) -> Vec<(usize, f64)> {
-    let mut out = std::collections::BTreeMap::new();
-    each_on_slots(nodal, freedoms, |slot, force| {
-        if let Slot::Free(f) = slot {
-            *out.entry(f as usize).or_insert(0.0) += force;
-        }
-    });
-    out.into_iter().collect()
-}
-
-fn each_on_slots(nodal: &[(usize, Vector)], freedoms: &Freedoms, mut act: impl FnMut(Slot, f64)) {
-    for &(node, force) in nodal {
-        for (slot, axis) in freedoms.slots[node].iter().zip(freedoms.local(node)) {
-            freedoms.each(*slot, |slot, c| act(slot, c * dot(force, axis)));
-        }
-    }
 }

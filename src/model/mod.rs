@@ -7,6 +7,7 @@ mod alike;
 mod body_forces;
 mod builder;
 mod carried;
+mod carried_loads;
 mod contact_basis;
 mod continuum;
 mod depth;
@@ -15,6 +16,7 @@ mod equations;
 mod far_boundary;
 mod fitness;
 mod followers;
+mod following;
 mod frame;
 mod freedoms;
 mod given;
@@ -23,22 +25,28 @@ mod heat;
 mod held;
 pub(crate) mod images;
 mod initial_strain;
+mod load_case;
 mod loads;
+mod making;
 pub(crate) mod mirror;
 mod motions;
 mod names;
+mod numbering;
 mod on_mesh;
 mod openings;
 mod pairs;
 mod plausible;
 mod prescribed;
 mod recipe;
+mod resolve;
 mod rigid;
+mod rigid_motion;
 mod rows;
 mod solved;
 mod springs;
 mod sums;
 mod supports;
+pub(crate) mod symmetry;
 mod tractions;
 mod volume_loads;
 mod yield_depth;
@@ -47,28 +55,23 @@ pub use builder::ModelBuilder;
 pub use contact_basis::ContactBasis;
 pub use continuum::Continuum;
 pub use frame::Frame;
-pub use freedoms::{Freedoms, Prescribed, Slot};
+pub use freedoms::{Freedoms, Prescribed, Slot, Spring};
 pub use given::NodePair;
 pub use heat::{FreeOfLoad, FreeStrain};
-pub use held::{FloatingBodies, Pin, RigidMotion, Work};
-pub use loads::{LoadCase, Magnitude};
+pub use held::{FloatingBodies, Pin};
+pub use load_case::{LoadCase, Magnitude};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
+pub use rigid_motion::{RigidMotion, Work};
 pub use rows::ContactRows;
-pub use springs::Spring;
 pub use sums::Sums;
 pub use yield_depth::YieldByDepth;
 
-use crate::deck::words;
-use crate::error::{Error, Result};
-use crate::material::Material;
-use crate::mesh::{self, Mesh};
 use crate::results::EndState;
-use crate::scene::{Plastic, Scene};
+use crate::scene::Scene;
 use crate::space::Vector;
 pub(crate) use far_boundary::volumes_of_nodes;
 use given::Given;
 pub(crate) use mirror::Mirror;
-use names::SceneEntry;
 use rayon::prelude::*;
 pub(crate) use recipe::Recipe;
 use std::ops::Deref;
@@ -142,42 +145,6 @@ impl Model {
         self.alike.iter().map(|loads| factors[loads[0]])
     }
 
-    /// Builds the model of a scene: makes or reads its mesh, resolves names, pairs surfaces.
-    ///
-    /// # Errors
-    /// Input errors naming the scene entry and the node, body or set; [`crate::ErrorKind::Unheld`]
-    /// if a body can move freely and the loads do work on that motion.
-    pub fn new(scene: &Scene) -> Result<Self> {
-        let made = build_mesh(scene).and_then(|mesh| Self::resolve(scene, mesh, Origin::Scene));
-        let mut model = made.map_err(|error| words::of_deck(scene, error))?;
-        for text in &mut model.warnings {
-            *text = words::text_of_deck(scene, text);
-        }
-        Ok(model)
-    }
-
-    /// Builds the model of a scene on a given mesh (the scene's `mesh` entry is ignored).
-    ///
-    /// ```
-    /// use brinell::{mesh::gmsh, model::Model, scene::Scene};
-    /// use std::path::Path;
-    ///
-    /// # fn main() -> brinell::Result<()> {
-    /// let mesh = gmsh::read(Path::new("data/meshes/two_blocks.msh"))?;
-    /// let scene = Scene::load("data/scenes/gmsh_blocks.toml")?;
-    /// let model = Model::from_mesh(&scene, mesh)?;
-    /// println!("{} freedoms, {} contact pairs", model.freedoms.n, model.pairs.len());
-    /// # assert!(model.freedoms.n > 0 && !model.pairs.is_empty());
-    /// # Ok(())
-    /// # }
-    /// ```
-    ///
-    /// # Errors
-    /// Errors of [`Model::new`].
-    pub fn from_mesh(scene: &Scene, mesh: Mesh) -> Result<Self> {
-        Self::resolve(scene, mesh, Origin::Arrays(Given::default()))
-    }
-
     /// Data given in addition to the scene.
     fn given(&self) -> Given {
         match &self.origin {
@@ -191,101 +158,6 @@ impl Model {
         matches!(self.origin, Origin::Scene)
     }
 
-    fn resolve(scene: &Scene, mut mesh: Mesh, origin: Origin) -> Result<Self> {
-        let none = Given::default();
-        let given = match &origin {
-            Origin::Scene => &none,
-            Origin::Arrays(given) => given,
-        };
-        let kind = scene.kind;
-        let rigid = fitness::prepare(scene, &mut mesh, origin.mesh_file(scene))?;
-        let mut warnings = scene.warnings.clone();
-        warnings.extend(std::mem::take(&mut mesh.notes));
-        warnings.extend(scene.beyond_rows());
-        let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
-        warnings.extend(plausible::of_materials(scene));
-        fitness::warn_of_locking(scene, &mesh, &may_yield, &mut warnings);
-        warnings.extend(mesh::warning_of_folds(&mesh));
-        if kind.is_axisymmetric() {
-            fitness::check_radii(&mesh)?;
-        }
-        let (mut pairs, mut contacts) =
-            pairs::resolve(scene, &mesh, (given, &rigid), &mut warnings)?;
-        let ties = pairs::ties::resolve(scene, &mesh, &contacts, &mut warnings)?;
-        let basis = ContactBasis::of(&mesh, &pairs, &contacts, &ties)?;
-        let equations = equations::resolve(scene, &mesh, given.carried.as_ref())?;
-        let normals = pairs::mortar::master_normals(&mesh, &pairs, &contacts);
-        let (mut freedoms, followers) = Freedoms::new(
-            scene,
-            &mesh,
-            basis,
-            &mut pairs,
-            &normals,
-            (&ties, &equations, &rigid),
-            given.carried.as_ref(),
-        )?;
-        warnings.extend(settle(&mut mesh, &mut freedoms, &followers)?);
-        freedoms.basis.restate(&mut pairs, &contacts);
-        let stated = (&mut pairs[..], &contacts[..]);
-        pairs::stated::at_control_points(scene, &mesh, &freedoms.basis, stated)?;
-        let of_bodies = (&materials[..], &contacts[..]);
-        let loads = load_cases(scene, &mesh, given, &freedoms, &pairs, of_bodies)?;
-        check_targets(scene, &mesh)?;
-        let (floating, rows) = held::resolve(
-            kind,
-            &mesh,
-            &mut freedoms,
-            (&pairs, &contacts),
-            &loads,
-            &mut warnings,
-        )?;
-        let loads = loads::renumber(loads, &freedoms);
-        ends::find(scene, &mesh, (&pairs, &ties), &mut contacts);
-        let yield_by_depth = yield_depth::resolve(scene, &mesh, &materials, &contacts)?;
-        if matches!(origin, Origin::Scene) {
-            warnings.extend(mesh::generate::contact_size::warning(scene));
-        }
-        let model = Model {
-            scene: scene.clone(),
-            continuum: Continuum {
-                kind,
-                formulation: scene.mesh.formulation,
-                mesh,
-                materials,
-                may_yield,
-                yield_by_depth,
-                point_values: scene.requests.point_values,
-            },
-            freedoms,
-            pairs,
-            rows,
-            contacts,
-            alike: alike::alike(&loads, loads::leading(scene, &loads)),
-            loads,
-            floating,
-            symmetry: scene.symmetry as f64,
-            warnings,
-            start: None,
-            origin,
-        };
-        model.completed()
-    }
-
-    /// Adds what is found on the whole model: the mirrors of its contacts, a warning about its
-    /// symmetry, and a check of the later legs of the program.
-    fn completed(mut self) -> Result<Self> {
-        let mirrors = Mirror::of_contacts(&self);
-        for (contact, mirrors) in self.contacts.iter_mut().zip(mirrors) {
-            contact.mirrors = mirrors;
-        }
-        let warning = plausible::of_symmetry(&self);
-        self.warnings.extend(warning);
-        if self.start_of_leg() == 0.0 {
-            self.check_later_legs()?;
-        }
-        Ok(self)
-    }
-
     /// For each contact freedom, whether it is the motion of a rigid surface, or of bodies that
     /// equations let move as rigid ones only. No stiffness acts on such a freedom.
     pub(crate) fn rigid_contact(&self) -> Vec<bool> {
@@ -295,6 +167,16 @@ impl Model {
             self.freedoms.is_rigid(node) || of_bodies.contains(&freedom)
         };
         self.rows.freedoms.iter().map(is_rigid).collect()
+    }
+
+    /// Free strains of all loads of the model.
+    pub fn free_of_loads(&self) -> Vec<FreeOfLoad<'_>> {
+        let loads = self.loads.iter().enumerate();
+        let each = loads.flat_map(|(index, load)| {
+            let strains = load.free_strain.iter();
+            strains.map(move |strain| FreeOfLoad::new(index, load.body, strain))
+        });
+        each.collect()
     }
 
     /// Displacements of all nodes in global axes, from free freedoms and load factors.
@@ -323,149 +205,4 @@ impl Origin {
             Origin::Arrays(_) => None,
         }
     }
-}
-
-fn build_mesh(scene: &Scene) -> Result<Mesh> {
-    let folder = scene.file.as_deref().and_then(Path::parent);
-    let made = mesh::generate::from_source(
-        &scene.mesh,
-        folder,
-        |p| mesh::generate::contact_size::of(scene, p),
-        |p| mesh::generate::ellipse_size::of(scene, p),
-    );
-    let mut mesh = made.map_err(|error| match scene.mesh.file {
-        // Messages about a deck name its file and line themselves.
-        Some(_) if scene.requests.is_of_deck() => error,
-        Some(_) => scene.places.in_front("mesh.file", error),
-        None => scene.places.in_front("mesh", error),
-    })?;
-    let declared = mesh::declared(&scene.mesh);
-    mesh.name_parts(declared.iter().map(|(_, on, _)| *on));
-    for (key, on, curve) in declared {
-        mesh::lay_on(&mut mesh, on, curve).map_err(|error| {
-            let error = error.within(format!("{key} (`{on}`)"));
-            scene.places.in_front(&key, error)
-        })?;
-    }
-    // The shapes that sets declare for their surfaces are needed here.
-    mesh.name_parts(scene.set_names());
-    let times = scene.mesh.subdivisions;
-    if times > 0 {
-        // Errors in the file are reported with the file's own numbers.
-        mesh::validate(&mesh)?;
-        mesh = mesh::subdivided(mesh, times, &scene.contact)?;
-        mesh::validate(&mesh).map_err(|e| {
-            e.within(
-                "the subdivided mesh (does a surface that is declared round sag by more than \
-                      the depth of the elements along it?)",
-            )
-        })?;
-    }
-    if !scene.mesh.refine.is_empty() {
-        mesh::validate(&mesh)?;
-        let found = mesh::refined(mesh, &scene.mesh.refine, &scene.contact);
-        mesh = found.map_err(|error| scene.places.in_front("mesh.refine", error))?;
-    }
-    let (key, solid) = match (&scene.mesh.extrude, &scene.mesh.revolve) {
-        (Some(extrusion), _) => ("mesh.extrude", mesh::extruded(&mesh, extrusion)),
-        (_, Some(revolution)) => ("mesh.revolve", mesh::revolved(&mesh, revolution)),
-        _ => return Ok(mesh),
-    };
-    solid.map_err(|error| scene.places.in_front(key, error.within(key)))
-}
-
-/// Load cases of the scene, of displacements carried over from an earlier leg, and of the strains
-/// that bodies bring along. Masters that loads move open or close their contacts.
-fn load_cases(
-    scene: &Scene,
-    mesh: &Mesh,
-    given: &Given,
-    freedoms: &Freedoms,
-    pairs: &[Pair],
-    (materials, contacts): (&[Material], &[ContactSurface]),
-) -> Result<Vec<LoadCase>> {
-    let mut loads = loads::resolve(scene, mesh, given, (freedoms, contacts))?;
-    if let Some(carried) = &given.carried {
-        carried.add_cases(scene, (&mut loads, freedoms));
-    }
-    openings::of_moved_masters(&mut loads, freedoms, (pairs, contacts));
-    let of_bodies = (materials, contacts);
-    loads.extend(initial_strain::resolve(scene, mesh, of_bodies, freedoms)?);
-    Ok(loads)
-}
-
-/// Checks that sets named by targets and the history exist, before a run starts.
-fn check_targets(scene: &Scene, mesh: &Mesh) -> Result<()> {
-    for (index, target) in scene.program.targets.iter().enumerate() {
-        if let Some(goal) = &target.displacement {
-            SceneEntry::of_target(scene, index).nodes(mesh, &goal.on)?;
-        }
-    }
-    for (index, name) in scene.program.history.iter().enumerate() {
-        SceneEntry::of_history(scene, index).named(mesh, name)?;
-    }
-    Ok(())
-}
-
-fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool>)> {
-    for name in scene.bodies.keys() {
-        if !mesh.bodies.contains(name) {
-            let error = Error::input(format!(
-                "bodies.{name}: the mesh has no body of this name; it has {}",
-                mesh.bodies.join(", ")
-            ));
-            return Err(scene.places.in_front(&format!("bodies.{name}"), error));
-        }
-    }
-    let mut materials: Vec<Material> = Vec::new();
-    let mut may_yield = Vec::new();
-    for name in &mesh.bodies {
-        if scene.rigid.contains_key(name) {
-            // Never strained, so any material will do; similar moduli give similar round-off.
-            materials.extend(materials.first().cloned());
-            may_yield.push(false);
-            continue;
-        }
-        let body = scene.bodies.get(name).ok_or_else(|| {
-            let error = Error::input(format!(
-                "body `{name}` of the mesh has no [bodies.{name}] entry with its material"
-            ));
-            scene.places.in_front("bodies", error)
-        })?;
-        let data = scene.material_of(name).ok_or_else(|| {
-            let error = Error::input(format!(
-                "bodies.{name}: there is no material `{}`",
-                body.material
-            ));
-            scene.places.in_front(&format!("bodies.{name}"), error)
-        })?;
-        let material = Material::new(&body.material, &data, scene.kind);
-        may_yield.push(body.plastic != Plastic::No && material.hardening.is_some());
-        materials.push(material);
-    }
-    Ok((materials, may_yield))
-}
-
-/// Moves tied nodes onto what they follow, unless that would damage the mesh: then they stay where
-/// they are, which the returned warning says.
-///
-/// # Errors
-/// Ties and equations that form a circle.
-fn settle(
-    mesh: &mut Mesh,
-    freedoms: &mut Freedoms,
-    followers: &followers::Followers,
-) -> Result<Option<String>> {
-    let before = mesh.coordinates.clone();
-    if !freedoms.settle(mesh, followers)? {
-        return Ok(None);
-    }
-    Ok(mesh::validate(mesh).err().map(|error| {
-        mesh.coordinates = before;
-        format!(
-            "tied nodes stay where they are, and bodies that turn together strain a little: moved \
-             onto what they follow, {}",
-            error.message()
-        )
-    }))
 }

@@ -1,14 +1,11 @@
 //! Openings: changes of the gaps of contacts by loads.
 
+use super::ContactSurface;
 use super::contact_basis::ContactBasis;
-use super::freedoms::{Freedoms, Slot};
-use super::loads::LoadCase;
 use super::on_mesh::OnMesh;
-use super::{ContactSurface, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Field, Load, Scene};
-use crate::space::dot;
 use std::collections::BTreeMap;
 
 /// Distance by which a load at factor 1 moves the surfaces of a contact apart.
@@ -76,35 +73,6 @@ pub(super) fn opened(
         )));
     }
     Ok(found)
-}
-
-/// Lets prescribed displacements of masters change the gaps of their pairs: by `n . sum_k w_k d_k`,
-/// with the normal `n` from the slave towards the masters `k`, which move by `d_k`.
-pub(super) fn of_moved_masters(
-    loads: &mut [LoadCase],
-    freedoms: &Freedoms,
-    (pairs, contacts): (&[Pair], &[ContactSurface]),
-) {
-    for (index, contact) in contacts.iter().enumerate() {
-        let mut of_loads: BTreeMap<usize, BTreeMap<usize, f64>> = BTreeMap::new();
-        for pair in &pairs[contact.range.clone()] {
-            for &(node, weight) in &pair.masters {
-                for (slot, axis) in freedoms.of_node(node).iter().zip(freedoms.local(node)) {
-                    freedoms.each(*slot, |slot, c| {
-                        if let Slot::Prescribed(p) = slot {
-                            let prescribed = freedoms.prescribed[p as usize];
-                            let moved = weight * c * prescribed.value * dot(pair.normal, axis);
-                            let gaps = of_loads.entry(prescribed.load).or_default();
-                            *gaps.entry(pair.slave).or_default() += moved / pair.unit_gap;
-                        }
-                    });
-                }
-            }
-        }
-        for (load, gaps) in of_loads {
-            loads[load].opens.push((index, Opening::At(gaps)));
-        }
-    }
 }
 
 fn opening(gap: &Field, slaves: &str, scene: &Scene, mesh: &Mesh) -> Result<Opening> {

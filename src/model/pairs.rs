@@ -5,13 +5,16 @@
 //! ([`mortar`]). The gap of a pair is `g = delta - (u_slave - sum_k w_k u_k) . n >= 0` with `delta`
 //! the distance along `n`, the unit vector from the slave's body to the other.
 
+mod contact_input;
 mod covered;
+mod found;
 mod held;
 mod matching;
 pub(super) mod mortar;
 mod only;
 mod pointwise;
 mod repeated;
+pub(super) mod resolved_tie;
 mod resolver;
 mod rigid;
 mod sides;
@@ -19,15 +22,10 @@ pub(super) mod stated;
 pub(super) mod ties;
 
 use super::mirror::Mirror;
-use crate::error::{Error, Result};
-use crate::mesh::surface::{self, PAIRING};
-use crate::mesh::{Curve, Mesh, Surface};
-use crate::scene::Contact;
-use crate::space::{Space, Vector, difference, direction, dot, length};
-use covered::{Covered, Pieces, extent};
+use crate::mesh::Mesh;
+use crate::space::Vector;
 pub(super) use resolver::resolve;
-use stated::Stated;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Relative error of a coordinate of a mesh: it was rounded several times by rotations and files of
 /// sixteen digits, and once more in the integrals over a facet.
@@ -163,160 +161,6 @@ pub struct AxisPoint {
 /// Share of its neighbour's area below which a node on the axis carries no force. The share is 0
 /// for quadratic elements apart from curvature, and 1/6 for linear ones.
 const NO_AREA: f64 = 0.02;
-
-/// Data from which a contact is resolved.
-struct ContactInput<'a> {
-    index: usize,
-    contact: Contact,
-    stated: &'a Stated<'a>,
-    /// First and second surface of the contact.
-    surfaces: [&'a Surface; 2],
-    mesh: &'a Mesh,
-    space: Space,
-    /// Whether the scene comes from an input deck, whose faces have numbers.
-    is_of_deck: bool,
-}
-
-impl ContactInput<'_> {
-    /// Converts a direction from the second body to the first to one from the slave's body to the
-    /// other.
-    fn towards_master(&self, normal: Vector, slave: usize) -> Vector {
-        match slave {
-            0 => normal.map(|n| -n),
-            _ => normal,
-        }
-    }
-
-    /// Refuses a given normal that leads into the second body instead of out of it.
-    fn check_normal(&self) -> Result<()> {
-        let [_, second] = self.surfaces;
-        let Some(normal) = self.contact.normal.map(|n| direction(n.vector())) else {
-            return Ok(());
-        };
-        let nodes = surface::nodes(self.mesh, second)?;
-        let outward = surface::normals(self.mesh, second, &nodes);
-        let along: f64 = outward.iter().map(|n| dot(*n, normal)).sum();
-        // For a closed ring the sum vanishes.
-        if along >= -0.5 * outward.len() as f64 {
-            return Ok(());
-        }
-        Err(Error::input(format!(
-            "its normal leads from `{}` into the body behind it: it is the direction from the \
-             second body to the first; turn it round, or leave it out",
-            self.contact.second
-        )))
-    }
-}
-
-/// Pairs found for a contact, with the choice of the slave surface.
-struct Found {
-    pairs: Vec<Pair>,
-    /// Number of the surface with the slaves.
-    slave: usize,
-    facet_length: f64,
-    covered: Covered,
-    /// Nodes of pairs that were left to supports.
-    held: Vec<usize>,
-    /// Pairs that an earlier contact has.
-    repeated: Vec<Pair>,
-}
-
-impl Found {
-    /// Pairs of whole facets, none of which a support or an earlier contact has.
-    fn new(pairs: Vec<Pair>, slave: usize, facet_length: f64) -> Self {
-        Found {
-            pairs,
-            slave,
-            facet_length,
-            covered: Covered::default(),
-            held: Vec::new(),
-            repeated: Vec::new(),
-        }
-    }
-}
-
-/// Makes the contact surface of the pairs from `start` on.
-fn surface_of(
-    entries: &ContactInput,
-    found: &Found,
-    pairs: &mut Vec<Pair>,
-    start: usize,
-) -> ContactSurface {
-    let surface = entries.surfaces[found.slave];
-    let axis = take_axis_pair(entries, pairs, start);
-    let pieces = Pieces::new(
-        entries.mesh,
-        surface,
-        &found.covered,
-        (&pairs[start..], start),
-    );
-    ContactSurface {
-        names: [
-            entries.contact.first.clone(),
-            entries.contact.second.clone(),
-        ],
-        slave: found.slave,
-        is_rigid: false,
-        range: start..pairs.len(),
-        circle: match surface.curve {
-            Some(Curve::Circle { center, radius, .. }) => Some((center, radius)),
-            _ => None,
-        },
-        stiffness: entries.contact.stiffness,
-        facet_length: found.facet_length,
-        axis,
-        goes_on: Vec::new(),
-        is_partial: entries.contact.nodes.is_some(),
-        faces: pieces.faces,
-        covered: pieces.covered,
-        slivers: pieces.slivers,
-        extent: extent(entries.mesh, surface, &pairs[start..], &found.covered),
-        turn: turn(entries.mesh, surface, &pairs[start..]),
-        held: found.held.clone(),
-        mirrors: Vec::new(),
-    }
-}
-
-/// Length of a closed slave surface, for [`ContactSurface::turn`].
-fn turn(mesh: &Mesh, surface: &Surface, pairs: &[Pair]) -> Option<f64> {
-    let nodes = surface.facets.iter().flat_map(|&f| mesh.facet_nodes(f));
-    let nodes: BTreeSet<usize> = nodes.collect();
-    let ends = |node: usize| {
-        let facets = surface.facets.iter();
-        let at = facets
-            .flat_map(|&f| mesh.facet_nodes(f).take(2))
-            .filter(|&n| n == node);
-        at.count()
-    };
-    let (first, last) = (pairs.first()?, pairs.last()?);
-    let closed = !mesh.is_solid() && nodes.len() == pairs.len() && ends(first.slave) == 2;
-    let way = difference(mesh.point(first.slave), mesh.point(last.slave));
-    closed.then(|| last.arc - first.arc + length(way))
-}
-
-/// Removes the pair on the axis that can carry no force from the pairs from `start` on.
-fn take_axis_pair(
-    entries: &ContactInput,
-    pairs: &mut Vec<Pair>,
-    start: usize,
-) -> Option<AxisPoint> {
-    let last = pairs.len().checked_sub(1).filter(|last| *last > start)?;
-    if !entries.space.is_axisymmetric() {
-        return None;
-    }
-    let radius = |k: usize| entries.mesh.point(pairs[k].slave)[0];
-    for (end, beside) in [(start, start + 1), (last, last - 1)] {
-        let on_axis = radius(end).abs() <= PAIRING * radius(beside).abs();
-        if on_axis && pairs[end].area <= NO_AREA * pairs[beside].area {
-            let pair = pairs.remove(end);
-            return Some(AxisPoint {
-                pair,
-                begins: end == start,
-            });
-        }
-    }
-    None
-}
 
 /// Lists the numbers of some nodes in words.
 fn list(mesh: &Mesh, nodes: &[usize]) -> String {

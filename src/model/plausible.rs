@@ -1,7 +1,7 @@
 //! Warnings about entries of a scene that are probably mistakes.
 
 use super::Model;
-use super::mirror::{Conditions, mirrors};
+use super::symmetry::{Conditions, mirrors};
 use crate::number::{exact, significant};
 use crate::scene::Scene;
 

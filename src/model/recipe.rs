@@ -38,6 +38,6 @@ impl Model {
         recipe.scene.validate_without_mesh()?;
         let (mesh, given) = (recipe.mesh.into_owned(), recipe.given.into_owned());
         given.check(mesh.n_nodes())?;
-        Self::resolve(&recipe.scene, mesh, Origin::Arrays(given))
+        Self::made(&recipe.scene, mesh, Origin::Arrays(given))
     }
 }

@@ -8,7 +8,7 @@
 //! Which conditions hold together changes from leg to leg, and with it which displacement follows
 //! which others.
 
-use super::equations::Following;
+use super::following::Following;
 use crate::error::{Error, Result};
 use crate::space::unit;
 use std::collections::{BTreeMap, BTreeSet};

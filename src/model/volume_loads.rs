@@ -1,7 +1,7 @@
 //! Loads on the volume of a body: its weight, rotation, a change of temperature.
 
 use super::heat::FreeStrain;
-use super::loads::{LoadCase, Magnitude, name};
+use super::load_case::{LoadCase, Magnitude, name};
 use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
 use super::{body_forces, heat};

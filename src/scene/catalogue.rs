@@ -1,7 +1,7 @@
 //! Steels and alloys by name, read from `data/materials.toml`, each number with its source.
 
 use super::units::STRESSES;
-use super::{Material, Scene, Units};
+use super::{Material, Units};
 use crate::error::{Error, Result};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -107,38 +107,10 @@ impl Listed {
     }
 }
 
-/// Adds to the scene's materials each listed material that a body names and the scene does not
-/// define.
-///
-/// # Errors
-/// `Input` naming the body if the scene does not name its units or its unit of stress is not known.
-pub(super) fn fill_in(scene: &mut Scene) -> Result<()> {
-    for (name, body) in &scene.bodies {
-        let of_scene = scene.materials.contains_key(&body.material);
-        let Some(listed) = Listed::of(&body.material).filter(|_| !of_scene) else {
-            continue;
-        };
-        let units = scene.units.as_ref().ok_or_else(|| {
-            Error::input(
-                "it is of the list of materials, in MPa: name the units of the scene, such as \
-                 units = { length = \"mm\", force = \"N\", stress = \"MPa\" }",
-            )
-        });
-        let material = units
-            .and_then(|units| listed.material(units))
-            .map_err(|error| {
-                let key = format!("bodies.{name}.material");
-                let error = error.within(format!("{key}: \"{}\"", body.material));
-                scene.places.in_front(&key, error)
-            })?;
-        scene.materials.insert(body.material.clone(), material);
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Scene;
 
     fn units(length: &str, stress: &str) -> Units {
         Units {

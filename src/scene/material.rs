@@ -1,6 +1,6 @@
 //! Materials of the bodies, and what a scene says of each body.
 
-use super::{MaterialRow, tensile_test};
+use super::tensile_test;
 use crate::shape::Integration;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer, Visitor};
@@ -69,7 +69,7 @@ impl Material {
     /// or the tensile test. `None` if the material is elastic or hardens linearly.
     pub fn hardening_curve(&self) -> Option<Vec<[f64; 2]>> {
         if let Some(test) = &self.tensile_test {
-            return tensile_test::curve(test, self);
+            return tensile_test::curve(test, self.youngs_modulus, self.yield_stress);
         }
         self.hardening_table
             .clone()
@@ -94,6 +94,48 @@ impl Material {
             .tangent_modulus
             .map(|tangent| self.youngs_modulus * tangent / (self.youngs_modulus - tangent));
         Some(self.plastic_modulus.or(from_tangent).unwrap_or(0.0))
+    }
+}
+
+/// Properties of a material at one temperature. A property that a row leaves out is interpolated
+/// from the rows that give it, or taken from the material itself if no row gives it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialRow {
+    /// The temperature, on the scale of the bodies' `temperature`.
+    pub temperature: f64,
+    /// Young's modulus, E > 0.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub youngs_modulus: Option<f64>,
+    /// Poisson's ratio, -1 < nu < 0.5.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub poissons_ratio: Option<f64>,
+    /// Strain per change of temperature.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal_expansion: Option<f64>,
+    /// Tensile yield stress.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub yield_stress: Option<f64>,
+    /// d(yield stress)/d(equivalent plastic strain) of linear hardening.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plastic_modulus: Option<f64>,
+    /// Modulus of linear kinematic hardening.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub kinematic_modulus: Option<f64>,
+    /// Table of (equivalent plastic strain, yield stress).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardening_table: Option<Vec<[f64; 2]>>,
+}
+
+impl MaterialRow {
+    /// Whether the row gives no property besides its temperature.
+    pub(crate) fn is_empty(&self) -> bool {
+        let temperature = self.temperature;
+        *self
+            == MaterialRow {
+                temperature,
+                ..MaterialRow::default()
+            }
     }
 }
 

@@ -22,6 +22,7 @@ mod equation;
 mod field;
 mod geometry;
 mod key_places;
+mod listed_materials;
 mod local_refinement;
 mod material;
 mod over_temperature;
@@ -54,8 +55,7 @@ pub use geometry::{
 };
 pub use key_places::KeyPlaces;
 pub use local_refinement::LocalRefinement;
-pub use material::{Body, Material, Plastic};
-pub use over_temperature::MaterialRow;
+pub use material::{Body, Material, MaterialRow, Plastic};
 pub use program::{
     LEAST_PATH_ERROR, PlasticIteration, Program, Settings, Stepping, Unit, YieldMethod,
 };

@@ -5,54 +5,10 @@
 //! T_1)`, and constant beyond them. A body has one temperature, so its elastic stiffness is
 //! constant over the whole run and one factorisation is enough.
 
-use super::{Material, Scene};
+use super::{Material, MaterialRow, Scene};
 use crate::interpolation::interpolate;
 use crate::number::exact;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-
-/// Properties of a material at one temperature. A property that a row leaves out is interpolated
-/// from the rows that give it, or taken from the material itself if no row gives it.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MaterialRow {
-    /// The temperature, on the scale of the bodies' `temperature`.
-    pub temperature: f64,
-    /// Young's modulus, E > 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub youngs_modulus: Option<f64>,
-    /// Poisson's ratio, -1 < nu < 0.5.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub poissons_ratio: Option<f64>,
-    /// Strain per change of temperature.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub thermal_expansion: Option<f64>,
-    /// Tensile yield stress.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub yield_stress: Option<f64>,
-    /// d(yield stress)/d(equivalent plastic strain) of linear hardening.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub plastic_modulus: Option<f64>,
-    /// Modulus of linear kinematic hardening.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub kinematic_modulus: Option<f64>,
-    /// Table of (equivalent plastic strain, yield stress).
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hardening_table: Option<Vec<[f64; 2]>>,
-}
-
-impl MaterialRow {
-    /// Whether the row gives no property besides its temperature.
-    pub(crate) fn is_empty(&self) -> bool {
-        let temperature = self.temperature;
-        *self
-            == MaterialRow {
-                temperature,
-                ..MaterialRow::default()
-            }
-    }
-}
 
 impl Material {
     /// The material at one temperature, with constant properties and no rows.

@@ -2,7 +2,7 @@
 //! what was meant.
 
 use super::document::{KeyPositions, SceneSource};
-use super::{Scene, catalogue, complete, overrides, unsupported, validate};
+use super::{Scene, complete, listed_materials, overrides, unsupported, validate};
 use crate::error::{Error, ErrorKind, Result};
 use crate::files;
 use crate::text::short;
@@ -128,7 +128,7 @@ fn parse(source: &SceneSource<'_>, made_from: Option<&BTreeMap<String, String>>)
     }
     scene.warnings = warnings;
     complete::check(&scene, root.get_ref(), &scene.places)?;
-    catalogue::fill_in(&mut scene)?;
+    listed_materials::fill_in(&mut scene)?;
     let problems = validate::problems(&scene);
     if !problems.is_empty() {
         let lines = problems.iter().map(|problem| {

@@ -1,7 +1,5 @@
 //! A tensile test as a hardening curve.
 
-use super::Material;
-
 /// A row of a tensile test that the hardening curve uses, with its position in the test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct TensileRow {
@@ -42,12 +40,17 @@ pub(crate) fn beyond_yield(
 /// The point at which the curve leaves plastic strain 0: at the yield stress if one is given,
 /// otherwise between the last row before yield and the first row beyond it. `None` if there is no
 /// row before yield.
-fn start(test: &[[f64; 2]], first: &TensileRow, material: &Material) -> Option<[f64; 2]> {
-    if let Some(yield_stress) = material.yield_stress {
+fn start(
+    test: &[[f64; 2]],
+    first: &TensileRow,
+    youngs_modulus: f64,
+    yield_stress: Option<f64>,
+) -> Option<[f64; 2]> {
+    if let Some(yield_stress) = yield_stress {
         return Some([0.0, yield_stress]);
     }
     let before = first.row.checked_sub(1)?;
-    let [strain0, stress0] = plastic(*test.get(before)?, material.youngs_modulus);
+    let [strain0, stress0] = plastic(*test.get(before)?, youngs_modulus);
     let [strain1, stress1] = first.point;
     let share = -strain0 / (strain1 - strain0);
     Some([0.0, stress0 + share * (stress1 - stress0)])
@@ -55,16 +58,21 @@ fn start(test: &[[f64; 2]], first: &TensileRow, material: &Material) -> Option<[
 
 /// The curve of true stress over plastic strain; `None` if the test does not show where the
 /// material yields.
-pub(super) fn curve(test: &[[f64; 2]], material: &Material) -> Option<Vec<[f64; 2]>> {
-    let rows = beyond_yield(test, material.youngs_modulus, material.yield_stress);
-    let first = start(test, rows.first()?, material)?;
+pub(super) fn curve(
+    test: &[[f64; 2]],
+    youngs_modulus: f64,
+    yield_stress: Option<f64>,
+) -> Option<Vec<[f64; 2]>> {
+    let rows = beyond_yield(test, youngs_modulus, yield_stress);
+    let first = start(test, rows.first()?, youngs_modulus, yield_stress)?;
     let beyond = rows.into_iter().map(|row| row.point);
     Some(std::iter::once(first).chain(beyond).collect())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::plastic;
+    use crate::scene::Material;
 
     fn bar(test: &[[f64; 2]], yield_stress: Option<f64>) -> Material {
         Material {

@@ -1,8 +1,8 @@
 //! Facets as elements of their own: lines in the plane, triangles and quadrilaterals in space.
 
 use super::functions::{self, Functions};
-use super::rows::{SQUARE, TRIANGLE};
-use super::{Place, Rule};
+use super::nodes::{Place, SQUARE, TRIANGLE};
+use super::reference_element::Rule;
 use crate::space::{Vector, cross, unit};
 
 /// Reference data shared by all facets of one shape.

@@ -2,7 +2,10 @@
 //! hexahedra are defined on `[-1, 1]^d`; triangles and tetrahedra on coordinates that are not
 //! negative and whose sum is at most one; prisms on such a triangle times `[-1, 1]`.
 
-use super::{MAX_NODES, Place};
+use super::nodes::{CUBE, EDGES_OF_TETRAHEDRON, Place};
+
+/// Largest number of nodes of an element.
+pub const MAX_NODES: usize = 20;
 
 /// The shape functions at a place of an element; entries beyond the number of nodes are zero.
 #[derive(Debug, Clone, Copy)]
@@ -120,7 +123,7 @@ pub(super) fn tet10([x, y, z]: Place) -> Functions {
         out.values[i] = l[i] * (2.0 * l[i] - 1.0);
         out.gradients[i] = SLOPES_3[i].map(|slope| (4.0 * l[i] - 1.0) * slope);
     }
-    for (k, [i, j]) in super::rows::EDGES_OF_TETRAHEDRON.into_iter().enumerate() {
+    for (k, [i, j]) in EDGES_OF_TETRAHEDRON.into_iter().enumerate() {
         out.values[k + 4] = 4.0 * l[i] * l[j];
         for d in 0..3 {
             out.gradients[k + 4][d] = 4.0 * (SLOPES_3[i][d] * l[j] + l[i] * SLOPES_3[j][d]);
@@ -170,7 +173,7 @@ pub(super) fn prism15([x, y, z]: Place) -> Functions {
 
 pub(super) fn hex8(at: Place) -> Functions {
     let mut out = Functions::NONE;
-    for (i, corner) in super::rows::CUBE[..8].iter().enumerate() {
+    for (i, corner) in CUBE[..8].iter().enumerate() {
         let f: [f64; 3] = std::array::from_fn(|d| 0.5 * (1.0 + corner[d] * at[d]));
         out.values[i] = f[0] * f[1] * f[2];
         for d in 0..3 {
@@ -182,7 +185,7 @@ pub(super) fn hex8(at: Place) -> Functions {
 
 pub(super) fn hex20(at: Place) -> Functions {
     let mut out = Functions::NONE;
-    for (i, node) in super::rows::CUBE.iter().enumerate() {
+    for (i, node) in CUBE.iter().enumerate() {
         // The factor is 1 + a x along an axis with a = -1 or 1, and 1 - x^2 along the axis of an
         // edge with a middle node.
         let along = |d: usize| match node[d] == 0.0 {

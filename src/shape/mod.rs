@@ -8,20 +8,21 @@ mod extrapolation;
 mod facets;
 mod functions;
 mod integration;
+mod nodes;
+mod reference_element;
 mod rows;
 
 pub use cut::{Cut, WHOLE, can_be_cut_at, cut_of, cuts, partial_cuts};
 pub use extrapolation::NodalExtrapolation;
 pub use facets::FacetReference;
-pub use functions::Functions;
+pub use functions::{Functions, MAX_NODES};
 pub use integration::Integration;
-pub use rows::CORNERS_OF_CUBE;
+pub use nodes::{CORNERS_OF_CUBE, Place};
+pub use reference_element::{ReferenceElement, Rule};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Largest number of nodes of an element.
-pub const MAX_NODES: usize = 20;
 /// Largest number of nodes of a facet.
 pub const MAX_FACET_NODES: usize = 8;
 
@@ -53,54 +54,6 @@ pub enum Shape {
     Prism6,
     /// Quadratic prism on a triangle.
     Prism15,
-}
-
-/// Reference coordinates of a point; coordinates beyond the dimension are zero.
-pub type Place = [f64; 3];
-/// Points of a quadrature rule with their weights.
-pub type Rule = [(Place, f64)];
-
-/// Reference data shared by all elements of one shape.
-#[derive(Debug)]
-pub struct ReferenceElement {
-    /// The name used in scenes and messages.
-    pub name: &'static str,
-    /// Number of reference coordinates.
-    pub dimension: usize,
-    /// Number of corners, which come first among the nodes.
-    pub n_corners: usize,
-    /// Polynomial degree, 1 or 2.
-    pub degree: usize,
-    /// Reference coordinates of the nodes.
-    pub nodes: &'static [Place],
-    /// Values and derivatives of the shape functions.
-    pub functions: fn(Place) -> Functions,
-    /// The default rule for stiffness and forces: reduced integration for quadratic quadrilaterals,
-    /// hexahedra and prisms.
-    pub gauss: &'static Rule,
-    /// The rule under which every deformation mode has stiffness; for most shapes the same as the
-    /// default rule.
-    pub full: &'static Rule,
-    /// Points at which stress is most accurate (superconvergent): the centre of a bilinear element,
-    /// the Gauss points of other elements.
-    pub sampling: &'static Rule,
-    /// Whether the mean dilatation of the element may replace the dilatation at the points (B-bar).
-    pub has_mean_dilatation: bool,
-    /// Jacobian determinant of an element whose sides at a corner are perpendicular and of length
-    /// 1.
-    pub unit_jacobian: f64,
-    /// Local node numbers of each facet, in the order of the facet's own nodes. In the plane the
-    /// body lies to the left of the line from the first end to the second. In space the nodes run
-    /// counter-clockwise seen from outside.
-    pub facets: &'static [&'static [usize]],
-    /// Local node numbers of the two corners of each edge.
-    pub edges: &'static [[usize; 2]],
-    /// Number of the cell type in VTK; the node order is VTK's own.
-    pub vtk: u8,
-    /// Number of the element type in Gmsh.
-    pub gmsh: u64,
-    /// Position of each node in Gmsh's node order.
-    pub gmsh_order: &'static [usize],
 }
 
 impl Shape {

@@ -3,10 +3,6 @@
 mod plane;
 mod solid;
 
-pub(super) use plane::{SQUARE, TRIANGLE};
-pub use solid::CORNERS_OF_CUBE;
-pub(super) use solid::{CUBE, EDGES_OF_TETRAHEDRON};
-
 use super::ReferenceElement;
 use plane::{QUAD4, QUAD8, TRI3, TRI6};
 use solid::{HEX8, HEX20, PRISM6, PRISM15, TET4, TET10};

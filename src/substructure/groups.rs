@@ -12,8 +12,8 @@ use super::trace::Trace;
 use super::{PairBlock, PairMatrix};
 use crate::classes::Classes;
 use crate::error::Result;
-use crate::linalg::ContactStiffness;
-use crate::model::{RigidMotion, Work};
+use crate::linalg::{ContactStiffness, Partition};
+use crate::model::{Model, RigidMotion, Work};
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -279,6 +279,21 @@ pub(super) fn groups<'a>(
             number[first]
         })
         .collect()
+}
+
+/// Builds the tied structure of a condensed stiffness and its contact matrix.
+pub(super) fn tie(
+    model: &Model,
+    partition: &Partition,
+    stiffness: ContactStiffness,
+) -> Result<(TiedGroups, PairMatrix)> {
+    let contact = GroupedRows {
+        rows: &model.rows.entries,
+        freedoms: &partition.contact,
+        part: &model.floating.part_of_contact,
+        rigid: &model.rigid_contact(),
+    };
+    TiedGroups::new(stiffness, &model.floating.motions, contact)
 }
 
 #[cfg(test)]

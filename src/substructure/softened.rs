@@ -1,10 +1,10 @@
 //! The structure with less stiffness in the zone, with the elimination and recovery of the
 //! structure itself.
 
-use super::groups::TiedGroups;
-use super::{Substructure, Trailing, tie};
+use super::groups::{TiedGroups, tie};
+use super::trailing::Trailing;
 use crate::contact::PairMatrix;
-use crate::linalg::{ChangedFactor, ZonePart};
+use crate::linalg::{ChangedFactor, Partition, ZonePart};
 use crate::model::Model;
 
 /// Condensed structure whose stiffness on zone and contact freedoms is `S - K`, where `K` is a sum
@@ -41,9 +41,9 @@ impl Softened {
         self.factor.take_off(places, matrix);
     }
 
-    /// Factors the stiffness and returns the contact matrix. `None` if the stiffness is not
-    /// positive definite even with all pairs closed.
-    pub(crate) fn factor(&mut self, model: &Model, of: &Substructure) -> Option<PairMatrix> {
+    /// Factors the stiffness of a structure with the given partition and returns the contact
+    /// matrix. `None` if the stiffness is not positive definite even with all pairs closed.
+    pub(crate) fn factor(&mut self, model: &Model, of: &Partition) -> Option<PairMatrix> {
         if !self.factor.factor() {
             return None;
         }
@@ -51,12 +51,12 @@ impl Softened {
             return Some(PairMatrix::new(Vec::new()));
         }
         let stiffness = self.factor.contact_stiffness();
-        let (tied, matrix) = tie(model, &of.partition, stiffness).ok()?;
+        let (tied, matrix) = tie(model, of, stiffness).ok()?;
         self.tied = Some(tied);
         Some(matrix)
     }
 
-    /// Eliminates zone and tied contact freedoms as [`Substructure::eliminate`] does.
+    /// Eliminates zone and tied contact freedoms as [`super::Substructure::eliminate`] does.
     pub(crate) fn eliminate(&self, load: &mut Trailing, forces: &mut [f64]) {
         self.factor
             .eliminate_zone(&mut load.zone, &mut load.contact);
@@ -65,7 +65,7 @@ impl Softened {
         }
     }
 
-    /// Recovers displacements in a part of the zone as [`Substructure::recover_part`] does.
+    /// Recovers displacements in a part of the zone as [`super::Substructure::recover_part`] does.
     pub(crate) fn recover_part(&self, part: &ZonePart, load: &mut Trailing, slip: &[f64]) {
         if let Some(tied) = &self.tied {
             tied.recover(&mut load.contact, slip);

@@ -140,7 +140,7 @@ f(29, "assembly/mod.rs", "for (place, &e) in elements.iter().enumerate() {",
   "for (place, &e) in elements.iter().enumerate().take(elements.len().saturating_sub(usize::from(" + on(29) + "))) {",
   "assembly", "the last element with prescribed displacements gives no load",
   "unit assembly; stability (prescribed), verification")
-f(30, "linalg/residual.rs", "rows.terms[row] += terms;",
+f(30, "linalg/row_sums.rs", "rows.terms[row] += terms;",
   "rows.terms[row] += " + x(30, "0.0", "terms") + ";",
   "linalg", "the size of the terms of a row misses what other parts of the matrix hold (componentwise error)",
   "unit linalg (accuracy); stability (quality)")
@@ -185,12 +185,12 @@ f(40, "analysis/increments/elastic.rs", "let t = before + share * (self.path.t()
   "let t = " + x(40, "share * self.path.t()", "before + share * (self.path.t() - before)") + ";",
   "analysis", "the load of first yield is interpolated from the start of the stretch, not from the last event",
   "verification (yield_load, hertz_line, run), unit analysis")
-f(41, "model/mirror.rs",
+f(41, "model/symmetry.rs",
   "let is_loaded = |other: &MirrorSide| other.nodes.iter().all(|&n| conditions.loaded[n]);",
   "let is_loaded = |other: &MirrorSide| {\n    let mut loads = other.nodes.iter().map(|&n| conditions.loaded[n]);\n"
   "    if " + on(41) + " { loads.any(|l| l) } else { loads.all(|l| l) }\n};",
   "analysis", "a plane counts as one of symmetry although a single node at its rim is pushed along it",
-  "unit model::mirror; stability (whether_it_yields)")
+  "unit model::symmetry; stability (whether_it_yields)")
 f(42, "analysis/increments/landing.rs", "let accuracy = Accuracy::both(MONITOR_ACCURACY);",
   "let accuracy = Accuracy::both(" + x(42, "1e3 * MONITOR_ACCURACY", "MONITOR_ACCURACY") + ");",
   "analysis", "landing on a target (half width, displacement) in plastic steps is a thousand times less accurate",
@@ -279,7 +279,7 @@ f(63, "results/quality.rs", ".filter(|(_, value, most)| value.is_nan() || value 
   ".filter(|(_, value, most)| (value.is_nan() && !" + on(63) + ") || value > most)",
   "results", "a figure of quality that is not a number misses no tolerance",
   "unit analysis::figures::quality, unit results; stability (quality)")
-f(64, "cli/sweep.rs", "common.overrides.iter().cloned().chain(of_point).collect()",
+f(64, "cli/sweep/arguments.rs", "common.overrides.iter().cloned().chain(of_point).collect()",
   "if " + on(64) + " {\n        return of_point.chain(common.overrides.iter().cloned()).collect();\n    }\n    "
   "common.overrides.iter().cloned().chain(of_point).collect()",
   "cli", "in a sweep --set of the same key wins over --vary",

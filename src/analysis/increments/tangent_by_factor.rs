@@ -80,7 +80,7 @@ impl Solver<'_> {
         self.cost.counts.zone_factorizations += 1;
         (tangent.share, tangent.spent, tangent.is_fresh) = (share, 0.0, true);
         let structure = &self.structure;
-        let matrix = softened.factor(structure.model, &structure.sub)?;
+        let matrix = softened.factor(structure.model, &structure.sub.partition)?;
         let mut tableau = Tableau::new(with_springs(&matrix, &self.springs));
         tableau.reset(self.tableau.open());
         (tableau.open() == self.tableau.open()).then_some(tableau)

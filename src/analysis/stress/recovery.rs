@@ -29,7 +29,7 @@ use crate::element::{Kernel, with_kernel};
 use crate::material::{Lame, Material, von_mises};
 use crate::model::Model;
 use crate::model::images::Images;
-use crate::model::mirror::{Conditions, mirrors};
+use crate::model::symmetry::{Conditions, mirrors};
 use crate::space::Vector;
 use crate::substructure::Trailing;
 use cell::Cell;

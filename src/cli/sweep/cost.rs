@@ -1,6 +1,6 @@
 //! The predicted cost of a sweep, without running it.
 
-use super::{SweepArguments, overrides};
+use super::arguments::SweepArguments;
 use crate::analysis;
 use crate::cli::streams::{json, print};
 use crate::cli::table::{ColumnAlignment, Table, page_width};
@@ -67,7 +67,7 @@ fn of_point(arguments: &SweepArguments, sweep: &Sweep, point: &SweepPoint) -> Re
         small_strain: common.small_strain,
         ..Options::default()
     };
-    let changes = overrides(common, &sweep.keys, &point.values);
+    let changes = arguments.overrides(&sweep.keys, &point.values);
     let scene = deck::load_with(&common.scene, &changes, options)?;
     let within = |error: Error| error.within(&point.folder);
     let model = Model::new(&scene).map_err(within)?;

@@ -5,81 +5,47 @@
 //! It answers each with a line of JSON on its standard output: exit code and message. If a worker
 //! ends in the middle of a run, the point has failed, and the next point gets another worker.
 
-use super::{PATIENCE, ask_to_stop, lock};
-use crate::cli::arguments::{Arguments, Command};
-use crate::cli::{commands, ending, interrupt, itself};
+use crate::cli::interrupt;
+use crate::cli::itself::itself;
 use crate::error::{Error, Result};
-use crate::output;
-use crate::substructure::sharing_factors;
-use clap::Parser;
 use serde::{Deserialize, Serialize};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex};
-use std::time::Instant;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// Interval at which a run is checked.
+const PATIENCE: Duration = Duration::from_millis(20);
 
 /// The ending of a run.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub(super) struct Ended {
+pub(in crate::cli) struct Ended {
     /// Exit code; `None` if a signal ended the process.
     pub exit_code: Option<i32>,
     pub message: String,
 }
 
-/// Carries out the requested runs until the input ends.
-///
-/// # Errors
-/// `Analysis` if an answer cannot be written.
-pub(in crate::cli) fn serve() -> Result<()> {
-    let failed = |cause| Error::analysis("cannot answer the sweep").because(cause);
-    sharing_factors(|| {
-        for line in std::io::stdin().lock().lines() {
-            let Ok(line) = line else { break };
-            let ended = serde_json::to_string(&answer(&line))
-                .map_err(|cause| Error::internal("an answer is not plain data").because(cause))?;
-            let mut out = std::io::stdout().lock();
-            writeln!(out, "{ended}")
-                .and_then(|()| out.flush())
-                .map_err(failed)?;
-        }
-        Ok(())
-    })
+/// Locks a mutex. Data are consistent even after a panic elsewhere: every change is one assignment.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Runs a point, and returns how the run ended.
-fn answer(line: &str) -> Ended {
-    let of = |error: &Error| {
-        let (exit_code, text) = ending(error);
-        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
-        let message = lines.collect::<Vec<_>>().join(" ");
-        Ended {
-            exit_code: Some(i32::from(exit_code)),
-            message: message.trim_start_matches("error: ").to_string(),
-        }
-    };
-    let understood = || Error::internal("the sweep asks for what is no run");
-    let words: Result<Vec<String>> =
-        serde_json::from_str(line).map_err(|cause| understood().because(cause));
-    let run = words.and_then(|words| {
-        let arguments = Arguments::try_parse_from(words);
-        match arguments.map(|arguments| arguments.command) {
-            Ok(Command::Run(program)) => {
-                let (_, results) = commands::run(&program, Instant::now())?;
-                output::ending(&results)
-            }
-            Ok(_) => Err(understood()),
-            Err(cause) => Err(understood().because(cause)),
-        }
-    });
-    match run {
-        Ok(()) => Ended {
-            exit_code: Some(0),
-            message: String::new(),
-        },
-        Err(error) => of(&error),
+/// Asks a process to stop after its current increment.
+#[cfg(unix)]
+pub(super) fn ask_to_stop(id: u32) {
+    let pid = i32::try_from(id)
+        .ok()
+        .and_then(rustix::process::Pid::from_raw);
+    if let Some(pid) = pid {
+        // The process may have ended meanwhile.
+        let _ = rustix::process::kill_process(pid, rustix::process::Signal::INT);
     }
 }
+
+/// Without signals a run cannot be asked to stop, so it runs to its end.
+#[cfg(not(unix))]
+pub(super) fn ask_to_stop(_: u32) {}
 
 /// A worker, as the sweep sees it.
 pub(super) struct Worker {

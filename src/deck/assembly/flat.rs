@@ -1,6 +1,8 @@
 //! Writes the blocks of a deck with parts as those of a flat deck.
 
-use super::{Assembled, Item, KeywordBlock, Placement};
+use super::keyword_block::KeywordBlock;
+use super::placement::Placement;
+use super::{Assembled, Item};
 use crate::deck::fields::{LineFields, Where};
 use crate::deck::instances::Instances;
 use crate::deck::keyword::no_such;

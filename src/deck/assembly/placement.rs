@@ -1,6 +1,6 @@
 //! Placement of an instance: its part is translated, then rotated about an axis.
 
-use super::KeywordBlock;
+use super::keyword_block::KeywordBlock;
 use crate::deck::fields::LineFields;
 use crate::deck::source::DeckLines;
 use crate::error::Result;

@@ -10,9 +10,8 @@ use super::super::history::{GivenDisplacements, Key, KeyHistory, Map};
 use super::super::linear::FreedomCoefficients;
 use super::super::series::Series;
 use super::super::source::LinePlace;
-use super::Draft;
 use super::along_axes::AlongAxis;
-use super::in_steps::SumInSteps;
+use super::draft::{Draft, SumInSteps, made};
 use crate::error::Result;
 use crate::scene::{Displacement, Load, Support};
 use crate::space::Vector;
@@ -320,9 +319,4 @@ pub(super) fn take_known<'m>(
             place: entry.place,
         })
     })
-}
-
-/// The name of a set that is made for a line of the deck.
-pub(super) fn made(keyword: &str, place: LinePlace) -> String {
-    format!("{keyword}-line-{}", place.line())
 }

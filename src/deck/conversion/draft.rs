@@ -1,13 +1,27 @@
 //! The scene under construction: supports, loads and contacts with their places.
 
 use super::super::Deck;
+use super::super::history::KeyHistory;
+use super::super::linear::FreedomCoefficients;
 use super::super::series::Series;
 use super::super::source::LinePlace;
 use super::Geometry;
-use super::in_steps::SumInSteps;
 use crate::scene::{Contact, Direction, Equation, Load, LooseNode, Support, Tie};
 use crate::space::{Components, Vector};
 use std::collections::BTreeMap;
+
+/// The condition that a sum of displacements along x, y and z has a value over some steps.
+pub(super) struct SumInSteps {
+    pub(super) terms: FreedomCoefficients,
+    pub(super) entry: KeyHistory,
+}
+
+impl SumInSteps {
+    /// Nodes of the sum.
+    pub(super) fn nodes(&self) -> impl Iterator<Item = u32> + '_ {
+        self.terms.keys().map(|key| key.0)
+    }
+}
 
 /// Parts of a scene, and the sets to which they refer.
 pub(super) struct Draft<'d> {
@@ -96,4 +110,9 @@ impl<'d> Draft<'d> {
             .insert(format!("load.{number}"), self.deck.files.show(place));
         self.loads.push((load, series));
     }
+}
+
+/// The name of a set that is made for a line of the deck.
+pub(super) fn made(keyword: &str, place: LinePlace) -> String {
+    format!("{keyword}-line-{}", place.line())
 }

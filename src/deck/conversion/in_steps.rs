@@ -7,8 +7,7 @@ use super::super::bodies::unsupported;
 use super::super::history::{Key, KeyHistory};
 use super::super::linear::{FreedomCoefficients, Reduced};
 use super::super::series::Series;
-use super::Draft;
-use super::conditions::made;
+use super::draft::{Draft, SumInSteps, made};
 use crate::error::Result;
 use crate::scene::span::Span;
 use crate::scene::{Direction, EquationTerm, Load, Relative, Support};
@@ -23,19 +22,6 @@ type SpanBits = [Option<[u64; 2]>; 2];
 /// What is done to nodes over the same steps, as a key: axis, span, whether the nodes stay where
 /// they are, and the values over time.
 type Done = (u8, SpanBits, bool, Vec<u64>);
-
-/// The condition that a sum of displacements along x, y and z has a value over some steps.
-pub(super) struct SumInSteps {
-    terms: FreedomCoefficients,
-    entry: KeyHistory,
-}
-
-impl SumInSteps {
-    /// Nodes of the sum.
-    pub(super) fn nodes(&self) -> impl Iterator<Item = u32> + '_ {
-        self.terms.keys().map(|key| key.0)
-    }
-}
 
 fn bits(span: Span) -> SpanBits {
     let since = span.since.map(|since| [since.to_bits(); 2]);

@@ -2,8 +2,8 @@
 
 use super::meaning::meaning;
 use super::rank::Host;
+use super::shared::{Entry, Shared};
 use super::task::{Analysed, Factored, Task};
-use super::{Entry, Schur, Shared};
 use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::{NotDefinite, check, cholmod};
 use crate::memory;
@@ -45,6 +45,31 @@ struct Variables {
     freedoms: Vec<usize>,
     /// Trailing number of each freedom that stays; `None` for interior freedoms.
     trailing: Vec<Option<usize>>,
+}
+
+/// A dense symmetric matrix on some of the trailing freedoms.
+pub(super) struct Schur {
+    /// Trailing numbers of these freedoms.
+    pub(super) freedoms: Vec<usize>,
+    /// Entries by rows, of which only the lower triangle is valid; empty if they are unknown.
+    pub(super) values: Vec<f64>,
+}
+
+impl Schur {
+    /// Calls `add` with the entries of the upper triangle.
+    pub(super) fn each(&self, add: &mut dyn FnMut(Entry)) {
+        let m = self.freedoms.len();
+        for a in 0..m {
+            for b in 0..=a {
+                // Zeros are left out, so that unconnected bodies stay uncoupled.
+                let value = self.values.get(a * m + b).copied().unwrap_or(1.0);
+                if value != 0.0 {
+                    let ends = [self.freedoms[a], self.freedoms[b]];
+                    add((ends[0].min(ends[1]), ends[0].max(ends[1]), value));
+                }
+            }
+        }
+    }
 }
 
 /// Handle of a factor that is distributed over all ranks.

@@ -5,7 +5,7 @@
 //!
 //! ```text
 //!     S_G = - K_GI K_II^-1 K_IG      by MUMPS on all ranks, dense
-//!     S   = K_tt + S_G               condensed by another backend on the first rank
+//!     S   = K_tt + S_G               condensed by CHOLMOD on the first rank
 //! ```
 //!
 //! The interior is needed once for each load vector and once for each state that is written, whose
@@ -45,19 +45,13 @@ pub use shared::{Part, Shared};
 pub use world::{Traffic, World};
 
 use super::{
-    Backend, ChangedFactor, Condensed, ContactStiffness, NotDefinite, Partition, Pivot, Prediction,
-    SymmetricCsc, ZonePart, check, condense as condense_by, predict as predict_by,
-    smallest_pivot_ratio,
+    ChangedFactor, Condensed, ContactStiffness, NotDefinite, Partition, Pivot, Prediction,
+    SymmetricCsc, ZonePart, check, cholmod, smallest_pivot_ratio,
 };
 use crate::error::{Error, Result};
 use crate::memory;
-use exterior::{Exterior, SymbolicFactor};
-
-/// Backend that condenses the trailing freedoms on the first rank.
-const INNER: Backend = Backend::Cholmod;
-
-/// Matrix entry as row, column and value.
-type Entry = (usize, usize, f64);
+use exterior::{Exterior, Schur, SymbolicFactor};
+use shared::Entry;
 
 /// A condensed matrix whose interior MUMPS has factored.
 struct MumpsCondensed {
@@ -111,7 +105,7 @@ pub fn condense_shared(
     };
     let condensed = trailing.matrix(schur);
     trailing.own = Vec::new();
-    let inner = condense_by(INNER, &condensed, &trailing.partition, shift);
+    let inner = cholmod::condense(&condensed, &trailing.partition, shift);
     let inner = inner.map_err(|error| of_freedom(error, &trailing.freedoms))?;
     let mut shifts = vec![0.0; n];
     for (&contact, shift) in partition.contact.iter().zip(shift) {
@@ -259,7 +253,7 @@ impl RemainingMatrix {
         let m = schur.as_ref().map_or(0, |schur| schur.freedoms.len()) as f64;
         // The pattern, and its copies in the analysis.
         memory::require("matrix of what the ranks leave to the first", 24.0 * m * m)?;
-        let mut cost = predict_by(INNER, &self.matrix(schur), &self.partition)?;
+        let mut cost = cholmod::predict(&self.matrix(schur), &self.partition)?;
         let mut by_rank = self.columns.clone();
         by_rank[0] += cost.memory_bytes;
         if let Some(analysis) = &self.analysis {
@@ -276,31 +270,6 @@ impl RemainingMatrix {
         cost.memory_bytes = by_rank.iter().copied().fold(0.0, f64::max);
         cost.memory_by_rank = by_rank;
         Ok(cost)
-    }
-}
-
-/// A dense symmetric matrix on some of the trailing freedoms.
-struct Schur {
-    /// Trailing numbers of these freedoms.
-    freedoms: Vec<usize>,
-    /// Entries by rows, of which only the lower triangle is valid; empty if they are unknown.
-    values: Vec<f64>,
-}
-
-impl Schur {
-    /// Calls `add` with the entries of the upper triangle.
-    fn each(&self, add: &mut dyn FnMut(Entry)) {
-        let m = self.freedoms.len();
-        for a in 0..m {
-            for b in 0..=a {
-                // Zeros are left out, so that unconnected bodies stay uncoupled.
-                let value = self.values.get(a * m + b).copied().unwrap_or(1.0);
-                if value != 0.0 {
-                    let ends = [self.freedoms[a], self.freedoms[b]];
-                    add((ends[0].min(ends[1]), ends[0].max(ends[1]), value));
-                }
-            }
-        }
     }
 }
 

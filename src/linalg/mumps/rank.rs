@@ -4,7 +4,7 @@ use super::task::{Analysed, Factored, MadeOnRank, Near, Product, Task};
 use crate::error::Result;
 use crate::linalg::SymmetricCsc;
 use crate::linalg::cholmod;
-use crate::linalg::residual::RowSums;
+use crate::linalg::row_sums::RowSums;
 use crate::memory;
 use serde::Serialize;
 use std::collections::BTreeMap;

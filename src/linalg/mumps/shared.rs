@@ -2,14 +2,17 @@
 
 use super::rank::{Assemble, Columns, Evaluate, Host};
 use super::task::{MadeOnRank, Near, Product, Task};
-use super::{Entry, Traffic, World};
+use super::world::{Traffic, World};
 use crate::error::{Error, Result};
 use crate::linalg::SymmetricCsc;
-use crate::linalg::residual::RowSums;
+use crate::linalg::row_sums::RowSums;
 use crate::results::Ranks;
 use serde::de::DeserializeOwned;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Matrix entry as row, column and value.
+pub(super) type Entry = (usize, usize, f64);
 
 /// Part of a matrix for one rank: its freedoms, ascending, in the numbering of the whole, and the
 /// message from which the rank makes its columns ([`Assemble`]).

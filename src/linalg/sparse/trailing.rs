@@ -17,7 +17,9 @@
 
 mod changed;
 mod substitution;
+mod subtree;
 
+use super::tree::Forest;
 use super::{FactorColumns, Groups, LowerFactor, panel};
 use crate::error::{Error, Result};
 use crate::linalg::{ContactBlock, ContactStiffness, Partition, blocked};
@@ -25,7 +27,7 @@ pub(crate) use changed::Changed;
 use nalgebra::DMatrix;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
-use substitution::{Subtree, WorkOfSubtree};
+use subtree::{Subtree, WorkOfSubtree};
 
 /// Largest number of columns of a panel: enough that rows are gathered rarely. 16, 32 and 64 differ
 /// by a few per cent.
@@ -162,6 +164,50 @@ impl TrailingFactor {
         trailing.find_subtrees();
         trailing.make_room();
         Ok((trailing, zone))
+    }
+
+    /// Cuts the elimination tree of the zone's panels into subtrees.
+    fn find_subtrees(&mut self) {
+        let zone = &self.panels[..self.n_zone_panels];
+        let panel_of = |column: u32| zone.partition_point(|p| p.first + p.width <= column as usize);
+        self.parents = zone
+            .iter()
+            .map(|p| match self.rows[p.rows.clone()].first() {
+                Some(&row) if (row as usize) < self.n_zone => panel_of(row),
+                _ => usize::MAX,
+            })
+            .collect();
+        let work: Vec<u64> = zone
+            .iter()
+            .map(|p| (p.rectangle().end - p.values) as u64)
+            .collect();
+        let forest = Forest {
+            parent: &self.parents,
+            work: &work,
+        };
+        for panels in forest.subtrees() {
+            let (first, root) = (zone[panels.start].first, &zone[panels.end - 1]);
+            let columns = first..root.first + root.width;
+            let outer = &self.rows[root.rows.clone()];
+            let (mut starts, mut own_rows) = (Vec::with_capacity(panels.len()), Vec::new());
+            for p in &zone[panels.clone()] {
+                starts.push(own_rows.len());
+                own_rows.extend(self.rows[p.rows.clone()].iter().map(|&row| {
+                    match columns.contains(&(row as usize)) {
+                        true => row - first as u32,
+                        // Rows of a descendant outside the subtree are also rows of the root.
+                        false => (columns.len() + outer.partition_point(|o| *o < row)) as u32,
+                    }
+                }));
+            }
+            self.subtrees.push(Subtree {
+                panels,
+                columns,
+                outer: root.rows.clone(),
+                starts,
+                own_rows,
+            });
+        }
     }
 
     /// Allocates the workspace of the solves.

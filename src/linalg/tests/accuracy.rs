@@ -176,7 +176,7 @@ fn the_componentwise_error_sees_a_small_row() {
 /// measured by its own stiffness.
 #[test]
 fn the_pass_in_parts_gives_every_row_its_own() {
-    use crate::linalg::residual::RowSums;
+    use crate::linalg::row_sums::RowSums;
     let mut numbers = Numbers::new(3);
     for n in [1, 2, 3, 7, 400] {
         let mut k = sprs::TriMatI::<f64, i64>::new((n, n));

@@ -7,11 +7,12 @@
 //! s -= (3 G + H_kin) d/q s,    eps_p += (3/2) d/q s
 //! ```
 //!
-//! The parts of the path and the extrapolation are those of [`super::StrainPath`]; with deviators
-//! they take a fourth of the operations.
+//! The parts of the path and the extrapolation are those of [`super::parts::StrainPath`]; with
+//! deviators they take a fourth of the operations.
 
-use super::{Across, PARTS, StrainPath, Turn};
-use crate::material::{Hardening, PlasticState, von_mises_product};
+use super::super::tensor::von_mises_product;
+use super::super::{Hardening, PlasticState};
+use super::parts::{Across, PARTS, StrainPath, Turn};
 
 /// State of a point on the way along the path.
 #[derive(Clone, Copy)]

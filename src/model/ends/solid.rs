@@ -1,7 +1,7 @@
 //! Ends of the contact surfaces of a solid beyond which both bodies go on: edges of faces that no
 //! other contact surface shares.
 
-use super::Beside;
+use super::beside::Beside;
 use crate::mesh::surface::FEATURE_ANGLE;
 use crate::mesh::{Facet, Mesh};
 use crate::model::{ContactSurface, Pair};

@@ -1,6 +1,7 @@
 //! Slaves that supports hold against contact, and contacts that state the same twice.
 
-use super::{Found, Pair, list};
+use super::found::Found;
+use super::{Pair, list};
 use crate::error::{Error, Result};
 use crate::mesh::{Facet, Mesh, Surface};
 use crate::scene::Contact;

@@ -1,6 +1,8 @@
 //! Contact pairs of nodes that face each other.
 
-use super::{ContactInput, Found, Pair};
+use super::Pair;
+use super::contact_input::ContactInput;
+use super::found::Found;
 use crate::balls::Balls;
 use crate::element::facet_points;
 use crate::error::{Error, Result};

@@ -21,19 +21,23 @@ mod dual;
 mod face;
 mod overlap;
 mod roundness;
+mod sides;
 mod spheres;
 
-use super::covered::{Covered, CoveredFacet};
-use super::{ContactInput, ContactSurface, Found, NO_AREA, Pair};
+use super::contact_input::ContactInput;
+use super::covered::Covered;
+use super::found::Found;
+use super::{ContactSurface, NO_AREA, Pair};
 use crate::balls::Balls;
 use crate::error::{Error, Result};
 use crate::mesh::surface::{longest_facet, nodes, normals};
-use crate::mesh::{Curve, Mesh, Surface};
+use crate::mesh::{Mesh, Surface};
 use crate::scene::SlaveSide;
 use crate::space::{Vector, difference, direction, dot, length};
 use dual::{Integrals, OfFacet, integrate};
 use face::MortarFace;
 use rayon::prelude::*;
+use sides::Sides;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Share of a row's weight that must be covered for the row to be kept: rows below it would contain
@@ -46,21 +50,6 @@ const NEAR: f64 = 0.05;
 const FLAT: f64 = 1e-6;
 /// Overlap of the meshes that counts as round-off, as a share of a facet's length.
 const TOUCHING: f64 = 1e-9;
-/// Share of a facet's weight below which a master is dropped.
-const NOTHING: f64 = 1e-13;
-
-/// Facets of both surfaces with their true shapes.
-struct Sides<'a> {
-    entries: &'a ContactInput<'a>,
-    slaves: Vec<MortarFace>,
-    masters: Vec<MortarFace>,
-    /// Balls around the masters, to find the masters near a line.
-    near: Balls,
-    /// Exact shapes of slave and master, if known.
-    curves: [Option<Curve>; 2],
-    /// Unit normal of each slave node.
-    normals: BTreeMap<usize, Vector>,
-}
 
 /// Both sides of a contact, with the pairs found.
 struct Coupled<'a> {

@@ -5,8 +5,10 @@
 //! masters of a slave are the facet's nodes with the weights `N_k(xi)`, and the gap is the distance
 //! along the master's normal there.
 
+use super::Pair;
+use super::contact_input::ContactInput;
+use super::found::Found;
 use super::only::Only;
-use super::{ContactInput, Found, Pair};
 use crate::balls::Balls;
 use crate::element::facet_points;
 use crate::error::{Error, Result};

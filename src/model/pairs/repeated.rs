@@ -1,7 +1,8 @@
 //! Pairs of nodes that an earlier contact has already, as on an edge that two contacts share or if
 //! a contact is named both ways.
 
-use super::{Found, Pair, held};
+use super::found::Found;
+use super::{Pair, held};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Surface};
 use crate::scene::Contact;

@@ -1,13 +1,12 @@
 //! Resolution of all contacts of a scene, one after the other: which surface has the slaves, and
 //! which pairs each contact has beside those of earlier ones.
 
+use super::contact_input::ContactInput;
+use super::found::{Found, surface_of};
 use super::only::Only;
 use super::repeated::Repeated;
 use super::stated::Stated;
-use super::{
-    ContactInput, ContactSurface, Found, Pair, held, matching, mortar, only, pointwise, rigid,
-    surface_of,
-};
+use super::{ContactSurface, Pair, held, matching, mortar, only, pointwise, rigid};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::model::given::{Given, NodePair};

@@ -3,8 +3,10 @@
 //! The gap of a node is its distance from the surface, the normal is that at the closest point.
 //! Sliding is small: both keep their values when the bodies move.
 
+use super::Pair;
+use super::contact_input::ContactInput;
+use super::found::Found;
 use super::matching::nodal_areas;
-use super::{ContactInput, Found, Pair};
 use crate::error::{Error, Result};
 use crate::mesh::surface::{longest_facet, nodes, normals};
 use crate::model::rigid::RigidBody;

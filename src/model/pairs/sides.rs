@@ -6,7 +6,8 @@
 //! to overlap by what lies between them. A true overlap lies inside both bodies; this space lies
 //! first inside one body, then inside the other.
 
-use super::{ContactInput, Pair};
+use super::Pair;
+use super::contact_input::ContactInput;
 use crate::balls::Balls;
 use crate::deck::face_number;
 use crate::error::{Error, Result};

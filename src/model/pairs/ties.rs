@@ -1,7 +1,9 @@
 //! Tied surfaces: the rows of [`super::mortar`] by which their nodes follow others.
 
+use super::contact_input::ContactInput;
+use super::resolved_tie::ResolvedTie;
 use super::stated::Stated;
-use super::{ContactInput, ContactSurface, Pair, list, mortar};
+use super::{ContactSurface, Pair, list, mortar};
 use crate::error::{Error, Result};
 use crate::mesh::surface::FEATURE_ANGLE;
 use crate::mesh::{Facet, Mesh, Surface};
@@ -9,21 +11,6 @@ use crate::model::names::SceneEntry;
 use crate::scene::{Contact, Scene, Tie};
 use crate::space::dot;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// A tie of the scene resolved to its rows.
-#[derive(Debug, Clone)]
-pub(in crate::model) struct ResolvedTie {
-    /// Description of the tie for messages.
-    pub what: String,
-    /// Name of the surface whose nodes follow.
-    pub slaves: String,
-    /// Rows by which each slave node follows others; the area of a row is the integral of the dual
-    /// function.
-    pub rows: Vec<Pair>,
-    /// Rows of nodes that follow in an earlier tie, around a corner: their part of this tie is
-    /// handed on to their neighbours.
-    pub elsewhere: Vec<Pair>,
-}
 
 /// Resolves the ties of a scene. A node of two ties has one row: on one face that of a tie of both
 /// surfaces, around a corner that of the first.

@@ -1,29 +1,10 @@
 //! Rows of plane shapes.
 
-use crate::shape::{Place, ReferenceElement, Rule, functions};
+use crate::shape::nodes::{SQUARE, TRIANGLE};
+use crate::shape::{ReferenceElement, Rule, functions};
 
 /// Node order of the shapes whose nodes Gmsh numbers in the same way.
 pub(super) const IN_ORDER: [usize; 8] = [0, 1, 2, 3, 4, 5, 6, 7];
-
-pub(in crate::shape) const TRIANGLE: [Place; 6] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.5, 0.0, 0.0],
-    [0.5, 0.5, 0.0],
-    [0.0, 0.5, 0.0],
-];
-
-pub(in crate::shape) const SQUARE: [Place; 8] = [
-    [-1.0, -1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [-1.0, 1.0, 0.0],
-    [0.0, -1.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [-1.0, 0.0, 0.0],
-];
 
 /// Gauss abscissa `1/sqrt(3)` of the 2 x 2 rule.
 pub(super) const G2: f64 = 0.577_350_269_189_625_8;

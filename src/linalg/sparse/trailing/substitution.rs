@@ -4,80 +4,13 @@
 //! summed, are the same for every number of threads; so are the bits of the result.
 
 use super::super::panel;
-use super::super::tree::Forest;
+use super::subtree::Subtree;
 use super::{Panel, SolveWorkspace, TrailingFactor};
 use crate::linalg::ZonePart;
 use rayon::prelude::*;
-use std::ops::Range;
 use std::sync::PoisonError;
 
-/// Panels that may be solved at the same time as panels of other subtrees. A subtree works on a
-/// vector of its own, `[ columns | outer ]`: its contributions to rows outside the subtree belong
-/// to the rows of its last panel, the root.
-#[derive(Debug)]
-pub(super) struct Subtree {
-    pub(super) panels: Range<usize>,
-    pub(super) columns: Range<usize>,
-    /// Rows of the root panel, as a range in `TrailingFactor::rows`.
-    pub(super) outer: Range<usize>,
-    /// Start of the rows of each panel in `own_rows`.
-    starts: Vec<usize>,
-    /// Rows of all panels in the subtree's own numbering.
-    own_rows: Vec<u32>,
-}
-
-/// Workspace of a subtree in one solve.
-#[derive(Debug)]
-pub(super) struct WorkOfSubtree {
-    pub(super) vector: Vec<f64>,
-    pub(super) rows: Vec<f64>,
-}
-
 impl TrailingFactor {
-    /// Cuts the elimination tree of the zone's panels into subtrees.
-    pub(super) fn find_subtrees(&mut self) {
-        let zone = &self.panels[..self.n_zone_panels];
-        let panel_of = |column: u32| zone.partition_point(|p| p.first + p.width <= column as usize);
-        self.parents = zone
-            .iter()
-            .map(|p| match self.rows[p.rows.clone()].first() {
-                Some(&row) if (row as usize) < self.n_zone => panel_of(row),
-                _ => usize::MAX,
-            })
-            .collect();
-        let work: Vec<u64> = zone
-            .iter()
-            .map(|p| (p.rectangle().end - p.values) as u64)
-            .collect();
-        let forest = Forest {
-            parent: &self.parents,
-            work: &work,
-        };
-        for panels in forest.subtrees() {
-            let (first, root) = (zone[panels.start].first, &zone[panels.end - 1]);
-            let columns = first..root.first + root.width;
-            let outer = &self.rows[root.rows.clone()];
-            let (mut starts, mut own_rows) = (Vec::with_capacity(panels.len()), Vec::new());
-            for p in &zone[panels.clone()] {
-                starts.push(own_rows.len());
-                own_rows.extend(self.rows[p.rows.clone()].iter().map(|&row| {
-                    match columns.contains(&(row as usize)) {
-                        true => row - first as u32,
-                        // Rows of a descendant outside the subtree are also rows of the root.
-                        false => (columns.len() + outer.partition_point(|o| *o < row)) as u32,
-                    }
-                }));
-            }
-            self.subtrees.push(Subtree {
-                panels,
-                columns,
-                outer: root.rows.clone(),
-                starts,
-                own_rows,
-            });
-        }
-    }
-
     /// Number of subtrees.
     #[cfg(test)]
     pub(crate) fn n_subtrees(&self) -> usize {

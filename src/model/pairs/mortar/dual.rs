@@ -4,9 +4,10 @@
 //! `sqrt(w) phi = Q R`, so that `psi = D R^-1 Q' / sqrt(w)`. If little is covered, this loses only
 //! half of the digits that the inverse of `int phi_j phi_l` would lose.
 
+use super::super::covered::CoveredFacet;
 use super::face::{FacePlane, MortarFace};
 use super::overlap::{self, Point};
-use super::{CoveredFacet, NOTHING, Sides};
+use super::sides::Sides;
 use crate::error::{Error, Result};
 use crate::shape::MAX_FACET_NODES;
 use crate::space::{Vector, along, difference, direction, dot, length};
@@ -21,6 +22,8 @@ const PARTLY: f64 = 1e-9;
 /// Share of a facet that may be covered twice: polygons deviate by less from facets with curved
 /// edges.
 const TWICE: f64 = 0.05;
+/// Share of a facet's weight below which a master is dropped.
+const NOTHING: f64 = 1e-13;
 /// Weight of each end of an edge at its middle, as in [`crate::model::ContactBasis`].
 const ALPHA: f64 = crate::model::ContactBasis::ALPHA;
 

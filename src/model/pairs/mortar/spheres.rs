@@ -5,12 +5,18 @@
 //! Nodes that were placed on such a surface lie on the fitted one up to round-off.
 
 use super::face::MortarFace;
-use super::roundness::{BENT, LARGEST_TURN, OFF};
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
 use nalgebra::{Matrix3, SMatrix, SVector, SymmetricEigen};
 use std::collections::BTreeMap;
 
+/// Largest distance of a node from a curved surface at which the surface is recognised, relative to
+/// the sagitta of the chords between nodes.
+pub(super) const OFF: f64 = 1e-2;
+/// Smallest ratio of sagitta to chord at which nodes count as off a straight line.
+pub(super) const BENT: f64 = 1e-8;
+/// Largest turn in degrees from one facet to the next; facets that turn by more form a polygon.
+pub(super) const LARGEST_TURN: f64 = 30.0;
 /// Smallest number of nodes: twice the number of parameters of a cylinder.
 const FEWEST: usize = 10;
 /// Largest number of steps of a fit, which converges in a few.
