@@ -1,7 +1,7 @@
 //! `accuracy = "x %"`: reached and true, or not and why.
 
-use crate::accuracy::families::{on_flat, tube};
 use crate::support;
+use crate::support::families::{on_flat, tube};
 use brinell::accuracy::{Extent, Reached, reach};
 use brinell::linalg::Backend;
 use brinell::progress::{Observer, Silent};

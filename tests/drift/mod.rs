@@ -10,6 +10,9 @@ use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+/// Folders of Rust code.
+const CODE: [&str; 5] = ["src", "tests", "benches", "examples", "ffi/examples"];
+
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
@@ -205,7 +208,7 @@ fn the_library_never_prints() {
 
 #[test]
 fn files_have_at_most_500_lines() {
-    let long: Vec<String> = ["src", "tests"]
+    let long: Vec<String> = CODE
         .iter()
         .flat_map(|folder| files(folder, "rs"))
         .map(|path| {
@@ -228,7 +231,7 @@ fn lines_have_at_most_100_columns() {
         text.trim_start().starts_with('|') || line.contains("://")
     };
     let mut long = Vec::new();
-    let paths = ["src", "tests", "ffi/examples"].map(|folder| files(folder, "rs"));
+    let paths = CODE.map(|folder| files(folder, "rs"));
     for path in paths.concat() {
         let text = std::fs::read_to_string(&path).unwrap();
         for (number, line) in text.lines().enumerate() {

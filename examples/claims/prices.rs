@@ -1,6 +1,6 @@
 //! What demands cost beside the cheapest uniform mesh that is as accurate, found by trial.
 
-use super::families::{Family, run};
+use super::support::families::{Family, run};
 use brinell::accuracy::{Extent, Quantity, member, quantities, reach, work};
 use brinell::linalg::Backend;
 use brinell::progress::Silent;

@@ -1,7 +1,7 @@
 //! What finer grading of a generated mesh would buy: errors and operations over the elements at the
 //! contact and the growth away from it, data/accuracy/grading.md.
 
-use super::families::{on_flat, run};
+use super::support::families::{on_flat, run};
 use brinell::accuracy::{Extent, quantities, work};
 use brinell::results::Results;
 use brinell::scene::Scene;

@@ -3,7 +3,6 @@
 //!
 //! The constants of `brinell::accuracy` were looked at on the families of `calibration` alone;
 //! these judge them.
-#![allow(dead_code)] // tests and the page each use a part of it
 
 use crate::support;
 use brinell::accuracy::{Effort, Extent, estimate, quantities};
