@@ -1,6 +1,6 @@
 //! Displacements of every node at the end of every step, compared with those of CalculiX.
 
-use super::{deck_path, folder, run};
+use super::{deck_path, folder, run_file};
 use crate::support::tools;
 use brinell::model::Model;
 use brinell::results::Results;
@@ -136,7 +136,7 @@ pub(super) fn far((model, results): &(Model, Results), stored: &Table) -> f64 {
 fn displacements_are_those_of_calculix() {
     let mut wrong = Vec::new();
     for case in &CASES {
-        let (model, results) = run(&deck_path(case.name), case.overrides);
+        let (model, results) = run_file(&deck_path(case.name), case.overrides);
         let stored = stored(case.name);
         assert_eq!(results.states.len(), stored.len(), "{}", case.name);
         let scale = stored.values().map(largest).fold(0.0, f64::max);

@@ -1,6 +1,6 @@
 //! A deck, and the scene and mesh that it is written as, are the same model.
 
-use super::{deck_path, folder, run};
+use super::{deck_path, folder, run_file};
 use std::process::Command;
 
 /// All decks of the folder.
@@ -28,8 +28,8 @@ fn a_deck_and_what_it_is_converted_to_give_the_same_results() {
             .arg("--out")
             .arg(&scene);
         assert!(command.output().unwrap().status.success(), "{name}");
-        let (model, results) = run(&deck_path(&name), &[]);
-        let (again, converted) = run(&scene, &[]);
+        let (model, results) = run_file(&deck_path(&name), &[]);
+        let (again, converted) = run_file(&scene, &[]);
         assert_eq!(model.mesh.coordinates, again.mesh.coordinates, "{name}");
         assert_eq!(model.mesh.connectivity, again.mesh.connectivity, "{name}");
         assert_eq!(model.mesh.bodies, again.mesh.bodies, "{name}");
@@ -84,7 +84,7 @@ fn the_program_tells_what_it_made_of_a_deck() {
         String::from_utf8_lossy(&output.stderr)
     );
     // The folder holds a scene that can be run again.
-    let (_, results) = run(&out.path().join("out/scene_as_run.toml"), &[]);
+    let (_, results) = run_file(&out.path().join("out/scene_as_run.toml"), &[]);
     assert_eq!(results.states[1].name, "step-2");
 }
 
@@ -170,7 +170,7 @@ fn a_new_scene_from_a_deck_is_its_conversion() {
         output.status.success() && text.contains("run it with: brinell run"),
         "{text}"
     );
-    let (_, results) = run(&scene, &[]);
+    let (_, results) = run_file(&scene, &[]);
     assert_eq!(results.states[0].name, "step-1");
     for arguments in [&["new"][..], &["new", "punch", "--from", "x.inp"]] {
         let output = program().args(arguments).output().unwrap();

@@ -1,6 +1,6 @@
 //! The wrong face of an element in a contact surface: noticed by name. What truly overlaps is not.
 
-use brinell::deck::{self, Options};
+use super::load_text;
 use brinell::model::Model;
 use std::fmt::Write as _;
 
@@ -137,10 +137,7 @@ impl Blocks {
     }
 
     fn model(&self) -> brinell::Result<Model> {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("blocks.inp");
-        std::fs::write(&path, self.text()).unwrap();
-        Model::new(&deck::load_with(&path, &[], Options::default())?)
+        Model::new(&load_text(&self.text())?)
     }
 }
 
@@ -236,10 +233,7 @@ fn one_face_of_a_surface_that_looks_away_is_named() {
         let text = right.text();
         let [from, to] = [under, top].map(|face| format!("\n{element}, S{face}\n"));
         assert!(text.contains(&from), "{text}");
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("blocks.inp");
-        std::fs::write(&path, text.replace(&from, &to)).unwrap();
-        let scene = deck::load_with(&path, &[], Options::default()).unwrap();
+        let scene = load_text(&text.replace(&from, &to)).unwrap();
         let error = Model::new(&scene).err().map(|error| error.to_string());
         let error = error.unwrap_or_default();
         let named = format!("face S{top} of element {element} of `UNDER` looks away from `TOP`");

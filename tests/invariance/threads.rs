@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::Path;
 use std::process::Command;
 
-fn run(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str]) {
+fn run_on_threads(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str]) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
     command
         .arg("run")
@@ -30,7 +30,7 @@ fn run(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str])
 }
 
 /// The summary without what depends on the clock and the process.
-fn summary(out: &Path) -> Value {
+fn summary_without_times(out: &Path) -> Value {
     let text = std::fs::read_to_string(out.join("summary.json")).unwrap();
     let mut summary: Value = serde_json::from_str(&text).unwrap();
     let object = summary.as_object_mut().unwrap();
@@ -81,10 +81,14 @@ fn assert_threads_change_no_bit(solver: &str, scenes: usize) {
         let folder = tempfile::tempdir().unwrap();
         let [one, two] = ["1", "2"].map(|threads| {
             let out = folder.path().join(threads);
-            run(name, [solver, threads], &out, overrides);
+            run_on_threads(name, [solver, threads], &out, overrides);
             out
         });
-        assert_eq!(summary(&one), summary(&two), "{name}");
+        assert_eq!(
+            summary_without_times(&one),
+            summary_without_times(&two),
+            "{name}"
+        );
         let files = |out: &Path| {
             let mut names: Vec<_> = std::fs::read_dir(out)
                 .unwrap()

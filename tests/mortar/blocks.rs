@@ -2,12 +2,9 @@
 
 use crate::mortar::sheet::Sheet;
 use crate::support::grid::{Grid, Point};
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
-use brinell::progress::Silent;
-use brinell::results::{Results, State};
+use brinell::results::State;
 use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, SlaveSide, Support, Target};
 
 /// A body's elements: shape and cells.
@@ -147,16 +144,6 @@ fn halfway<'a>(
         let (a, b) = (map(low), map(high));
         [0, 1, 2].map(|d| 0.5 * (a[d] + b[d]))
     }
-}
-
-pub fn run(builder: &ModelBuilder) -> Results {
-    let model = builder.build().unwrap();
-    let results = Analysis::new(model, Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
-    results
 }
 
 /// Largest deviation from a uniform state: of pressures, as a share; of stresses, as a share of the

@@ -1,11 +1,10 @@
 //! Curved surfaces that fit each other, with different facets: the gap is that of the true
 //! surfaces.
 
-use crate::mortar::blocks::{held, of_one_material, run};
+use crate::mortar::blocks::{held, of_one_material};
 use crate::mortar::sheet::Sheet;
 use crate::support::grid::{Grid, Point};
-use crate::support::{either, load, try_run};
-use brinell::linalg::Backend;
+use crate::support::{either, load, run, run_built};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::State;
@@ -40,7 +39,7 @@ fn a_shaft_in_a_ring_under_interference() {
                         &format!("contact.0.slave={slave}"),
                     ],
                 );
-                let results = try_run(&scene, Backend::default()).unwrap();
+                let results = run(&scene);
                 let [mean, scatter] = deviations(&results.states[0]);
                 assert!(
                     mean < 0.01 && scatter < 0.02,
@@ -102,7 +101,7 @@ fn circles_are_recognised() {
     for shape in [Shape::Quad4, Shape::Quad8, Shape::Tri6] {
         for cells in [[12, 8], [8, 12]] {
             for slave in [SlaveSide::First, SlaveSide::Second] {
-                let results = run(&tube_in_ring(shape, cells, slave));
+                let results = run_built(&tube_in_ring(shape, cells, slave));
                 let [mean, scatter] = {
                     let state = &results.states[0];
                     let [mean, scatter] = deviations(state);
@@ -179,7 +178,7 @@ fn shells(
 
 /// Mean and scatter of the pressure of what nothing says is round.
 fn of_shells(builder: &ModelBuilder, exact: f64) -> [f64; 2] {
-    let results = run(builder);
+    let results = run_built(builder);
     let state = &results.states[0];
     let [_, scatter] = deviations(state);
     let force: f64 = state.pairs.iter().map(|p| p.force).sum();

@@ -1,9 +1,10 @@
 //! What stands at the ends of surfaces, on supports, and between three bodies; what is refused.
 
 use crate::mortar::blocks::{
-    held, of_one_material, off_uniform, pressed, run, stacked, supported, symmetric, touching,
+    held, of_one_material, off_uniform, pressed, stacked, supported, symmetric, touching,
 };
 use crate::mortar::sheet::Sheet;
+use crate::support::run_built;
 use brinell::mesh::Shape;
 use brinell::model::{Model, ModelBuilder};
 use brinell::scene::{Direction, History, Kind, SlaveSide, Target};
@@ -68,7 +69,7 @@ pub fn taylor(shape: Shape, slave: SlaveSide) {
     builder
         .nodal_load("beside", &on, &pushed, History::Proportional)
         .unwrap();
-    let results = run(&builder);
+    let results = run_built(&builder);
     let off = off_uniform(&results.states[0], 25.0, 1, 4);
     assert!(off < 1e-10, "{shape:?} {slave:?}: {off:.1e}");
 }
@@ -79,7 +80,7 @@ fn partly_covered_edges() {
     for shape in Shape::PLANE {
         for slave in [SlaveSide::First, SlaveSide::Second] {
             for width in [1.2 + 1e-9, 1.21, 1.3, 1.4, 1.599] {
-                let results = run(&punch(shape, width, slave));
+                let results = run_built(&punch(shape, width, slave));
                 let force: f64 = results.states[0].pairs.iter().map(|p| p.force).sum();
                 let off = (force / (25.0 * width) - 1.0).abs();
                 assert!(off < 1e-10, "{shape:?} {slave:?} {width}: {off:.1e}");
@@ -146,7 +147,7 @@ fn three_in_a_row() {
                 ..Target::default()
             });
             pressed(&mut builder, "upper.top", 10.0);
-            let results = run(&builder);
+            let results = run_built(&builder);
             let off = off_uniform(&results.states[0], 10.0, 1, 4);
             assert!(off < 1e-10, "{sides:?} {modulus}: {off:.1e}");
         }
@@ -177,7 +178,7 @@ fn stiffness_ratios() {
             supported(&mut builder, slave);
             symmetric(&mut builder);
             pressed(&mut builder, "upper.top", 10.0);
-            let results = run(&builder);
+            let results = run_built(&builder);
             let off = off_uniform(&results.states[0], 10.0, 1, 4);
             let more_rows = ratio > 1.0 && slave == SlaveSide::First;
             println!("{ratio:e} {slave:?}: {off:.1e}");

@@ -1,9 +1,10 @@
 //! A uniform pressure passes through every pairing of facets.
 
 use crate::mortar::blocks::{
-    Cells, of_one_material, off_uniform, pressed, run, stacked, supported, symmetric,
+    Cells, of_one_material, off_uniform, pressed, stacked, supported, symmetric,
 };
 use crate::support::grid::Point;
+use crate::support::run_built;
 use brinell::mesh::Shape;
 use brinell::results::Results;
 use brinell::scene::{Kind, SlaveSide};
@@ -30,7 +31,7 @@ fn pressed_together(
         "upper.top"
     };
     pressed(&mut builder, top, 10.0);
-    run(&builder)
+    run_built(&builder)
 }
 
 /// Round-off: conditions of these matrices are some 1e4.

@@ -1,10 +1,9 @@
 //! Surfaces that are tied: one stress passes through, whatever stands at their ends.
 
-use crate::mortar::blocks::{
-    Cells, held, of_one_material, pressed, run, stacked, supported, touching,
-};
+use crate::mortar::blocks::{Cells, held, of_one_material, pressed, stacked, supported, touching};
 use crate::mortar::sheet::Sheet;
 use crate::support::grid::Point;
+use crate::support::run_built;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::Results;
@@ -141,7 +140,7 @@ fn uniform(
     pinned(&mut builder, "lower", pins);
     stressed(&mut builder, &["lower", "upper"], stress);
     aim(&mut builder);
-    off(&run(&builder), stress, solid)
+    off(&run_built(&builder), stress, solid)
 }
 
 /// Tension across, along and shear at once, held by nothing; then with the ends of the surfaces on
@@ -252,7 +251,7 @@ fn three_in_a_row() {
             pinned(&mut builder, "a", pins);
             stressed(&mut builder, &names, stress);
             aim(&mut builder);
-            let off = off(&run(&builder), stress, false);
+            let off = off(&run_built(&builder), stress, false);
             assert!(off < ROUND_OFF, "{below:?} {above:?}: {off:.1e}");
         }
     }
@@ -291,7 +290,7 @@ fn a_node_in_contact_that_is_tied() {
                 pressed(&mut builder, "punch.top", 10.0);
                 pressed(&mut builder, "rest.top", 10.0);
                 aim(&mut builder);
-                let results = run(&builder);
+                let results = run_built(&builder);
                 let off = off(&results, [0.0, -10.0, 0.0, 0.0, 0.0, 0.0], false);
                 assert!(off < ROUND_OFF, "{shape:?} {touch:?} {slave:?}: {off:.1e}");
             }
@@ -318,7 +317,7 @@ fn contact_beside_a_tie() {
     }
     tied(&mut builder, "top.bottom", "upper.top", SlaveSide::Auto);
     pressed(&mut builder, "top.top", 10.0);
-    let results = run(&builder);
+    let results = run_built(&builder);
     let off = off(&results, [0.0, -10.0, 0.0, 0.0, 0.0, 0.0], false);
     assert!(off < ROUND_OFF, "{off:.1e}");
     for pair in &results.states[0].pairs {

@@ -1,8 +1,9 @@
 //! Tied bodies against closed forms and meshes that match; what cannot be tied.
 
-use crate::mortar::blocks::{held, of_one_material, pressed, run, touching};
+use crate::mortar::blocks::{held, of_one_material, pressed, touching};
 use crate::mortar::sheet::Sheet;
 use crate::mortar::tie::{aim, tied};
+use crate::support::{parse, run_built, run_with_model};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::State;
@@ -50,7 +51,7 @@ const BORE: f64 = 1.3 * 10.0 / (1000.0 * (16.0 - 1.0)) * (0.4 + 16.0);
 fn bore(shape: Shape, n: usize, slave: SlaveSide) -> f64 {
     let builder = tube(shape, [[2 * n, 4 * n], [2 * n, 3 * n]], slave, true);
     let model = builder.build().unwrap();
-    let results = run(&builder);
+    let results = run_built(&builder);
     let u = &results.states[0].fields.as_ref().unwrap().displacement;
     let nodes = model.mesh.set_nodes("inner.left").unwrap();
     let errors = nodes.into_iter().map(|node| {
@@ -123,7 +124,7 @@ fn a_fine_part_in_a_coarse_body() {
         held(&mut builder, "coarse.bottom", Direction::Y);
         pressed(&mut builder, "bump.top", 2.0);
         aim(&mut builder);
-        let state = run(&builder).states.remove(0);
+        let state = run_built(&builder).states.remove(0);
         (state.max_pressure, state.half_width)
     };
     let [(p, b), (exact_p, exact_b)] = [true, false].map(pressed_into);
@@ -182,7 +183,7 @@ fn a_surface_may_be_tied_in_parts() {
     };
     let whole_model = whole.build().unwrap();
     let facets = &whole_model.mesh.surfaces["upper.bottom"].facets;
-    let expected = run(&whole).states[0].clone();
+    let expected = run_built(&whole).states[0].clone();
     for cut in 1..facets.len() {
         for swapped in [false, true] {
             let mut builder = apart(0.0);
@@ -195,7 +196,7 @@ fn a_surface_may_be_tied_in_parts() {
                 builder.surface(name, facets).unwrap();
                 tied(&mut builder, name, "lower.top", SlaveSide::First);
             }
-            same(&run(&builder).states[0], &expected);
+            same(&run_built(&builder).states[0], &expected);
         }
     }
 }
@@ -236,11 +237,7 @@ material = "steel"
 [program]
 targets = [{ load_factor = 1.0 }]
 "#;
-    let scene = brinell::scene::Scene::parse(text, "corner").unwrap();
-    let model = brinell::model::Model::new(&scene).unwrap();
-    let backend = brinell::linalg::Backend::default();
-    let mut analysis = brinell::analysis::Analysis::new(model.clone(), backend).unwrap();
-    let results = analysis.run(&mut brinell::progress::Silent).unwrap();
+    let (model, results) = run_with_model(&parse(text));
     let fields = results.states[0].fields.as_ref().unwrap();
     let of_block = (0..model.mesh.n_elements()).filter(|&e| model.mesh.element_body[e] == 2);
     for e in of_block {
@@ -269,7 +266,7 @@ fn a_contact_ends_at_a_tie() {
         }
         tied(&mut builder, "tied", "lower.top", SlaveSide::First);
         touching(&mut builder, "lower.top", "touching", slave);
-        let results = run(&builder);
+        let results = run_built(&builder);
         let u = &results.states[0].fields.as_ref().unwrap().displacement;
         for node in mesh.set_nodes("upper.top").unwrap() {
             let down = u[2 * node + 1];
@@ -305,7 +302,7 @@ fn only_some_nodes_touch() {
         let slaves: Vec<usize> = model.pairs.iter().map(|pair| pair.slave).collect();
         assert_eq!(slaves.len(), nodes.len());
         assert!(slaves.iter().all(|node| nodes.contains(node)));
-        let force = run(&builder).states[0].contact_force;
+        let force = run_built(&builder).states[0].contact_force;
         assert!((force - 1.0).abs() < 1e-12, "{force}");
     }
     refused(
@@ -326,7 +323,7 @@ fn the_forces_of_a_tie_are_in_balance() {
         let mut builder = apart(0.0);
         tied(&mut builder, "upper.bottom", "lower.top", slave);
         let model = builder.build().unwrap();
-        let results = run(&builder);
+        let results = run_built(&builder);
         let force = &results.states[0].fields.as_ref().unwrap().force;
         let size = |node: usize| force[2 * node].hypot(force[2 * node + 1]);
         let largest = (0..model.mesh.n_nodes()).map(size).fold(0.0, f64::max);
@@ -382,7 +379,7 @@ fn what_cannot_be_tied_is_named() {
     let mut twice = apart(0.0);
     tie(&mut twice, SlaveSide::First);
     tie(&mut twice, SlaveSide::First);
-    let [once, twice] = [&said_once, &twice].map(|builder| run(builder).states[0].clone());
+    let [once, twice] = [&said_once, &twice].map(|builder| run_built(builder).states[0].clone());
     same(&once, &twice);
     let mut circle = apart(0.0);
     tie(&mut circle, SlaveSide::First);

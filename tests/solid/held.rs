@@ -1,12 +1,12 @@
 //! Rigid motions, and supports at any angle in space.
 
 use crate::support::grid::{Grid, Point};
+use crate::support::run_model;
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
-use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::{Body, Contact, Kind, Load, Material, Support, Target};
 
@@ -63,18 +63,13 @@ fn pulled(builder: &mut ModelBuilder, on: &str, traction: Point) {
     });
 }
 
-fn run(builder: &mut ModelBuilder) -> Results {
+fn run_to_the_load(builder: &mut ModelBuilder) -> Results {
     builder.target(Target {
         load_factor: Some(1.0),
         fields: true,
         ..Target::default()
     });
-    let results = Analysis::new(builder.build().unwrap(), Backend::Dense)
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
-    results
+    run_model(builder.build().unwrap(), Backend::Dense)
 }
 
 fn stresses_are(results: &Results, exact: [f64; 6], what: &str) {
@@ -178,7 +173,7 @@ fn a_body_that_no_support_holds_and_no_load_drives() {
     let both: Vec<usize> = both.iter().flatten().map(|(node, _)| *node).collect();
     builder.surface_of_nodes("ends", &both).unwrap();
     pressed(&mut builder, "ends", 10.0);
-    let results = run(&mut builder);
+    let results = run_to_the_load(&mut builder);
     stresses_are(&results, [-10.0, 0.0, 0.0, 0.0, 0.0, 0.0], "free");
     let told = results
         .warnings
@@ -213,7 +208,11 @@ fn a_block_askew_between_three_planes() {
         hold(&mut builder, "lower.y0", ASKEW[1]);
         hold(&mut builder, "lower.z0", ASKEW[2]);
         pressed(&mut builder, "lower.z1", 10.0);
-        stresses_are(&run(&mut builder), exact, &format!("{shape:?}, one block"));
+        stresses_are(
+            &run_to_the_load(&mut builder),
+            exact,
+            &format!("{shape:?}, one block"),
+        );
 
         let mut builder = ModelBuilder::new(Kind::Solid);
         body(&mut builder, "lower", shape, &turned);
@@ -231,7 +230,7 @@ fn a_block_askew_between_three_planes() {
             ..Contact::default()
         });
         pressed(&mut builder, "upper.z1", 10.0);
-        let results = run(&mut builder);
+        let results = run_to_the_load(&mut builder);
         stresses_are(&results, exact, &format!("{shape:?}, two blocks"));
         for pair in &results.states[0].pairs {
             assert!((pair.pressure - 10.0).abs() < 1e-9, "{shape:?} {pair:?}");

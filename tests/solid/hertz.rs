@@ -1,12 +1,9 @@
 //! Hertz' contact of balls on quarter models.
 
-use crate::support::either;
 use crate::support::grid::{Grid, Point};
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
+use crate::support::{either, run_built};
 use brinell::mesh::Shape;
 use brinell::model::{ModelBuilder, NodePair};
-use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, PlaneForce, Support};
 
@@ -121,11 +118,7 @@ fn ball(fine: usize, cells: usize, extent: f64, radius: f64, load: f64) -> Resul
         }),
         ..Load::default()
     });
-    let model = builder.build().unwrap();
-    Analysis::new(model, Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap()
+    run_built(&builder)
 }
 
 #[test]

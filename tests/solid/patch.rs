@@ -1,12 +1,10 @@
 //! Uniform states are exact on distorted elements, within a body and across a contact.
 
 use crate::support::grid::{Grid, Point};
-use brinell::analysis::Analysis;
+use crate::support::run_model;
 use brinell::linalg::Backend;
 use brinell::mesh::{Integration, Shape};
 use brinell::model::ModelBuilder;
-use brinell::progress::Silent;
-use brinell::results::Results;
 use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, Support, Target};
 
 /// Points inside are moved; those on the faces of the box stay on them, alike on the lowest and the
@@ -36,14 +34,6 @@ fn held(builder: &mut ModelBuilder, on: &str, direction: Direction) {
         fix: vec![direction],
         ..Support::default()
     });
-}
-
-fn run(builder: &ModelBuilder) -> Results {
-    let model = builder.build().unwrap();
-    Analysis::new(model, Backend::Dense)
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap()
 }
 
 /// Straight sides: the middles of edges are halfway.
@@ -108,7 +98,7 @@ fn a_block_under_pressure_is_exact() {
             fields: true,
             ..Target::default()
         });
-        let results = run(&builder);
+        let results = run_model(builder.build().unwrap(), Backend::Dense);
         let fields = results.states[0].fields.as_ref().unwrap();
         for stress in fields.stress.chunks_exact(6) {
             for (s, exact) in stress.iter().zip([0.0, 0.0, -10.0, 0.0, 0.0, 0.0]) {
@@ -169,7 +159,7 @@ fn a_contact_passes_a_uniform_pressure() {
             force: Some([0.0, 0.0, -10.0].into()),
             ..Load::default()
         });
-        let results = run(&builder);
+        let results = run_model(builder.build().unwrap(), Backend::Dense);
         let state = &results.states[0];
         for pair in &state.pairs {
             assert!((pair.pressure - 10.0).abs() < 1e-9, "{shape:?} {pair:?}");

@@ -1,13 +1,10 @@
 //! A square punch, elastic and at its limit load.
 
 use crate::support::grid::{Grid, Point};
-use brinell::analysis::Analysis;
+use crate::support::run_built;
 use brinell::analytical::contact_modulus;
-use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
-use brinell::progress::Silent;
-use brinell::results::Results;
 use brinell::scene::{
     Body, Contact, Direction, Displacement, Kind, Load, Material, PlaneForce, Support, Target,
 };
@@ -87,15 +84,6 @@ fn punch(fine: usize, more: usize, extent: f64, block: Material) -> ModelBuilder
     builder
 }
 
-fn run(builder: &ModelBuilder) -> Results {
-    let results = Analysis::new(builder.build().unwrap(), Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
-    results
-}
-
 /// A rigid smooth square of side 2 a on a half space sinks in by `P / (2 a E* 2 beta/sqrt(pi))`
 /// with beta = 1.012 (R. B. King, Int. J. Solids Struct. 23 (1987) 1657-1664, table 1).
 #[test]
@@ -117,7 +105,7 @@ fn a_square_punch_sinks_in_as_king_has_it() {
             }),
             ..Load::default()
         });
-        let state = &run(&builder).states[0];
+        let state = &run_built(&builder).states[0];
         4.0 / state.approach / (2.0 * modulus)
     };
     let exact = 1.012 * 2.0 / std::f64::consts::PI.sqrt();
@@ -154,7 +142,7 @@ fn the_limit_load_of_a_square_punch_lies_between_its_bounds() {
                 ..Target::default()
             });
         }
-        let results = run(&builder);
+        let results = run_built(&builder);
         let [half, whole] = [0, 1].map(|k| results.states[k].contact_force / 4.0);
         // Collapsed: the second half of the way adds next to nothing.
         assert!(whole < 1.02 * half, "{n}: {half} {whole}");

@@ -180,10 +180,7 @@ fn the_condition_is_estimated_where_it_matters() {
 fn a_yield_load_has_its_quality_too() {
     let quality = |overrides: &[&str]| {
         let scene = crate::support::load("hard/unload_reload", overrides);
-        let model = brinell::model::Model::new(&scene).unwrap();
-        let mut analysis =
-            brinell::analysis::Analysis::new(model, brinell::linalg::Backend::default()).unwrap();
-        let results = analysis.yield_load(&mut brinell::progress::Silent).unwrap();
+        let results = crate::support::yield_load(&scene);
         assert!(results.first_yield.is_some());
         (results.quality, results.inaccurate)
     };

@@ -17,7 +17,7 @@ use brinell::Result;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Mesh;
-use brinell::model::Model;
+use brinell::model::{Model, ModelBuilder};
 use brinell::progress::Silent;
 use brinell::results::{Results, State, Status};
 use brinell::scene::Scene;
@@ -77,15 +77,6 @@ pub fn try_run(scene: &Scene, backend: Backend) -> Result<Results> {
     complete(Analysis::new(Model::new(scene)?, backend)?.run(&mut Silent)?)
 }
 
-/// Runs a scene on a given mesh.
-pub fn run_on(scene: &Scene, mesh: Mesh) -> Results {
-    let model = Model::from_mesh(scene, mesh).unwrap_or_else(|e| panic!("{}: {e}", scene.title));
-    Analysis::new(model, Backend::default())
-        .and_then(|mut a| a.run(&mut Silent))
-        .and_then(complete)
-        .unwrap_or_else(|e| panic!("{}: {e}", scene.title))
-}
-
 fn complete(results: Results) -> Result<Results> {
     match &results.incomplete {
         None => Ok(results),
@@ -94,13 +85,75 @@ fn complete(results: Results) -> Result<Results> {
 }
 
 /// Runs a scene that must succeed.
+#[track_caller]
 pub fn run(scene: &Scene) -> Results {
     try_run(scene, Backend::default()).unwrap_or_else(|e| panic!("{}: {e}", scene.title))
 }
 
+/// Runs a scene that must succeed; its model comes along.
+#[track_caller]
+pub fn run_with_model(scene: &Scene) -> (Model, Results) {
+    let mut analysis = analysis(scene);
+    let results = analysis.run(&mut Silent).and_then(complete);
+    let results = results.unwrap_or_else(|e| panic!("{}: {e}", scene.title));
+    (analysis.model().clone(), results)
+}
+
 /// Runs a scene of `data/scenes` that must succeed.
+#[track_caller]
 pub fn run_file(name: &str, overrides: &[&str]) -> Results {
     run(&load(name, overrides))
+}
+
+/// Runs a scene from its text that must succeed.
+#[track_caller]
+pub fn run_text(text: &str) -> Results {
+    try_run(&parse(text), Backend::default()).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// Runs a scene on a given mesh.
+#[track_caller]
+pub fn run_on(scene: &Scene, mesh: Mesh) -> Results {
+    let model = Model::from_mesh(scene, mesh).unwrap_or_else(|e| panic!("{}: {e}", scene.title));
+    run_model(model, Backend::default())
+}
+
+/// Runs a model that must succeed.
+#[track_caller]
+pub fn run_model(model: Model, backend: Backend) -> Results {
+    let results = Analysis::new(model, backend).and_then(|mut a| a.run(&mut Silent));
+    results.and_then(complete).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Runs a model that was built by hand and must succeed.
+#[track_caller]
+pub fn run_built(builder: &ModelBuilder) -> Results {
+    let model = builder.build().unwrap_or_else(|e| panic!("{e}"));
+    run_model(model, Backend::default())
+}
+
+/// Runs a scene to its end or to its limit load.
+#[track_caller]
+pub fn run_as_far_as_it_goes(scene: &Scene, backend: Backend) -> Results {
+    let results = Model::new(scene)
+        .and_then(|model| Analysis::new(model, backend))
+        .and_then(|mut a| a.run(&mut Silent));
+    results.unwrap_or_else(|e| panic!("{}: {e}", scene.title))
+}
+
+/// What is ready to run a scene.
+#[track_caller]
+pub fn analysis(scene: &Scene) -> Analysis {
+    Model::new(scene)
+        .and_then(|model| Analysis::new(model, Backend::default()))
+        .unwrap_or_else(|e| panic!("{}: {e}", scene.title))
+}
+
+/// First yield alone.
+#[track_caller]
+pub fn yield_load(scene: &Scene) -> Results {
+    let found = analysis(scene).yield_load(&mut Silent);
+    found.unwrap_or_else(|e| panic!("{}: {e}", scene.title))
 }
 
 /// The state of a name.
