@@ -2,6 +2,7 @@
 
 use super::{deck_path, folder};
 use crate::support::frd::{Frd, difference, largest};
+use crate::support::program::program;
 use crate::support::{limit, load, run_with_model, tools};
 use brinell::deck::{self, Options};
 use brinell::model::Model;
@@ -248,7 +249,7 @@ fn jobs_leave_what_those_of_calculix_leave() {
             let path = work.path().join(case.name).with_extension("inp");
             std::fs::write(path, asking(case.name)).unwrap();
         }
-        let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let mut brinell = program();
         let of_brinell = job(brinell.arg("ccx"), ours.path(), case.name);
         let of_ccx = job(&mut Command::new("ccx"), theirs.path(), case.name);
         let files = [&of_brinell("frd"), &of_ccx("frd")].map(|text| Frd::parse(text));

@@ -18,7 +18,7 @@ mod table;
 mod two_bars;
 mod variants;
 
-use crate::support::run_with_model;
+use crate::support::{root, run_with_model};
 use brinell::Result;
 use brinell::deck::{self, Options};
 use brinell::model::Model;
@@ -27,7 +27,7 @@ use brinell::scene::Scene;
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/decks")
+    root().join("tests/decks")
 }
 
 fn deck_path(name: &str) -> PathBuf {

@@ -4,6 +4,7 @@
 
 use super::folder;
 use crate::support::frd::{Frd, difference, largest};
+use crate::support::program::program;
 use crate::support::{limit, tools};
 use brinell::mesh::gmsh;
 use std::path::{Path, PathBuf};
@@ -82,12 +83,6 @@ fn results_of(program: &mut Command, work: &Path, name: &str) -> Frd {
     Frd::parse(&std::fs::read_to_string(path).unwrap())
 }
 
-fn brinell() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    command.arg("ccx");
-    command
-}
-
 #[test]
 fn decks_of_other_programs_run_as_in_calculix() {
     let both = tools::has("ccx");
@@ -96,7 +91,7 @@ fn decks_of_other_programs_run_as_in_calculix() {
     for case in &CASES {
         let [ours, theirs] = [0, 1].map(|_| tempfile::tempdir().unwrap());
         copy(ours.path(), &[]);
-        let own = results_of(&mut brinell(), ours.path(), case.name);
+        let own = results_of(program().arg("ccx"), ours.path(), case.name);
         assert!(!own.last("DISP").values.is_empty(), "{}", case.name);
         if !both {
             continue;
@@ -133,7 +128,7 @@ fn a_deck_of_abaqus_has_the_exact_answer() {
     // Abaqus writes displacements unasked; here they go into the file of CalculiX.
     let text = text.replace("*Output, field, variable=PRESELECT", "*Node file\nU");
     std::fs::write(work.path().join("cae_blocks.inp"), text).unwrap();
-    let own = results_of(&mut brinell(), work.path(), "cae_blocks");
+    let own = results_of(program().arg("ccx"), work.path(), "cae_blocks");
     let top = &own.last("DISP").values;
     let lowest = top.values().map(|u| u[2]).fold(0.0, f64::min);
     let exact = -2.0 * 50.0 / 210_000.0 - 50.0 / 1e9;

@@ -1,6 +1,7 @@
 //! Forces through surfaces (`*SECTION PRINT`) beside those of CalculiX.
 
 use super::{deck_path, folder};
+use crate::support::program::program;
 use crate::support::{limit, tools};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -106,7 +107,7 @@ fn stored(name: &str) -> String {
 fn what_passes_a_surface_is_what_calculix_prints() {
     let mut wrong = Vec::new();
     for case in &CASES {
-        let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let mut brinell = program();
         let ours = case.printed_by(brinell.arg("ccx"));
         for line in differences(&ours, &stored(case.name), case.bound) {
             wrong.push(format!("{}:\n{line}", case.name));
@@ -191,7 +192,7 @@ fn a_plate_passes_on_what_pulls_it() {
     let work = tempfile::tempdir().unwrap();
     let path = work.path().join("deck");
     std::fs::write(path.with_extension("inp"), PLATE).unwrap();
-    let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let mut brinell = program();
     brinell.args(["ccx", "-i", "deck"]).current_dir(work.path());
     let output = limit::output(&mut brinell);
     let printed = String::from_utf8_lossy(&output.stdout);

@@ -4,6 +4,7 @@
 use super::calculix::{far, stored};
 use super::{deck_path, folder, run_file};
 use crate::support::frd::{Frd, difference, largest};
+use crate::support::program::program;
 use crate::support::{limit, tools};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -195,7 +196,7 @@ impl Row {
     /// The row of the page.
     fn compared(&self) -> String {
         let text = self.text();
-        let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let mut brinell = program();
         brinell.arg("ccx");
         let ours = job(brinell, &text, str::to_string);
         let theirs = job(Command::new("ccx"), &text, for_ccx);

@@ -1,13 +1,13 @@
 //! One thread or two: the same bits.
 
+use crate::support::program::{program, succeeds, summary};
 use crate::support::tools::with_these_kernels;
-use crate::support::{SMALL_BALL, either, limit, scene_file, sparse};
+use crate::support::{SMALL_BALL, either, scene_file, sparse};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 
 fn run_on_threads(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str]) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let mut command = program();
     command
         .arg("run")
         .arg(scene_file(name))
@@ -21,18 +21,12 @@ fn run_on_threads(name: &str, [solver, threads]: [&str; 2], out: &Path, override
     for set in overrides {
         command.args(["--set", set]);
     }
-    let output = limit::output(with_these_kernels(&mut command));
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    succeeds(with_these_kernels(&mut command));
 }
 
 /// The summary without what depends on the clock and the process.
 fn summary_without_times(out: &Path) -> Value {
-    let text = std::fs::read_to_string(out.join("summary.json")).unwrap();
-    let mut summary: Value = serde_json::from_str(&text).unwrap();
+    let mut summary = summary(out);
     let object = summary.as_object_mut().unwrap();
     assert!(object.remove("timings").is_some());
     assert!(object.remove("peak_memory_bytes").is_some());

@@ -68,7 +68,7 @@ impl Family {
                 .map(|(path, value)| (path.to_string(), *value))
                 .collect(),
             Truth::Finer(scene) => {
-                let results = run(scene, self.extent).unwrap();
+                let results = run_extent(scene, self.extent).unwrap();
                 let all = quantities(&results).into_iter();
                 all.map(|q| (q.path, q.value)).collect()
             }
@@ -79,7 +79,7 @@ impl Family {
     pub fn claims_beside(&self, truth: &BTreeMap<String, f64>) -> Vec<Claim> {
         let mut out = Vec::new();
         for (mesh, scene) in &self.meshes {
-            let Some(results) = run(scene, self.extent) else {
+            let Some(results) = run_extent(scene, self.extent) else {
                 println!("{} {mesh}: cannot be run", self.name);
                 continue;
             };
@@ -122,7 +122,7 @@ pub fn claims_of(families: &[Family]) -> Vec<Claim> {
 }
 
 /// A run to its end; `None` where it does not get there.
-pub fn run(scene: &Scene, extent: Extent) -> Option<Results> {
+pub fn run_extent(scene: &Scene, extent: Extent) -> Option<Results> {
     let mut analysis = Analysis::new(Model::new(scene).ok()?, Backend::default()).ok()?;
     let results = match extent {
         Extent::Yield => analysis.yield_load(&mut Silent),

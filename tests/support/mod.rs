@@ -8,6 +8,7 @@ pub mod interpreter;
 pub mod limit;
 pub mod meshes;
 pub mod msh;
+pub mod program;
 pub mod random;
 pub mod scenes;
 pub mod svg;
@@ -32,11 +33,19 @@ pub fn either<T>(quick: T, thorough: T) -> T {
     }
 }
 
+/// The folder of the repository.
+pub fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
 /// A file under `data/scenes`.
 pub fn scene_file(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("data/scenes")
-        .join(format!("{name}.toml"))
+    root().join(format!("data/scenes/{name}.toml"))
+}
+
+/// A file under `data/scenes`, as an argument of the program.
+pub fn scene_path(name: &str) -> String {
+    scene_file(name).to_str().unwrap().to_string()
 }
 
 /// Overrides that make `ball_on_flat_3d` a matter of tenths of a second.
@@ -139,6 +148,14 @@ pub fn run_as_far_as_it_goes(scene: &Scene, backend: Backend) -> Results {
         .and_then(|model| Analysis::new(model, backend))
         .and_then(|mut a| a.run(&mut Silent));
     results.unwrap_or_else(|e| panic!("{}: {e}", scene.title))
+}
+
+/// Runs a scene from its text to its end or to its limit load.
+#[track_caller]
+pub fn run_text_as_far_as_it_goes(text: &str) -> Results {
+    let mut analysis = analysis(&parse(text));
+    let results = analysis.run(&mut Silent);
+    results.unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 /// What is ready to run a scene.

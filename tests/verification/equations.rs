@@ -11,14 +11,14 @@ const E: f64 = 200_000.0;
 /// Two bars along x in plane stress, 4 long and 2 wide, on rollers at their left ends. The
 /// equations hold the right ends plane and couple them by `lever`.
 fn bars(equations: &str, loads: &str) -> Scene {
-    parse(equations, loads).unwrap()
+    try_bars(equations, loads).unwrap()
 }
 
 fn model_of(equations: &str, loads: &str) -> brinell::Result<Model> {
-    Model::new(&parse(equations, loads)?)
+    Model::new(&try_bars(equations, loads)?)
 }
 
-fn parse(equations: &str, loads: &str) -> brinell::Result<Scene> {
+fn try_bars(equations: &str, loads: &str) -> brinell::Result<Scene> {
     let bar = |name: &str, y: f64| {
         format!(
             "{{ body = \"{name}\", element = \"quad4\", block = {{ x = [0.0, 4.0], y = [{y:?}, \
