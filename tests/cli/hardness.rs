@@ -1,6 +1,6 @@
 //! `brinell new hardness` and `brinell hardness`: what is read off an indentation.
 
-use super::{brinell, stderr, stdout, succeeds};
+use super::{brinell, near, stderr, stdout, succeeds};
 use brinell::analytical::{HertzPoint, contact_modulus};
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -35,10 +35,6 @@ fn number(value: &Value, key: &str) -> f64 {
     value[key]
         .as_f64()
         .unwrap_or_else(|| panic!("{key} of {value}"))
-}
-
-fn near(found: f64, expected: f64, share: f64) {
-    assert!((found / expected - 1.0).abs() < share, "{found} {expected}");
 }
 
 /// By load: the figures are those of their formulas, unloading is elastic with the stiffness of the

@@ -14,11 +14,7 @@ fn sheet(line: &str) -> Value {
 }
 
 fn near(found: &Value, expected: f64, tolerance: f64) {
-    let found = found.as_f64().unwrap();
-    assert!(
-        (found / expected - 1.0).abs() < tolerance,
-        "{found} {expected}"
-    );
+    super::near(found.as_f64().unwrap(), expected, tolerance);
 }
 
 /// code_aster SSNV104: two balls, R = 50, E = 20000, nu = 0.3, an approach of 4: contact radius 10,

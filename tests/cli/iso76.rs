@@ -1,6 +1,6 @@
 //! `brinell new iso76`: the load of a dent of 1e-4 D, and what Hertz says beside it.
 
-use super::{brinell, stderr, stdout, succeeds};
+use super::{brinell, near, stderr, stdout, succeeds};
 use brinell::analytical::{HertzContact, RelativeRadii, contact_modulus};
 use brinell::scene::Scene;
 use serde_json::Value;
@@ -31,10 +31,6 @@ fn told(text: &str, phrase: &str) -> f64 {
     let line = line.unwrap_or_else(|| panic!("{phrase:?} is not in\n{text}"));
     let (_, load) = line.rsplit_once(" at ").unwrap();
     load.split(' ').next().unwrap().parse().unwrap()
-}
-
-fn near(found: f64, expected: f64, share: f64) {
-    assert!((found / expected - 1.0).abs() < share, "{found} {expected}");
 }
 
 fn hertz(first: [f64; 2], second: [f64; 2]) -> HertzContact {

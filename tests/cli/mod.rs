@@ -105,6 +105,12 @@ impl Folder {
     }
 }
 
+/// A figure is the expected one to a share of it.
+#[track_caller]
+fn near(found: f64, expected: f64, share: f64) {
+    assert!((found / expected - 1.0).abs() < share, "{found} {expected}");
+}
+
 /// The command fails with `code`, says why on standard error and nothing on standard output.
 fn fails(arguments: &[&str], code: i32, fragments: &[&str]) {
     let output = brinell(arguments);

@@ -1,7 +1,7 @@
 //! The generator of two curved bodies against Hertz' theory, against its own halves, and against
 //! the axisymmetric model.
 
-use crate::support::{either, load, run, run_file};
+use crate::support::{either, load, run, run_file, same_figures};
 use brinell::analytical::{HertzEllipse, contact_modulus};
 use brinell::results::State;
 use brinell::scene::Target;
@@ -161,24 +161,7 @@ fn a_quarter_and_a_half_are_those_of_the_whole() {
         let firsts = [&quarter, other].map(|results| results.first_yield.unwrap());
         near(firsts[1].load, firsts[0].load, 1e-9, "first yield");
         for (a, b) in quarter.states.iter().zip(&other.states) {
-            let same = |of: fn(&State) -> f64, scale: f64| {
-                assert!(
-                    (of(a) - of(b)).abs() < 1e-9 * scale,
-                    "{}: {} {}",
-                    a.name,
-                    of(a),
-                    of(b)
-                );
-            };
-            let largest = &quarter.states[0];
-            same(|s| s.contact_force, largest.contact_force);
-            same(|s| s.max_pressure, largest.max_pressure);
-            same(|s| s.approach, largest.approach);
-            same(|s| s.residual_depth, largest.approach);
-            same(
-                |s| s.max_equivalent_plastic_strain,
-                largest.max_equivalent_plastic_strain,
-            );
+            same_figures(a, b, 1.0, &quarter.states[0], 1e-9);
             for (p, q) in a.patches.iter().zip(&b.patches) {
                 near(q.area, p.area, 1e-7, "area");
                 near(q.semi_axes[0], p.semi_axes[0], 1e-7, "larger half axis");

@@ -1,6 +1,6 @@
 //! Plane and axisymmetric scenes drawn out to solids.
 
-use crate::support::{either, parse, run};
+use crate::support::{either, parse, run, same_figures};
 use brinell::results::{Results, Status};
 use brinell::scene::Scene;
 
@@ -74,31 +74,7 @@ fn an_extruded_cylinder_is_that_of_plane_strain() {
         closed.count()
     };
     for (a, b) in plane.states.iter().zip(&solid.states) {
-        let largest = &plane.states[1];
-        for (what, x, y, scale) in [
-            (
-                "force",
-                a.contact_force,
-                b.contact_force / depth,
-                largest.contact_force,
-            ),
-            (
-                "pressure",
-                a.max_pressure,
-                b.max_pressure,
-                largest.max_pressure,
-            ),
-            ("approach", a.approach, b.approach, largest.approach),
-            ("dent", a.residual_depth, b.residual_depth, largest.approach),
-            (
-                "plastic strain",
-                a.max_equivalent_plastic_strain,
-                b.max_equivalent_plastic_strain,
-                largest.max_equivalent_plastic_strain,
-            ),
-        ] {
-            assert!((x - y).abs() < 1e-5 * scale, "{} {what}: {x} {y}", a.name);
-        }
+        same_figures(a, b, 1.0 / depth, &plane.states[1], 1e-5);
         assert_eq!(closed(b), 3 * closed(a));
     }
     assert!(plane.states[1].plastic_points > 20);
@@ -171,35 +147,7 @@ fn sectors_between_planes_at_an_angle_are_parts_of_the_quarter() {
         let (part, quarter) = (sector(angle, elements), sector(90, of_quarter));
         let times = 90.0 / angle as f64;
         for (a, b) in quarter.states.iter().zip(&part.states) {
-            let largest = &quarter.states[1];
-            for (what, x, y, scale) in [
-                (
-                    "force",
-                    a.contact_force,
-                    times * b.contact_force,
-                    largest.contact_force,
-                ),
-                (
-                    "pressure",
-                    a.max_pressure,
-                    b.max_pressure,
-                    largest.max_pressure,
-                ),
-                ("approach", a.approach, b.approach, largest.approach),
-                ("dent", a.residual_depth, b.residual_depth, largest.approach),
-                (
-                    "plastic strain",
-                    a.max_equivalent_plastic_strain,
-                    b.max_equivalent_plastic_strain,
-                    largest.max_equivalent_plastic_strain,
-                ),
-            ] {
-                assert!(
-                    (x - y).abs() < 1e-8 * scale,
-                    "{angle} {} {what}: {x} {y}",
-                    a.name
-                );
-            }
+            same_figures(a, b, times, &quarter.states[1], 1e-8);
         }
         assert!(quarter.states[1].plastic_points > 20);
         let first_yield = |results: &Results| results.first_yield.as_ref().unwrap().load;

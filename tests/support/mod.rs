@@ -227,6 +227,28 @@ pub fn same_contact(what: &str, a: &State, b: &State, tolerance: f64) {
     }
 }
 
+/// Two states have the same figures to a share of those of the `largest` state; the second is of a
+/// part, so many `times` of which are the whole.
+#[track_caller]
+pub fn same_figures(a: &State, b: &State, times: f64, largest: &State, share: f64) {
+    let figures = |state: &State, times: f64| {
+        [
+            ("force", times * state.contact_force),
+            ("pressure", state.max_pressure),
+            ("approach", state.approach),
+            ("dent", state.residual_depth),
+            ("plastic strain", state.max_equivalent_plastic_strain),
+        ]
+    };
+    let mut scales = figures(largest, 1.0).map(|(_, scale)| scale);
+    // A dent is a part of the approach.
+    scales[3] = largest.approach;
+    for (((what, x), (_, y)), scale) in (figures(a, 1.0).iter()).zip(figures(b, times)).zip(scales)
+    {
+        assert!((x - y).abs() < share * scale, "{} {what}: {x} {y}", a.name);
+    }
+}
+
 /// A Cholesky solve with `n` unknowns has a normwise backward error of the order of `n` times the
 /// unit round-off at most (N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed.,
 /// theorem 10.4; its constants are never met).
