@@ -1,6 +1,6 @@
 //! Decks of parts and an assembly, as Abaqus/CAE writes them, and flat ones that say the same.
 
-use super::{load_text, run_text};
+use super::{run_text, with_text};
 use brinell::deck::{Deck, Options};
 use brinell::mesh::inp;
 use brinell::results::Results;
@@ -396,7 +396,7 @@ fn the_account_tells_of_parts() {
     let expected = "numbers of nodes and elements are those of the part plus 100 in Lower-1, 200 \
                     in Upper, 1";
     assert_eq!(account.taken[0].text, expected);
-    let scene = load_text(&text).unwrap();
+    let scene = with_text(&text, Ok).unwrap();
     assert!(
         scene
             .warnings

@@ -1,6 +1,6 @@
 //! Messages about a deck are in its own words: keyword and line, never a key of a scene.
 
-use super::load_text;
+use super::with_text;
 use crate::support::{run_as_far_as_it_goes, try_run};
 use brinell::linalg::Backend;
 use brinell::results::Results;
@@ -81,7 +81,7 @@ const OF_SCENES: [&str; 14] = [
 ];
 
 fn try_text(text: &str) -> Result<Results> {
-    try_run(&load_text(text)?, Backend::Dense)
+    with_text(text, |scene| try_run(&scene, Backend::Dense))
 }
 
 fn message(changes: &[(&str, &str)]) -> String {
@@ -251,7 +251,8 @@ fn nlgeom_is_measured() {
             .replace("*END STEP, NLGEOM", "*END STEP")
             .replace("50.", pressure);
         let text = text.replace("*PLASTIC\n300., 0.\n400., 0.1\n", curve);
-        run_as_far_as_it_goes(&load_text(&text).unwrap(), Backend::Dense)
+        let run = |scene| Ok(run_as_far_as_it_goes(&scene, Backend::Dense));
+        with_text(&text, run).unwrap()
     };
     let large = |pressure: &str| with(pressure, "");
     let small = large("50.");

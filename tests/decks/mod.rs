@@ -43,13 +43,13 @@ fn run_file(path: &Path, overrides: &[&str]) -> (Model, Results) {
 
 /// Runs the text of a deck.
 fn run_text(text: &str) -> (Model, Results) {
-    run_with_model(&load_text(text).unwrap())
+    with_text(text, |scene| Ok(run_with_model(&scene))).unwrap()
 }
 
-/// Reads the text of a deck, which includes no files, as `deck.inp`.
-fn load_text(text: &str) -> Result<Scene> {
+/// Writes the text of a deck as `deck.inp`, which holds the mesh, and hands its scene on.
+fn with_text<T>(text: &str, see: impl FnOnce(Scene) -> Result<T>) -> Result<T> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("deck.inp");
     std::fs::write(&path, text).unwrap();
-    deck::load(&path)
+    see(deck::load(&path)?)
 }

@@ -1,14 +1,15 @@
 //! Curved surfaces that fit each other, with different facets: the gap is that of the true
 //! surfaces.
 
-use crate::mortar::blocks::{held, of_one_material};
+use crate::mortar::blocks::of_one_material;
 use crate::mortar::sheet::Sheet;
+use crate::support::build::Build;
 use crate::support::grid::{Grid, Point};
 use crate::support::{either, load, run, run_built};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::State;
-use brinell::scene::{Contact, Direction, Kind, SlaveSide, Support, Target};
+use brinell::scene::{Contact, Direction, Kind, SlaveSide, Target};
 
 type Vector = [f64; 3];
 
@@ -70,8 +71,8 @@ fn tube_in_ring(shape: Shape, cells: [usize; 2], slave: SlaveSide) -> ModelBuild
             },
         };
         sheet.add(&mut builder);
-        held(&mut builder, &format!("{name}.bottom"), Direction::Y);
-        held(&mut builder, &format!("{name}.top"), Direction::X);
+        builder.hold(format!("{name}.bottom"), Direction::Y);
+        builder.hold(format!("{name}.top"), Direction::X);
     }
     of_one_material(&mut builder, &["tube", "ring"], 210e3, 0.3);
     builder.contact(Contact {
@@ -154,11 +155,7 @@ fn shells(
         };
         grid.add(&mut builder);
         for (side, direction) in sides {
-            builder.support(Support {
-                on: format!("{name}.{side}"),
-                direction: Some((*direction).into()),
-                ..Support::default()
-            });
+            builder.hold_along(format!("{name}.{side}"), *direction);
         }
     }
     of_one_material(&mut builder, &["inside", "outside"], 210e3, 0.3);

@@ -1,8 +1,7 @@
 //! A uniform pressure passes through every pairing of facets.
 
-use crate::mortar::blocks::{
-    Cells, of_one_material, off_uniform, pressed, stacked, supported, symmetric,
-};
+use crate::mortar::blocks::{Cells, of_one_material, off_uniform, stacked, supported, symmetric};
+use crate::support::build::Build;
 use crate::support::grid::Point;
 use crate::support::run_built;
 use brinell::mesh::Shape;
@@ -30,7 +29,7 @@ fn pressed_together(
     } else {
         "upper.top"
     };
-    pressed(&mut builder, top, 10.0);
+    builder.press(top, 10.0);
     run_built(&builder)
 }
 

@@ -1,6 +1,7 @@
 //! Published cases by name.
 
-use crate::mortar::blocks::{of_one_material, pressed, stacked, supported, symmetric};
+use crate::mortar::blocks::{of_one_material, stacked, supported, symmetric};
+use crate::support::build::Build;
 use crate::support::run_built;
 use brinell::mesh::Shape;
 use brinell::scene::{Displacement, Kind, Load, SlaveSide};
@@ -66,7 +67,7 @@ fn divided_cube() {
         of_one_material(&mut builder, &["lower", "upper"], 900.0, 0.25);
         supported(&mut builder, SlaveSide::Auto);
         symmetric(&mut builder);
-        pressed(&mut builder, "upper.z1", 100.0);
+        builder.press("upper.z1", 100.0);
         let model = builder.build().unwrap();
         let results = run_built(&builder);
         let u = &results.states[0].fields.as_ref().unwrap().displacement;

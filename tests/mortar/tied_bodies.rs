@@ -1,8 +1,9 @@
 //! Tied bodies against closed forms and meshes that match; what cannot be tied.
 
-use crate::mortar::blocks::{held, of_one_material, pressed, touching};
+use crate::mortar::blocks::{of_one_material, touching};
 use crate::mortar::sheet::Sheet;
 use crate::mortar::tie::{aim, tied};
+use crate::support::build::Build;
 use crate::support::{parse, run_built, run_with_model};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
@@ -33,13 +34,13 @@ fn tube(
         };
         sheet.add(&mut builder);
         if sides {
-            held(&mut builder, &format!("{name}.bottom"), Direction::Y);
-            held(&mut builder, &format!("{name}.top"), Direction::X);
+            builder.hold(format!("{name}.bottom"), Direction::Y);
+            builder.hold(format!("{name}.top"), Direction::X);
         }
     }
     of_one_material(&mut builder, &["inner", "outer"], 1000.0, 0.3);
     tied(&mut builder, "inner.right", "outer.left", slave);
-    pressed(&mut builder, "inner.left", 10.0);
+    builder.press("inner.left", 10.0);
     aim(&mut builder);
     builder
 }
@@ -119,10 +120,10 @@ fn a_fine_part_in_a_coarse_body() {
         touching(&mut builder, "bump.bottom", "fine.top", SlaveSide::Auto);
         tied(&mut builder, "fine.bottom", "coarse.top", SlaveSide::Auto);
         for body in bodies {
-            held(&mut builder, &format!("{body}.left"), Direction::X);
+            builder.hold(format!("{body}.left"), Direction::X);
         }
-        held(&mut builder, "coarse.bottom", Direction::Y);
-        pressed(&mut builder, "bump.top", 2.0);
+        builder.hold("coarse.bottom", Direction::Y);
+        builder.press("bump.top", 2.0);
         aim(&mut builder);
         let state = run_built(&builder).states.remove(0);
         (state.max_pressure, state.half_width)
@@ -149,9 +150,9 @@ fn apart(gap: f64) -> ModelBuilder {
         sheet.add(&mut builder);
     }
     of_one_material(&mut builder, &["lower", "upper"], 1000.0, 0.3);
-    held(&mut builder, "lower.bottom", Direction::Y);
-    held(&mut builder, "lower.left", Direction::X);
-    pressed(&mut builder, "upper.top", 1.0);
+    builder.hold("lower.bottom", Direction::Y);
+    builder.hold("lower.left", Direction::X);
+    builder.press("upper.top", 1.0);
     aim(&mut builder);
     builder
 }
@@ -281,7 +282,7 @@ fn only_some_nodes_touch() {
     let chosen = |nodes: &[usize], slave: SlaveSide| {
         let mut builder = apart(0.0);
         // What the supports of the lower body hold sideways is held here.
-        held(&mut builder, "upper.left", Direction::X);
+        builder.hold("upper.left", Direction::X);
         builder.node_set("chosen", nodes).unwrap();
         builder.contact(Contact {
             first: "lower.top".into(),
@@ -406,14 +407,14 @@ fn what_cannot_be_tied_is_named() {
     refused(&itself, &["cannot be tied to itself"]);
     // Nothing would hold the upper block by what is held already.
     let mut all_held = apart(0.0);
-    held(&mut all_held, "lower.top", Direction::Y);
+    all_held.hold("lower.top", Direction::Y);
     tie(&mut all_held, SlaveSide::Second);
     refused(
         &all_held,
         &["are held along (0, 1)", "let the other surface follow"],
     );
     let mut other = apart(0.0);
-    held(&mut other, "lower.top", Direction::Y);
+    other.hold("lower.top", Direction::Y);
     tie(&mut other, SlaveSide::First);
     assert!(other.build().is_ok());
 }

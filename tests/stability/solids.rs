@@ -1,21 +1,12 @@
 //! Hard cases in three dimensions.
 
+use crate::support::build::{Build, elastic};
 use crate::support::grid::{Grid, Point};
 use crate::support::{close, healthy, largest, parse, run, run_built};
 use brinell::mesh::Shape;
 use brinell::model::{ModelBuilder, NodePair};
 use brinell::results::Status;
-use brinell::scene::{
-    Body, Contact, Direction, Displacement, Kind, Load, Material, PlaneForce, Support, Target,
-};
-
-fn elastic(youngs_modulus: f64, poissons_ratio: f64) -> Material {
-    Material {
-        youngs_modulus,
-        poissons_ratio,
-        ..Material::default()
-    }
-}
+use brinell::scene::{Contact, Direction, Displacement, Kind, Load, Material, PlaneForce, Target};
 
 /// Quarter models of boxes one on top of the other, `[0, 1]^2` wide: name, material,
 /// height of the lower side.
@@ -33,25 +24,13 @@ fn stack(bodies: &[(&str, Material, f64)], shape: Shape, cells: [usize; 3]) -> M
         };
         grid.add(&mut builder);
         builder.material(name, material.clone()).unwrap();
-        let body = Body {
-            material: name.into(),
-            ..Body::default()
-        };
-        builder.body(name, body).unwrap();
+        builder.of(name, name);
         for (side, direction) in [("x0", Direction::X), ("y0", Direction::Y)] {
-            builder.support(Support {
-                on: format!("{name}.{side}"),
-                fix: vec![direction],
-                ..Support::default()
-            });
+            builder.hold(format!("{name}.{side}"), direction);
         }
     }
     let base = bodies[0].0;
-    builder.support(Support {
-        on: format!("{base}.z0"),
-        fix: vec![Direction::Z],
-        ..Support::default()
-    });
+    builder.hold(format!("{base}.z0"), Direction::Z);
     builder
 }
 
@@ -155,11 +134,7 @@ fn flat_faces_pass_a_uniform_pressure() {
             second: "lower.z1".into(),
             ..Contact::default()
         });
-        builder.load(Load {
-            on: "upper.z1".into(),
-            pressure: Some(10.0.into()),
-            ..Load::default()
-        });
+        builder.press("upper.z1", 10.0);
         let results = run_built(&builder);
         healthy(&results);
         for pair in &results.states[0].pairs {
@@ -315,11 +290,7 @@ fn plastic_flow_near_incompressibility_passes_through_a_contact() {
         let bodies = [("lower", metal.clone(), 0.0), ("upper", metal, 1.0)];
         let mut builder = stack(&bodies, shape, cells);
         for body in ["lower", "upper"] {
-            builder.support(Support {
-                on: format!("{body}.y1"),
-                fix: vec![Direction::Y],
-                ..Support::default()
-            });
+            builder.hold(format!("{body}.y1"), Direction::Y);
         }
         builder.contact(Contact {
             first: "upper.z0".into(),

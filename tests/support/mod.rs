@@ -1,6 +1,7 @@
 //! Running scenes in tests, and comparing what came out.
 #![allow(dead_code)] // benches, examples and tests/mpi use a part of it
 
+pub mod build;
 pub mod families;
 pub mod frd;
 pub mod grid;
