@@ -1,7 +1,7 @@
 //! How patches of contact are read off the pressures, apart from how good these are.
 
 use crate::support::random::Random;
-use crate::support::{close, either, parse, run_file, run_on, run_text};
+use crate::support::{close, either, parse, run_file, run_on, run_text_as_far_as_it_goes};
 use brinell::analytical::{HertzEllipse, contact_modulus};
 use brinell::model::Model;
 use brinell::results::{State, Status};
@@ -142,7 +142,7 @@ load = [{{ on = "upper.top", plane_force = {{ direction = "z", total = -1.0 }} }
 program = {{ unit = "yield", targets = [{targets}] }}
 "#
     );
-    run_text(&text).states
+    run_text_as_far_as_it_goes(&text).states
 }
 
 /// A round patch ends between its last closed pairs, of which half a face may be free, and its
