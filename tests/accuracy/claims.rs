@@ -3,8 +3,8 @@
 //! (`cargo run --release --example claims`); here those that take seconds, without the
 //! finest mesh of each unless the run is to be thorough.
 
-use crate::accuracy::families::{Claim, claims_of, judging_exactly};
 use crate::support::either;
+use crate::support::families::{Claim, claims_of, judging_exactly};
 
 /// Share of the errors of loads and pressures, and of the others, that lie below the stated ones.
 const COVERED: [f64; 2] = [0.95, 0.9];

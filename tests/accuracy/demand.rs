@@ -1,7 +1,7 @@
 //! `accuracy = "x %"`: reached and true, or not and why.
 
-use crate::accuracy::families::{on_flat, tube};
 use crate::support;
+use crate::support::families::{on_flat, tube};
 use brinell::accuracy::{Extent, Reached, reach};
 use brinell::linalg::Backend;
 use brinell::progress::{Observer, Silent};
@@ -15,7 +15,7 @@ pub fn demanding(scene: &Scene, accuracy: &str) -> Scene {
     scene
 }
 
-fn run(scene: &Scene, accuracy: &str, extent: Extent) -> Result<Reached> {
+fn try_reach(scene: &Scene, accuracy: &str, extent: Extent) -> Result<Reached> {
     let scene = demanding(scene, accuracy);
     reach(&scene, Backend::default(), extent, Some(60.0), &mut Silent)
 }
@@ -26,7 +26,7 @@ pub fn demand(results: &Results) -> Demand {
 }
 
 pub fn reached(scene: &Scene, accuracy: &str, extent: Extent) -> Reached {
-    let found = run(scene, accuracy, extent).unwrap();
+    let found = try_reach(scene, accuracy, extent).unwrap();
     let demand = demand(&found.results);
     println!("{}: {demand:#?}", scene.title);
     assert!(demand.reached && demand.stated <= demand.accuracy && demand.reason.is_none());
@@ -107,7 +107,7 @@ fn only_what_is_named_is_asked_for() {
     assert!(elements(&fine) > elements(&coarse));
     let worst = demand(&fine.results).worst.unwrap();
     assert!(worst.ends_with("max_equivalent_plastic_strain"), "{worst}");
-    let nothing = run(&scene, "dent = 1 %", Extent::Program);
+    let nothing = try_reach(&scene, "dent = 1 %", Extent::Program);
     let error = nothing.err().unwrap();
     assert_eq!(error.kind(), ErrorKind::Input);
     assert!(
@@ -119,7 +119,7 @@ fn only_what_is_named_is_asked_for() {
 /// What round-off leaves is no matter of meshes.
 #[test]
 fn a_demand_below_round_off_ends() {
-    let found = run(
+    let found = try_reach(
         &tube("quad8", 16, "program.targets=[{ load_factor = 10.0 }]"),
         "1e-15",
         Extent::Program,

@@ -3,19 +3,16 @@
 
 use crate::support;
 use brinell::accuracy::{Effort, Extent, estimate, quantities, value_of, work};
-use brinell::analysis::Analysis;
 use brinell::analytical::ThickSphere;
 use brinell::linalg::Backend;
-use brinell::model::Model;
 use brinell::progress::Silent;
 use brinell::results::{Accuracy, EstimateMethod, QuantityError, Results};
 use brinell::scene::{Scene, Stepping};
 
 pub fn estimated(scene: &Scene, extent: Extent) -> (Results, Accuracy) {
-    let mut analysis = Analysis::new(Model::new(scene).unwrap(), Backend::default()).unwrap();
     let results = match extent {
-        Extent::Yield => analysis.yield_load(&mut Silent).unwrap(),
-        Extent::Program => analysis.run(&mut Silent).unwrap(),
+        Extent::Yield => support::yield_load(scene),
+        Extent::Program => support::run(scene),
     };
     let accuracy = estimate(
         scene,
@@ -174,8 +171,7 @@ fn a_half_width_as_target_says_what_it_adds() {
                 "mesh.cylinder_on_half_plane.growth=1.32",
             ],
         );
-        let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
-        let results = analysis.run(&mut Silent).unwrap();
+        let results = support::run(&scene);
         estimate(
             &scene,
             Backend::default(),
@@ -224,8 +220,7 @@ fn what_a_scene_gives_has_no_row() {
     ] {
         let targets = "program.targets=[{ name = \"s\", load_factor = 0.1 }]";
         let scene = support::load(scene, &[targets, "program.unit=\"load\""]);
-        let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
-        let results = analysis.run(&mut Silent).unwrap();
+        let results = support::run(&scene);
         let paths: Vec<String> = quantities(&results).into_iter().map(|q| q.path).collect();
         assert!(!paths.contains(&format!("states.s.{given}")), "{paths:?}");
         assert!(paths.contains(&format!("states.s.{answer}")), "{paths:?}");
@@ -332,9 +327,8 @@ fn residual_stresses_at_places_have_errors() {
                  { name = \"off\", load_factor = 0.0 }]",
             ],
         );
-        let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
-        let mut results = analysis.run(&mut Silent).unwrap();
-        brinell::reference::compare(analysis.model(), &mut results);
+        let (model, mut results) = support::run_with_model(&scene);
+        brinell::reference::compare(&model, &mut results);
         let (backend, extent) = (Backend::default(), Extent::Program);
         let found = estimate(
             &scene,

@@ -3,8 +3,8 @@
 
 use crate::accuracy::demand::reached;
 use crate::accuracy::estimate::estimated;
-use crate::accuracy::families::from_file;
 use crate::support;
+use crate::support::families::from_file;
 use crate::support::msh::{Body, Msh};
 use crate::support::random::Random;
 use brinell::accuracy::{Effort, Extent, Knob, Plan, Study, estimate, planned, study, work};

@@ -11,7 +11,7 @@ const MAX_NODES: usize = 8;
 
 const PRESSURE: f64 = 10.0;
 
-fn scene(shape: &str, n: usize) -> Scene {
+fn plane_tube(shape: &str, n: usize) -> Scene {
     let mut scene = support::load(
         "thick_cylinder",
         &[
@@ -184,7 +184,7 @@ fn effectivity(scene: &Scene) -> (f64, f64) {
 /// more on meshes without kinks: in proportion to the element size.
 #[test]
 fn the_estimate_goes_to_the_exact_error() {
-    let kinds: [fn(&str, usize) -> Scene; 2] = [scene, revolved];
+    let kinds: [fn(&str, usize) -> Scene; 2] = [plane_tube, revolved];
     for (kind, scene) in kinds.into_iter().enumerate() {
         for shape in ["quad4", "quad8", "tri3", "tri6"] {
             let found = [8, 16, 32].map(|n| effectivity(&scene(shape, n)).1);
@@ -209,7 +209,7 @@ fn the_estimate_is_close_to_the_exact_error_and_falls_with_its_order() {
         // With 4 elements over 90 degrees a quadratic fit over three of them is no match for
         // stresses that turn twice as far.
         for n in [8, 16, 32] {
-            let scene = scene(&name, n);
+            let scene = plane_tube(&name, n);
             let (estimate, effectivity) = effectivity(&scene);
             println!("{name} {n}: estimate {estimate:.2e}, effectivity {effectivity:.2}");
             assert!(

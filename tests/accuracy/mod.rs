@@ -3,7 +3,6 @@
 mod claims;
 pub mod demand;
 mod estimate;
-mod families;
 mod file_mesh;
 mod indicator;
 mod plastic_zone;

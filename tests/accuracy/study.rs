@@ -26,13 +26,13 @@ fn plan(knobs: &[Knob]) -> Plan {
     }
 }
 
-fn run(scene: &Scene, plan: &Plan) -> Study {
+fn studied(scene: &Scene, plan: &Plan) -> Study {
     study(scene, Backend::default(), plan, &mut Silent).unwrap()
 }
 
 #[test]
 fn a_study_prices_accuracy_against_the_closed_form() {
-    let found = run(
+    let found = studied(
         &cylinder("quad8"),
         &plan(&[Knob::Resolution, Knob::Tolerance, Knob::Stepping]),
     );
@@ -127,7 +127,7 @@ fn elements_converge_with_their_orders() {
     );
     let mut plan = plan(&[Knob::Resolution, Knob::Element]);
     plan.levels = 6;
-    let found = run(&scene, &plan);
+    let found = studied(&scene, &plan);
     let approach = found
         .quantities
         .iter()
@@ -147,7 +147,7 @@ fn elements_converge_with_their_orders() {
 fn a_budget_leaves_out_what_does_not_fit() {
     let mut plan = plan(&[Knob::Resolution]);
     plan.budget = Some(1e-6);
-    let found = run(&cylinder("quad4"), &plan);
+    let found = studied(&cylinder("quad4"), &plan);
     // The cheapest run is made whatever the budget: else there would be nothing to go by.
     assert_eq!(found.runs.len(), 1);
     assert!(found.left_out.len() > 2 && found.left_out.iter().all(|l| l.contains("budget")));

@@ -1,6 +1,8 @@
 //! A demanded accuracy through the C interface.
 #![cfg(feature = "capi")]
 
+use crate::support::program::summary;
+use crate::support::scene_path;
 use brinell::capi::*;
 use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};
@@ -22,8 +24,7 @@ fn a_demanded_accuracy_is_kept_or_has_a_status() {
         ("pin_in_hole", c"accuracy=approach=1 %", BRINELL_INACCURATE),
     ];
     for (name, set, expected) in scenes {
-        let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-        let path = CString::new(path).unwrap();
+        let path = CString::new(scene_path(name)).unwrap();
         let folder = tempfile::tempdir().unwrap();
         let out = folder.path().join("out");
         let to = CString::new(out.to_str().unwrap()).unwrap();
@@ -38,8 +39,7 @@ fn a_demanded_accuracy_is_kept_or_has_a_status() {
             brinell_results_free(results);
             brinell_scene_free(scene);
         }
-        let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
-        let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+        let summary = summary(&out);
         let demand = &summary["accuracy"]["demand"];
         assert_eq!(demand["reached"], expected == BRINELL_OK, "{demand}");
     }

@@ -1,10 +1,8 @@
 //! The header in the repository is the one that the source says.
 
-use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
+use crate::support::program::stderr;
+use crate::support::root;
+use std::path::Path;
 
 const TOP: &str = "\
 /* The C interface of brinell: elastoplastic contact without friction.
@@ -117,6 +115,6 @@ fn the_lines_of_the_readme_compile() {
         .arg(&file)
         .output()
         .unwrap();
-    let why = String::from_utf8_lossy(&compiled.stderr).into_owned();
+    let why = stderr(&compiled);
     assert!(compiled.status.success(), "{why}");
 }

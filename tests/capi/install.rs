@@ -1,27 +1,12 @@
 //! Programs in C and C++ against the installed library print what the Rust program prints, also
 //! under valgrind.
 
-use crate::support::tools;
+use super::done;
+use crate::support::program::{program, stderr};
+use crate::support::{root, tools};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::LazyLock;
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn done(command: &mut Command) -> Output {
-    let output = command
-        .output()
-        .unwrap_or_else(|e| panic!("{command:?}: {e}"));
-    assert!(
-        output.status.success(),
-        "{command:?}\n{}\n{}",
-        String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr)
-    );
-    output
-}
 
 fn words(output: &Output) -> Vec<String> {
     let text = String::from_utf8_lossy(&output.stdout);
@@ -105,7 +90,7 @@ fn programs_against_the_installed_library_print_the_same_digits() {
     // A small scene: valgrind takes fifty times as long.
     let scene = folder.path().join("scene.toml");
     done(
-        Command::new(env!("CARGO_BIN_EXE_brinell"))
+        program()
             .args(["new", "ball-on-flat", "--resolution", "4", "--out"])
             .arg(&scene),
     );
@@ -144,7 +129,7 @@ fn programs_against_the_installed_library_print_the_same_digits() {
         assert!(
             output.stderr.is_empty(),
             "the library prints: {}",
-            String::from_utf8_lossy(&output.stderr)
+            stderr(&output)
         );
         String::from_utf8(output.stdout).unwrap()
     };

@@ -1,27 +1,18 @@
 //! The Python package, built into a folder of its own: its tests, and the example against the Rust
 //! one.
 
+use super::done;
+use crate::support::program::{program, stderr};
+use crate::support::root;
 use std::path::PathBuf;
 use std::process::{Command, Output};
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
 
 fn text(output: &Output) -> String {
     format!(
         "{}{}",
         String::from_utf8_lossy(&output.stdout),
-        String::from_utf8_lossy(&output.stderr)
+        stderr(output)
     )
-}
-
-fn done(command: &mut Command) -> Output {
-    let output = command
-        .output()
-        .unwrap_or_else(|e| panic!("{command:?}: {e}"));
-    assert!(output.status.success(), "{command:?}\n{}", text(&output));
-    output
 }
 
 /// The Python package in a folder, as a wheel puts it there.
@@ -56,7 +47,7 @@ fn the_python_package_passes_its_tests_and_prints_the_same_digits() {
 
     let scene = folder.path().join("scene.toml");
     done(
-        Command::new(env!("CARGO_BIN_EXE_brinell"))
+        program()
             .args(["new", "ball-on-flat", "--resolution", "4", "--out"])
             .arg(&scene),
     );

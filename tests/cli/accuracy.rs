@@ -1,7 +1,7 @@
 //! What accuracy costs, as the program says it: settings that buy nothing, whole programs to a
 //! demanded accuracy, what ends one.
 
-use super::{brinell, scene, stdout};
+use super::{brinell, scene_path, stderr, stdout};
 use crate::support::either;
 use serde_json::Value;
 use std::path::Path;
@@ -18,7 +18,7 @@ fn ended(code: i32, arguments: &[&str], out: &Path, file: &str) -> (String, Valu
     all.extend(["--quiet", "--out", out.to_str().unwrap()]);
     let output = brinell(&all);
     let text = stdout(&output);
-    let errors = String::from_utf8_lossy(&output.stderr);
+    let errors = stderr(&output);
     assert_eq!(output.status.code(), Some(code), "{text}{errors}");
     let words: Vec<&str> = text.split_whitespace().collect();
     let json = serde_json::from_slice(&std::fs::read(out.join(file)).unwrap()).unwrap();
@@ -39,7 +39,7 @@ fn what_limits_and_what_would_do_are_named() {
     let (text, json) = told(
         &[
             "accuracy",
-            &scene("thick_cylinder"),
+            &scene_path("thick_cylinder"),
             "--levels",
             "4",
             "--knobs",
@@ -106,7 +106,7 @@ fn difference(a: &Value, b: &Value) -> f64 {
 /// is finer by far.
 fn to_accuracy(demanded: f64, name: &str, settings: &[&str], fine: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
-    let file = scene(name);
+    let file = scene_path(name);
     let mut arguments = vec!["run", &file];
     arguments.extend(settings.iter().flat_map(|s| ["--set", s]));
     let percent = format!("{demanded}%");
@@ -179,7 +179,7 @@ fn the_tube_to_one_percent() {
     ignore = "needs a sparse backend"
 )]
 fn the_punch_to_ten_percent() {
-    let file = scene("flat_punch");
+    let file = scene_path("flat_punch");
     for &demanded in either(&[10.0][..], &[10.0, 3.0]) {
         let folder = tempfile::tempdir().unwrap();
         let asked = format!("states.flow.load={demanded}%");
@@ -275,7 +275,7 @@ fn a_pressure_that_grows_with_the_mesh_is_not_reached() {
 fn demands_that_make_no_sense_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let file = scene("thick_cylinder");
+    let file = scene_path("thick_cylinder");
     for (more, says) in [
         (&["--accuracy", "0%"][..], "above 0 and below 100 %"),
         (&["--accuracy", "100%"], "above 0 and below 100 %"),
@@ -289,7 +289,7 @@ fn demands_that_make_no_sense_are_refused() {
         let mut arguments = vec!["run", &file, "--quiet", "--out", out.to_str().unwrap()];
         arguments.extend(more);
         let output = brinell(&arguments);
-        let errors = String::from_utf8_lossy(&output.stderr);
+        let errors = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{more:?}: {errors}");
         assert!(errors.contains(says), "{more:?}: {errors}");
         assert!(!out.exists());
@@ -306,7 +306,7 @@ fn demands_that_make_no_sense_are_refused() {
         "--quiet",
     ];
     let output = brinell(&arguments);
-    let errors = String::from_utf8_lossy(&output.stderr);
+    let errors = stderr(&output);
     assert_eq!(output.status.code(), Some(2), "{errors}");
     assert!(
         errors.contains("cannot be refined") && errors.contains("`block`"),
@@ -318,7 +318,7 @@ fn demands_that_make_no_sense_are_refused() {
 #[test]
 fn a_budget_keeps_what_it_has() {
     let folder = tempfile::tempdir().unwrap();
-    let file = scene("thick_cylinder");
+    let file = scene_path("thick_cylinder");
     let arguments = ["run", &file, "--accuracy", "0.001%", "--budget", "1s"];
     let (text, json) = ended(7, &arguments, &folder.path().join("out"), "summary.json");
     let demand = &json["accuracy"]["demand"];

@@ -1,11 +1,12 @@
 //! `brinell ccx` as FreeCAD and PrePoMax start it.
 
+use super::program;
 use crate::support::limit;
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
 fn ccx(folder: &Path, words: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let mut command = program();
     limit::output(command.arg("ccx").args(words).current_dir(folder))
 }
 
@@ -65,7 +66,7 @@ fn the_picture_of_the_page_is_what_its_command_draws() {
         "disc" => out.display().to_string(),
         _ => word.to_string(),
     });
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let mut command = program();
     let output = limit::output(command.args(words).arg("--quiet").current_dir(root));
     assert!(output.status.success(), "{output:?}");
     let name = page.split("This is `disc/").nth(1).unwrap();

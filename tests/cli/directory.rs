@@ -1,15 +1,15 @@
 //! The directory of the results while runs come and go: killed ones, failed ones, two at once.
 #![cfg(unix)]
 
-use super::Folder;
+use super::{Folder, program};
 use crate::support::limit;
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
 /// A quick scene, and one that takes long, in one folder.
 fn folder() -> Folder {
     let folder = Folder::with_changes("contact_patch", &[]);
-    let long = super::scene("thick_cylinder");
+    let long = super::scene_path("thick_cylinder");
     let text = std::fs::read_to_string(long).unwrap();
     let text = text.replace("elements = [16, 16]", "elements = [2, 2]");
     let text = text.replace(
@@ -24,7 +24,7 @@ fn folder() -> Folder {
 
 /// Starts the long run to `out`, and waits until it has the directory.
 fn start(folder: &Folder) -> Child {
-    let child = Command::new(env!("CARGO_BIN_EXE_brinell"))
+    let child = program()
         .args(["run", "-q", "--threads", "1", "--out"])
         .args([folder.path("out"), folder.path("long.toml")])
         .stdout(Stdio::null())

@@ -1,7 +1,7 @@
 //! The tutorials of the guide do what they say: their commands run, their numbers are what comes
 //! out.
 
-use super::{brinell, stdout};
+use super::{brinell, stdout, succeeds};
 use serde_json::Value;
 use std::path::Path;
 
@@ -57,9 +57,7 @@ fn follow(text: &str, folder: &Path) -> Vec<(String, Value)> {
         if arguments[0] == "run" {
             arguments.extend(["--quiet", "--json", "--no-estimate", "--no-report"]);
         }
-        let done = brinell(&arguments);
-        let why = String::from_utf8_lossy(&done.stderr).into_owned();
-        assert!(done.status.success(), "brinell {line}: {why}");
+        let done = succeeds(&arguments);
         if arguments[0] == "run" {
             let summary = serde_json::from_str(&stdout(&done)).unwrap();
             summaries.push((arguments[1].to_string(), summary));
@@ -260,8 +258,8 @@ fn the_sweep_runs_as_its_page_says() {
 fn the_arrays_of_the_paraview_page_are_those_of_the_files() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let scene = super::scene("contact_patch");
-    let run = brinell(&[
+    let scene = super::scene_path("contact_patch");
+    succeeds(&[
         "run",
         &scene,
         "-q",
@@ -269,7 +267,6 @@ fn the_arrays_of_the_paraview_page_are_those_of_the_files() {
         "--out",
         out.to_str().unwrap(),
     ]);
-    assert!(run.status.success());
     let fields = std::fs::read_dir(&out).unwrap().flatten();
     let fields = fields
         .map(|e| e.path())

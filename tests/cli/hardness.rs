@@ -1,6 +1,6 @@
 //! `brinell new hardness` and `brinell hardness`: what is read off an indentation.
 
-use super::{brinell, stdout};
+use super::{brinell, near, stderr, stdout, succeeds};
 use brinell::analytical::{HertzPoint, contact_modulus};
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -18,9 +18,7 @@ fn tested(folder: &Path, line: &str) -> String {
         &arguments[..],
         &["run", "-q", "--no-report", "--no-estimate", scene],
     ] {
-        let output = brinell(arguments);
-        let why = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(output.status.success(), "{arguments:?}: {why}");
+        succeeds(arguments);
     }
     folder.join("test.out").to_str().unwrap().to_string()
 }
@@ -28,7 +26,7 @@ fn tested(folder: &Path, line: &str) -> String {
 /// The figures, and the warnings.
 fn sheet(results: &str) -> (Value, String) {
     let output = brinell(&["hardness", results, "--json"]);
-    let warned = String::from_utf8_lossy(&output.stderr).into_owned();
+    let warned = stderr(&output);
     assert!(output.status.success(), "{warned}");
     (serde_json::from_str(&stdout(&output)).unwrap(), warned)
 }
@@ -37,10 +35,6 @@ fn number(value: &Value, key: &str) -> f64 {
     value[key]
         .as_f64()
         .unwrap_or_else(|| panic!("{key} of {value}"))
-}
-
-fn near(found: f64, expected: f64, share: f64) {
-    assert!((found / expected - 1.0).abs() < share, "{found} {expected}");
 }
 
 /// By load: the figures are those of their formulas, unloading is elastic with the stiffness of the
@@ -135,7 +129,7 @@ fn what_is_no_indentation_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("patch.out");
     let out = out.to_str().unwrap();
-    let scene = super::scene("contact_patch");
+    let scene = super::scene_path("contact_patch");
     let run = [
         "run",
         "-q",
@@ -164,7 +158,7 @@ fn what_is_no_indentation_is_refused() {
         ),
     ] {
         let output = brinell(arguments);
-        let why = String::from_utf8_lossy(&output.stderr).into_owned();
+        let why = stderr(&output);
         assert_eq!(output.status.code(), Some(code), "{arguments:?}: {why}");
         assert!(
             why.contains(part),

@@ -1,6 +1,6 @@
 //! `brinell hertz`: closed forms against published figures, and what it refuses.
 
-use super::{brinell, stdout};
+use super::{brinell, stderr, stdout, succeeds};
 use brinell::analytical::{HertzEllipse, HertzLine, contact_modulus};
 use serde_json::Value;
 use std::time::Instant;
@@ -9,18 +9,12 @@ use std::time::Instant;
 fn sheet(line: &str) -> Value {
     let mut arguments = vec!["hertz", "--json"];
     arguments.extend(line.split_whitespace());
-    let output = brinell(&arguments);
-    let why = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{line}: {why}");
+    let output = succeeds(&arguments);
     serde_json::from_str(&stdout(&output)).unwrap()
 }
 
 fn near(found: &Value, expected: f64, tolerance: f64) {
-    let found = found.as_f64().unwrap();
-    assert!(
-        (found / expected - 1.0).abs() < tolerance,
-        "{found} {expected}"
-    );
+    super::near(found.as_f64().unwrap(), expected, tolerance);
 }
 
 /// code_aster SSNV104: two balls, R = 50, E = 20000, nu = 0.3, an approach of 4: contact radius 10,
@@ -263,7 +257,7 @@ fn what_is_no_contact_is_refused() {
         let mut arguments = vec!["hertz"];
         arguments.extend(line.split(' '));
         let output = brinell(&arguments);
-        let text = String::from_utf8_lossy(&output.stderr).into_owned();
+        let text = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{line}: {text}");
         assert!(text.contains(part), "{line}: {part:?} is not in {text}");
     }

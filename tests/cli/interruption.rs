@@ -1,7 +1,7 @@
 //! Ctrl-C: what was computed is written and marked as incomplete.
 #![cfg(unix)]
 
-use super::Folder;
+use super::{Folder, program};
 use crate::support::limit;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
@@ -26,7 +26,7 @@ fn long() -> Folder {
 
 fn start(folder: &Folder, progress: &str) -> Child {
     let (scene, out) = (folder.scene(), folder.path("out"));
-    Command::new(env!("CARGO_BIN_EXE_brinell"))
+    program()
         .args([
             "run",
             scene.to_str().unwrap(),

@@ -1,6 +1,6 @@
 //! `brinell new iso76`: the load of a dent of 1e-4 D, and what Hertz says beside it.
 
-use super::{brinell, stdout};
+use super::{brinell, near, stderr, stdout, succeeds};
 use brinell::analytical::{HertzContact, RelativeRadii, contact_modulus};
 use brinell::scene::Scene;
 use serde_json::Value;
@@ -13,19 +13,15 @@ fn made(folder: &Path, line: &str) -> [String; 2] {
     let scene = folder.join("c0.toml");
     let mut arguments = vec!["new", "iso76", "--out", scene.to_str().unwrap()];
     arguments.extend(line.split_whitespace());
-    let output = brinell(&arguments);
-    let why = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{line}: {why}");
+    let output = succeeds(&arguments);
     [stdout(&output), std::fs::read_to_string(&scene).unwrap()]
 }
 
 #[cfg(any(feature = "cholmod", feature = "faer"))]
-fn run(folder: &Path) -> Value {
+fn run_made_scene(folder: &Path) -> Value {
     let scene = folder.join("c0.toml");
     let scene = scene.to_str().unwrap();
-    let output = brinell(&["run", "-q", "--no-report", "--no-estimate", "--json", scene]);
-    let why = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert!(output.status.success(), "{why}");
+    let output = succeeds(&["run", "-q", "--no-report", "--no-estimate", "--json", scene]);
     serde_json::from_str(&stdout(&output)).unwrap()
 }
 
@@ -35,10 +31,6 @@ fn told(text: &str, phrase: &str) -> f64 {
     let line = line.unwrap_or_else(|| panic!("{phrase:?} is not in\n{text}"));
     let (_, load) = line.rsplit_once(" at ").unwrap();
     load.split(' ').next().unwrap().parse().unwrap()
-}
-
-fn near(found: f64, expected: f64, share: f64) {
-    assert!((found / expected - 1.0).abs() < share, "{found} {expected}");
 }
 
 fn hertz(first: [f64; 2], second: [f64; 2]) -> HertzContact {
@@ -68,7 +60,7 @@ fn a_ball_on_a_flat_keeps_a_ten_thousandth_of_its_diameter() {
         let of_other = ball.load_for_max_pressure(4600.0);
         near(told(text, "4600 MPa (ISO 76:2006, self"), of_other, 1e-3);
     }
-    let summary = run(folder.path());
+    let summary = run_made_scene(folder.path());
     let number = |value: &Value| value.as_f64().unwrap();
     let states = summary["states"].as_array().unwrap();
     let [yields, found, free] = [0, 1, 2].map(|k| &states[k]);
@@ -111,7 +103,7 @@ fn a_roller_on_a_raceway() {
         4.0,
         1e-12,
     );
-    let summary = run(folder.path());
+    let summary = run_made_scene(folder.path());
     let free = &summary["states"][2];
     near(free["residual_depth"].as_f64().unwrap(), 1e-3, 1e-6);
 }
@@ -146,7 +138,7 @@ fn a_groove_yields_where_no_larger_load_is_known() {
     let line = format!("{STEEL} --groove 5.2 --race 20 --resolution 3");
     made(folder.path(), &line);
     let scene = folder.path().join("c0.toml");
-    let run = brinell(&[
+    let run = succeeds(&[
         "run",
         "-q",
         "--no-report",
@@ -159,8 +151,6 @@ fn a_groove_yields_where_no_larger_load_is_known() {
         "mesh.curved_bodies.contact_width=2.0",
         scene.to_str().unwrap(),
     ]);
-    let why = String::from_utf8_lossy(&run.stderr).into_owned();
-    assert!(run.status.success(), "{why}");
     let summary: Value = serde_json::from_str(&stdout(&run)).unwrap();
     let hertz = hertz([5.0; 2], [-5.2, 20.0]).yield_load(0.3, 2000.0);
     // Three elements over the smaller half axis.
@@ -229,9 +219,7 @@ fn a_logarithmic_profile_presses_evenly() {
         ] {
             arguments.extend(["--set", set]);
         }
-        let run = brinell(&arguments);
-        let why = String::from_utf8_lossy(&run.stderr).into_owned();
-        assert!(run.status.success(), "{why}");
+        succeeds(&arguments);
         let mut rows = csv::Reader::from_path(out.join("contact.csv")).unwrap();
         let head = rows.headers().unwrap().clone();
         let column = |name: &str| head.iter().position(|key| key == name).unwrap();
@@ -281,7 +269,7 @@ fn what_leaves_no_dent_is_refused() {
         let mut arguments = vec!["new", "iso76"];
         arguments.extend(line.split(' '));
         let output = brinell(&arguments);
-        let why = String::from_utf8_lossy(&output.stderr).into_owned();
+        let why = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{line}: {why}");
         assert!(why.contains(part), "{line}: {part:?} is not in {why}");
     }

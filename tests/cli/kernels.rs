@@ -1,7 +1,9 @@
 //! The program begins anew where OpenBLAS computes with less than the processor has. An OpenBLAS
 //! that does not know the processor is played by a library that is loaded before it.
 
+use super::program;
 use crate::support::limit;
+use crate::support::program::summary;
 use crate::support::tools;
 use brinell::linalg::cholmod::{KERNEL_SETTING, kernels};
 use std::path::{Path, PathBuf};
@@ -32,7 +34,7 @@ fn old_library(directory: &Path) -> PathBuf {
 /// The kernels that `brinell check` names with settings of the environment.
 fn named(settings: &[(&str, &str)], library: Option<&Path>) -> String {
     let scene = crate::support::scene_file("flat_punch");
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let mut command = program();
     command.arg("check").arg(scene).env_remove(KERNEL_SETTING);
     command.envs(settings.iter().copied());
     if let Some(library) = library {
@@ -79,7 +81,7 @@ fn results_of_other_kernels_agree_to_round_off() {
     let directory = tempfile::tempdir().unwrap();
     let states = |name: &str| -> Vec<serde_json::Value> {
         let out = directory.path().join(name);
-        let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let mut command = program();
         command
             .arg("run")
             .arg(crate::support::scene_file("cylinder_on_half_plane"))
@@ -89,8 +91,7 @@ fn results_of_other_kernels_agree_to_round_off() {
             .env(KERNEL_SETTING, name);
         let output = limit::output(&mut command);
         assert!(output.status.success(), "{output:?}");
-        let text = std::fs::read_to_string(out.join("summary.json")).unwrap();
-        let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let summary = summary(&out);
         assert_eq!(summary["kernels"], name);
         summary["states"].as_array().unwrap().clone()
     };

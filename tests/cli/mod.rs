@@ -25,19 +25,20 @@ mod sweep_shared;
 mod targets;
 mod watching;
 
+use crate::support::program::{program, stderr, stdout, summary};
+use crate::support::{limit, scene_path};
 use std::path::PathBuf;
-use std::process::{Command, Output};
+use std::process::Output;
 
+/// Runs the program.
 fn brinell(arguments: &[&str]) -> Output {
-    crate::support::limit::output(Command::new(env!("CARGO_BIN_EXE_brinell")).args(arguments))
+    limit::output(program().args(arguments))
 }
 
-fn scene(name: &str) -> String {
-    format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).unwrap()
+/// Runs the program, which must succeed.
+#[track_caller]
+fn succeeds(arguments: &[&str]) -> Output {
+    crate::support::program::succeeds(program().args(arguments))
 }
 
 /// A scene in a folder of its own: what a failed command leaves behind shows there.
@@ -54,7 +55,7 @@ impl Folder {
 
     /// A scene of `data/scenes`, each of `changes` (old, new) made at its only place.
     fn with_changes(name: &str, changes: &[(&str, &str)]) -> Folder {
-        let mut text = std::fs::read_to_string(scene(name)).unwrap();
+        let mut text = std::fs::read_to_string(scene_path(name)).unwrap();
         for (old, new) in changes {
             assert_eq!(text.matches(old).count(), 1, "{old:?} in {name}");
             text = text.replace(old, new);
@@ -89,7 +90,7 @@ impl Folder {
     fn refused(&self, code: i32, fragments: &[&str]) {
         let entries = self.entries();
         let output = self.brinell("run", &["--quiet"]);
-        let stderr = String::from_utf8(output.stderr.clone()).unwrap();
+        let stderr = stderr(&output);
         assert_eq!(output.status.code(), Some(code), "{stderr}");
         assert_eq!(stderr.matches("error: ").count(), 1, "{stderr}");
         for fragment in fragments {
@@ -100,15 +101,20 @@ impl Folder {
     }
 
     fn summary(&self) -> serde_json::Value {
-        let text = std::fs::read_to_string(self.path("out/summary.json")).unwrap();
-        serde_json::from_str(&text).unwrap()
+        summary(&self.path("out"))
     }
+}
+
+/// A figure is the expected one to a share of it.
+#[track_caller]
+fn near(found: f64, expected: f64, share: f64) {
+    assert!((found / expected - 1.0).abs() < share, "{found} {expected}");
 }
 
 /// The command fails with `code`, says why on standard error and nothing on standard output.
 fn fails(arguments: &[&str], code: i32, fragments: &[&str]) {
     let output = brinell(arguments);
-    let stderr = String::from_utf8(output.stderr.clone()).unwrap();
+    let stderr = stderr(&output);
     assert_eq!(output.status.code(), Some(code), "{arguments:?}: {stderr}");
     for fragment in fragments {
         assert!(stderr.contains(fragment), "no {fragment:?} in {stderr}");
@@ -191,7 +197,7 @@ fn a_missing_scene_is_exit_code_3_with_the_reason() {
 
 #[test]
 fn an_unknown_key_is_exit_code_2_with_line_and_suggestion_and_leaves_nothing_behind() {
-    let good = std::fs::read_to_string(scene("contact_patch")).unwrap();
+    let good = std::fs::read_to_string(scene_path("contact_patch")).unwrap();
     let line = 1 + good
         .lines()
         .position(|l| l.starts_with("poissons_ratio"))
@@ -214,7 +220,7 @@ fn an_unknown_key_is_exit_code_2_with_line_and_suggestion_and_leaves_nothing_beh
 
 #[test]
 fn an_effect_that_brinell_has_not_is_exit_code_2() {
-    let good = std::fs::read_to_string(scene("contact_patch")).unwrap();
+    let good = std::fs::read_to_string(scene_path("contact_patch")).unwrap();
     let folder = Folder::with_scene(&good.replace("[[contact]]", "[[contact]]\nfriction = 0.3"));
     fails(
         &["run", folder.scene().to_str().unwrap()],
@@ -226,7 +232,7 @@ fn an_effect_that_brinell_has_not_is_exit_code_2() {
 
 #[test]
 fn a_wrong_override_is_exit_code_2_and_names_itself() {
-    let scene = scene("contact_patch");
+    let scene = scene_path("contact_patch");
     for (text, fragment) in [
         ("kind", "error: --set kind: an override is KEY=VALUE"),
         (

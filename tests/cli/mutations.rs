@@ -1,6 +1,6 @@
 //! Scenes with random damage: whatever it is, the program ends with a documented exit code.
 
-use super::{brinell, scene};
+use super::{brinell, scene_path, stderr};
 use std::time::{Duration, Instant};
 
 /// Small and quick scenes to damage.
@@ -109,7 +109,7 @@ fn damaged_scenes_end_with_documented_exit_codes() {
             break;
         }
         let name = SCENES[number % SCENES.len()];
-        let mut text = std::fs::read_to_string(scene(name)).unwrap();
+        let mut text = std::fs::read_to_string(scene_path(name)).unwrap();
         text = text
             .replace("../meshes", "meshes")
             .replace("[16, 16]", "[3, 3]");
@@ -133,7 +133,7 @@ fn damaged_scenes_end_with_documented_exit_codes() {
             "--out",
             out,
         ]);
-        let stderr = String::from_utf8_lossy(&output.stderr);
+        let stderr = stderr(&output);
         let code = output.status.code().unwrap_or(-1);
         assert!(
             [0, 2, 3, 4, 5, 6].contains(&code),

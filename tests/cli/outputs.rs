@@ -1,6 +1,6 @@
 //! What good commands print and write.
 
-use super::{Folder, brinell, scene, stdout};
+use super::{Folder, brinell, program, scene_path, stderr, stdout};
 use crate::support::{SMALL_BALL, SMALL_PUNCH};
 use serde_json::Value;
 
@@ -159,7 +159,7 @@ fn check_tells_effects_sizes_cost_and_blas_of_every_scene() {
         assert_eq!(std::fs::read_dir(scenes).unwrap().count(), before);
     }
     assert!(n >= 10, "{n} scenes");
-    let output = brinell(&["check", &scene("contact_patch"), "--json"]);
+    let output = brinell(&["check", &scene_path("contact_patch"), "--json"]);
     let check: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(check["sizes"]["elements"], 64);
 }
@@ -169,8 +169,8 @@ fn check_tells_effects_sizes_cost_and_blas_of_every_scene() {
 #[cfg(all(feature = "cholmod", feature = "faer"))]
 fn check_names_the_faster_solver() {
     let notes = |name: &str, resolution: &str, solver: &str| {
-        let output = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
-            .args(["check", &scene(name), "--solver", solver, "--json"])
+        let output = program()
+            .args(["check", &scene_path(name), "--solver", solver, "--json"])
             .args([
                 "--set",
                 &format!("mesh.curved_bodies.resolution={resolution}"),
@@ -312,7 +312,7 @@ fn a_study_leaves_its_data_and_plots() {
         env!("CARGO_MANIFEST_DIR")
     );
     let output = crate::support::limit::output(
-        std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+        program()
             .args([
                 "accuracy",
                 &scene,
@@ -328,11 +328,7 @@ fn a_study_leaves_its_data_and_plots() {
             .args(["--set", "program.targets=[{ yield = true }]"]),
     );
     let text = String::from_utf8_lossy(&output.stdout);
-    assert!(
-        output.status.success(),
-        "{text}{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{text}{}", stderr(&output));
     assert!(
         text.contains("Prices") && text.contains(" costs "),
         "{text}"
@@ -370,13 +366,12 @@ fn a_study_leaves_its_data_and_plots() {
     std::fs::create_dir(&refused).unwrap();
     std::fs::write(refused.join("mine.txt"), "mine").unwrap();
     let output = crate::support::limit::output(
-        std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
-            .args(["accuracy", &scene, "--quiet", "--knobs", "mesh"]),
+        program().args(["accuracy", &scene, "--quiet", "--knobs", "mesh"]),
     );
     assert_eq!(output.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&output.stderr).contains("unknown knob `mesh`"));
+    assert!(stderr(&output).contains("unknown knob `mesh`"));
     let output = crate::support::limit::output(
-        std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
+        program()
             .args(["accuracy", &scene, "--quiet", "--out"])
             .arg(&refused),
     );
@@ -424,7 +419,7 @@ fn a_leftover_checkpoint_goes_with_the_next_run_that_ends() {
 )]
 fn the_predicted_time_of_a_run_grows_with_its_mesh() {
     let predicted = |resolution: usize| {
-        let scene = scene("cylinder_on_half_plane");
+        let scene = scene_path("cylinder_on_half_plane");
         let resolution = format!("mesh.cylinder_on_half_plane.resolution={resolution}");
         let growth = "mesh.cylinder_on_half_plane.growth=1.05";
         let arguments = [
@@ -486,7 +481,7 @@ fn the_rows_of_the_time_table_add_up_to_the_whole() {
         let set = changes.iter().flat_map(|change| ["--set", change]);
         let words: Vec<&str> = set.chain(options.iter().copied()).collect();
         let output = folder.brinell("run", &words);
-        let stderr = String::from_utf8_lossy(&output.stderr);
+        let stderr = stderr(&output);
         assert!(output.status.success(), "{stderr}");
         check(&folder, &format!("{scene} {options:?}"));
     }

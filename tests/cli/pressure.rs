@@ -1,7 +1,7 @@
 //! Under pressure: little memory, endless files, characters that a terminal obeys, sizes without a
 //! bound.
 
-use super::{Folder, brinell, fails, scene, stdout};
+use super::{Folder, brinell, fails, program, scene_path, stdout};
 use crate::support::limit;
 use std::process::{Command, Output};
 use std::time::Duration;
@@ -10,7 +10,7 @@ use std::time::Duration;
 const SOON: Duration = Duration::from_secs(60);
 
 fn soon(arguments: &[&str]) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let mut command = program();
     limit::output_within(command.args(arguments), SOON)
 }
 
@@ -35,7 +35,7 @@ fn limited(limits: &str, arguments: &[&str]) -> (Option<i32>, String) {
     ignore = "too large for the dense backend"
 )]
 fn too_little_memory_is_exit_code_5_with_the_size_asked_for() {
-    let scene = scene("cylinder_on_half_plane");
+    let scene = scene_path("cylinder_on_half_plane");
     // A BLAS takes a work buffer as it is loaded; without one less suffices.
     let first: &[u64] = if cfg!(feature = "cholmod") {
         &[120]
@@ -72,7 +72,7 @@ fn too_little_memory_is_exit_code_5_with_the_size_asked_for() {
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_is_compared_with_what_is_available_before_the_factorisation() {
-    let scene = scene("thick_cylinder");
+    let scene = scene_path("thick_cylinder");
     let mut sizes = vec![("dense", "[28, 32]", "dense factorisation of 5504 freedoms")];
     for (solver, is_there) in [
         ("cholmod", cfg!(feature = "cholmod")),
@@ -103,7 +103,7 @@ fn memory_is_compared_with_what_is_available_before_the_factorisation() {
 fn a_file_beyond_the_limit_of_its_size_is_exit_code_3_and_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let scene = scene("contact_patch");
+    let scene = scene_path("contact_patch");
     let arguments = ["run", &scene, "-q", "--out", out.to_str().unwrap()];
     let (code, stderr) = limited("-f 8", &arguments);
     assert_eq!(code, Some(3), "{stderr}");
@@ -206,7 +206,7 @@ fn what_a_terminal_obeys_is_shown_written_out_everywhere() {
     is_harmless("view", &stdout(&output));
     // Errors: a path, a key of the scene, an argument.
     let set = format!("{OBEYED}=1");
-    let of_patch = scene("contact_patch");
+    let of_patch = scene_path("contact_patch");
     for arguments in [
         vec!["check", OBEYED],
         vec!["check", of_patch.as_str(), "--set", &set],
@@ -280,7 +280,7 @@ fn hundreds_of_bodies_take_no_longer_than_as_many_elements() {
 fn ten_thousand_targets_of_one_name_take_no_time_and_more_are_refused() {
     let with = |n: usize| {
         let targets = "{ load_factor = 1 }, ".repeat(n);
-        let text = std::fs::read_to_string(scene("contact_patch")).unwrap();
+        let text = std::fs::read_to_string(scene_path("contact_patch")).unwrap();
         let text = text.split("[[reference]]").next().unwrap();
         let old = "targets = [{ name = \"pressed\", load_factor = 1.0 }]";
         assert!(text.contains(old));
@@ -299,7 +299,7 @@ fn ten_thousand_targets_of_one_name_take_no_time_and_more_are_refused() {
 
 #[test]
 fn sizes_and_values_without_sense_are_refused_with_their_bound() {
-    let scene = scene("thick_cylinder");
+    let scene = scene_path("thick_cylinder");
     for (set, fragment) in [
         (
             "program.steps=1000000000000",
@@ -333,7 +333,7 @@ fn sizes_and_values_without_sense_are_refused_with_their_bound() {
     ] {
         fails(&["check", &scene, "--set", set], 2, &[fragment]);
     }
-    let ball = super::scene("ball_on_half_space");
+    let ball = super::scene_path("ball_on_half_space");
     let fragment = "symmetry: 4 must be 1 (all of it is meshed) or 2 (half of it";
     fails(&["check", &ball, "--set", "symmetry=4"], 2, &[fragment]);
     let fragment = "give a whole number from 1 to ";
@@ -342,7 +342,7 @@ fn sizes_and_values_without_sense_are_refused_with_their_bound() {
 
 #[test]
 fn a_large_number_has_an_exponent_in_names_and_tables() {
-    let scene = scene("contact_patch");
+    let scene = scene_path("contact_patch");
     let set = "program.targets=[{ load_factor = 1e300 }]";
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");

@@ -1,7 +1,7 @@
 //! What the README and the guide show is what the program does.
 
 #[cfg(any(feature = "cholmod", feature = "faer"))]
-use super::brinell;
+use super::succeeds;
 use std::process::Command;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
@@ -38,8 +38,7 @@ fn the_bearing_ball_dents_its_race_as_the_table_says() {
         .skip(1)
         .map(|word| if word == "race.toml" { scene } else { word })
         .collect();
-    let made = brinell(&arguments);
-    assert!(made.status.success(), "{made:?}");
+    succeeds(&arguments);
     let rows: Vec<Vec<&str>> = text
         .lines()
         .filter(|l| l.starts_with("| ") && l[2..].starts_with(|c: char| c.is_ascii_digit()))
@@ -49,7 +48,7 @@ fn the_bearing_ball_dents_its_race_as_the_table_says() {
     for row in rows {
         let stress = format!("materials.steel.yield_stress={}", row[0]);
         let out = folder.path().join(row[0]);
-        let run = brinell(&[
+        let run = succeeds(&[
             "run",
             scene,
             "--set",
@@ -61,7 +60,6 @@ fn the_bearing_ball_dents_its_race_as_the_table_says() {
             "--out",
             out.to_str().unwrap(),
         ]);
-        assert!(run.status.success(), "{run:?}");
         let summary: serde_json::Value = serde_json::from_slice(&run.stdout).unwrap();
         let states = summary["states"].as_array().unwrap();
         let pressed = states.iter().find(|s| s["name"] == "pressed").unwrap();
@@ -92,8 +90,7 @@ fn the_ten_lines_print_what_is_shown() {
     let file = folder.path().join("ball.toml");
     std::fs::write(&file, scene).unwrap();
     let file = file.to_str().unwrap();
-    let run = brinell(&["run", file, "-q", "--no-estimate", "--no-report"]);
-    assert!(run.status.success(), "{run:?}");
+    let run = succeeds(&["run", file, "-q", "--no-estimate", "--no-report"]);
     let printed = String::from_utf8(run.stdout).unwrap();
     let shown = block("text");
     assert_eq!(shown.lines().count(), 7);

@@ -1,6 +1,6 @@
 //! Bad input: each kind has a clear message, its exit code, and leaves nothing behind.
 
-use super::{Folder, brinell, scene, stdout};
+use super::{Folder, brinell, scene_path, stdout};
 
 /// The contact patch scene with one place changed.
 fn patch(old: &str, new: &str) -> Folder {
@@ -17,7 +17,7 @@ pub(super) fn refused_with(
 ) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let scene = scene(name);
+    let scene = scene_path(name);
     let mut arguments = vec!["run", &scene, "--quiet", "--out", out.to_str().unwrap()];
     for set in sets {
         arguments.extend(["--set", set]);
@@ -209,7 +209,7 @@ fn sets_that_are_missing_or_empty() {
 fn what_does_not_fit_the_mesh_is_told_with_its_place_in_the_scene() {
     // Lines of the scene that the key stands in.
     let line = |key: &str| {
-        let text = std::fs::read_to_string(scene("contact_patch")).unwrap();
+        let text = std::fs::read_to_string(scene_path("contact_patch")).unwrap();
         1 + text.lines().position(|l| l.starts_with(key)).unwrap()
     };
     let place = |key: &str, column: usize| format!("scene.toml:{}:{column}: ", line(key));

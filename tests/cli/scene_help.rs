@@ -1,6 +1,6 @@
 //! What helps to write a scene: schema, examples, new scenes, completions, manual page.
 
-use super::{brinell, scene, stdout};
+use super::{brinell, scene_path, stderr, stdout, succeeds};
 use brinell::analytical::HertzEllipse;
 use brinell::scene::Scene;
 use serde_json::Value;
@@ -11,8 +11,7 @@ fn root() -> PathBuf {
 }
 
 fn printed_schema() -> Value {
-    let output = brinell(&["schema"]);
-    assert!(output.status.success());
+    let output = succeeds(&["schema"]);
     serde_json::from_str(&stdout(&output)).unwrap()
 }
 
@@ -85,7 +84,7 @@ fn every_scene_obeys_the_schema_as_written_and_as_read() {
 #[test]
 fn the_schema_refuses_what_the_program_refuses() {
     let schema = jsonschema::validator_for(&printed_schema()).unwrap();
-    let good = document(Path::new(&scene("three_bodies")));
+    let good = document(Path::new(&scene_path("three_bodies")));
     assert!(schema.is_valid(&good));
     let changes: [(&str, Value); 8] = [
         ("/kind", "plane_stretch".into()),
@@ -116,23 +115,18 @@ fn an_example_is_printed_as_it_stands_in_the_repository() {
     for name in ["ball_on_half_space", "disc_in_plate", "three_bodies"] {
         assert!(list.contains(name), "{list}");
         let printed = stdout(&brinell(&["example", name]));
-        assert_eq!(printed, std::fs::read_to_string(scene(name)).unwrap());
+        assert_eq!(printed, std::fs::read_to_string(scene_path(name)).unwrap());
     }
     let unknown = brinell(&["example", "nothing"]);
     assert_eq!(unknown.status.code(), Some(2));
-    assert!(String::from_utf8_lossy(&unknown.stderr).contains("thick_sphere"));
+    assert!(stderr(&unknown).contains("thick_sphere"));
 }
 
 /// Makes a scene, runs it and returns its summary.
 fn made_and_run(folder: &Path, arguments: &[&str]) -> Value {
     let scene = folder.join(format!("{}.toml", arguments[0]));
     let scene = scene.to_str().unwrap();
-    let made = brinell(&[&["new"], arguments, &["--out", scene]].concat());
-    assert!(
-        made.status.success(),
-        "{}",
-        String::from_utf8_lossy(&made.stderr)
-    );
+    succeeds(&[&["new"], arguments, &["--out", scene]].concat());
     let text = std::fs::read_to_string(scene).unwrap();
     assert!(
         text.lines().filter(|l| l.contains('#')).count() >= 6,
@@ -144,12 +138,7 @@ fn made_and_run(folder: &Path, arguments: &[&str]) -> Value {
         "roller-between-raceways" => ["--estimate", "full"],
         _ => ["--estimate", "none"],
     });
-    let run = brinell(&run);
-    assert!(
-        run.status.success(),
-        "{arguments:?}: {}",
-        String::from_utf8_lossy(&run.stderr)
-    );
+    let run = succeeds(&run);
     serde_json::from_str(&stdout(&run)).unwrap()
 }
 
@@ -271,7 +260,7 @@ fn new_scenes_run_and_give_what_their_comments_say() {
     let error = width.unwrap()["relative_error"].as_f64().unwrap();
     assert!(error < 0.1, "{error}");
     let nowhere = brinell(&["new", "roller-between-raceways"]);
-    let words = String::from_utf8_lossy(&nowhere.stderr).into_owned();
+    let words = stderr(&nowhere);
     assert!(
         words.contains("a mesh belongs to this scene: give --out"),
         "{words}"
@@ -376,7 +365,7 @@ fn a_new_scene_overwrites_nothing_and_refuses_nonsense() {
             stdout(&refused)
         );
         assert!(refused.stdout.is_empty(), "{arguments:?}");
-        let why = String::from_utf8_lossy(&refused.stderr);
+        let why = stderr(&refused);
         let named = why.contains(arguments[1]) || why.contains("outer radius");
         assert!(named && why.contains(arguments[2]), "{arguments:?}: {why}");
     }
@@ -386,12 +375,12 @@ fn a_new_scene_overwrites_nothing_and_refuses_nonsense() {
 fn an_interference_below_zero_points_to_the_clearance() {
     let refused = brinell(&["new", "shaft-in-bore", "--interference", "-0.02"]);
     assert_eq!(refused.status.code(), Some(2));
-    let why = String::from_utf8_lossy(&refused.stderr);
+    let why = stderr(&refused);
     assert!(why.contains("give --clearance 0.02"), "{why}");
-    let scene = scene("shrink_fit");
+    let scene = scene_path("shrink_fit");
     let refused = brinell(&["check", &scene, "--set", "contact.0.interference=-0.05"]);
     assert_eq!(refused.status.code(), Some(2));
-    let why = String::from_utf8_lossy(&refused.stderr);
+    let why = stderr(&refused);
     assert!(why.contains("a clearance is given by `gap`"), "{why}");
 }
 
@@ -406,12 +395,7 @@ fn a_new_scene_takes_a_curve_from_a_file() {
     )
     .unwrap();
     let curve = curve.to_str().unwrap();
-    let made = brinell(&["new", "ball-on-flat", "--tensile-test", curve]);
-    assert!(
-        made.status.success(),
-        "{}",
-        String::from_utf8_lossy(&made.stderr)
-    );
+    let made = succeeds(&["new", "ball-on-flat", "--tensile-test", curve]);
     let scene = Scene::parse(&stdout(&made), "made").unwrap();
     let steel = &scene.materials["steel"];
     assert_eq!(steel.tensile_test.as_ref().unwrap().len(), 4);
@@ -422,7 +406,7 @@ fn a_new_scene_takes_a_curve_from_a_file() {
     // As a hardening table it would begin at no stress.
     let refused = brinell(&["new", "ball-on-flat", "--hardening-table", curve]);
     assert_eq!(refused.status.code(), Some(2));
-    let why = String::from_utf8_lossy(&refused.stderr);
+    let why = stderr(&refused);
     assert!(why.contains("hardening_table"), "{why}");
 }
 

@@ -1,6 +1,6 @@
 //! What is shown: names, numbers, ratios.
 
-use super::{Folder, stdout};
+use super::{Folder, stderr, stdout};
 
 /// A title and names that would move the cursor, hide or start a new line: written out wherever
 /// they are shown, one line each in the tables.
@@ -35,7 +35,7 @@ fn hidden_and_control_characters_are_shown_as_what_they_are() {
         "{text}"
     );
     let hidden = |text: &str| text.contains(['\u{1b}', '\u{200b}', '\u{7}']);
-    assert!(!hidden(&text) && !hidden(&String::from_utf8_lossy(&output.stderr)));
+    assert!(!hidden(&text) && !hidden(&stderr(&output)));
     for entry in std::fs::read_dir(folder.path("out")).unwrap() {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();

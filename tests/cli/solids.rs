@@ -1,6 +1,6 @@
 //! Bad input of solid scenes: named, exit code 2, nothing left behind.
 
-use super::{Folder, brinell, scene, stdout};
+use super::{Folder, brinell, scene_path, stdout};
 
 /// Two unit cubes, one on the other; nodes 1 to 8 are the lower one's.
 const CUBES: &str = include_str!("../fuzz/seeds/solid_2.msh");
@@ -37,7 +37,7 @@ fn cubes(changes: &[(&str, &str)]) -> Folder {
 fn refused_with(name: &str, sets: &[&str], fragments: &[&str]) {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let scene = scene(name);
+    let scene = scene_path(name);
     let mut arguments = vec!["run", &scene, "--quiet", "--out", out.to_str().unwrap()];
     arguments.extend(sets.iter().flat_map(|set| ["--set", set]));
     let output = brinell(&arguments);

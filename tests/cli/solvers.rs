@@ -1,6 +1,6 @@
 //! Which solvers a build has.
 
-use super::{brinell, scene};
+use super::{brinell, scene_path, stderr};
 use serde_json::Value;
 
 /// Each solver of the build is the one that the run names.
@@ -13,7 +13,7 @@ fn a_solver_is_the_one_that_was_asked_for() {
         ("faer", cfg!(feature = "faer")),
     ] {
         if is_there {
-            let path = scene("contact_patch");
+            let path = scene_path("contact_patch");
             let run = ["run", &path, "-q", "--json", "--no-estimate", "--no-report"];
             let asked = ["--solver", solver, "--out", out.to_str().unwrap()];
             let output = brinell(&[&run[..], &asked].concat());
@@ -32,8 +32,8 @@ fn a_solver_that_is_not_built_in_is_refused_with_its_feature() {
         ("faer", cfg!(feature = "faer")),
         ("dense", true),
     ] {
-        let output = brinell(&["check", &scene("contact_patch"), "--solver", solver]);
-        let stderr = String::from_utf8_lossy(&output.stderr);
+        let output = brinell(&["check", &scene_path("contact_patch"), "--solver", solver]);
+        let stderr = stderr(&output);
         if is_there {
             assert_eq!(output.status.code(), Some(0), "{solver}: {stderr}");
         } else {

@@ -1,6 +1,6 @@
 //! `brinell sweep` and `brinell materials`.
 
-use super::brinell;
+use super::{brinell, program, stderr, succeeds};
 use serde_json::Value;
 use std::path::Path;
 use std::process::Output;
@@ -11,10 +11,6 @@ pub(super) fn patch(folder: &Path) -> String {
     let text = include_str!("../../data/scenes/contact_patch.toml");
     std::fs::write(&scene, text).unwrap();
     scene.to_str().unwrap().to_string()
-}
-
-pub(super) fn told(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
 fn sweep(scene: &str, more: &[&str]) -> Output {
@@ -30,7 +26,7 @@ fn a_sweep_shows_the_loads_that_are_found() {
     let scene = patch(folder.path());
     let target = "program.targets=[{ name = \"hit\", approach = 1e-4 }]";
     let output = sweep(&scene, &["--no-estimate", "--set", target, "--json"]);
-    assert!(output.status.success(), "{}", told(&output));
+    assert!(output.status.success(), "{}", stderr(&output));
     let found: Value = serde_json::from_slice(&output.stdout).unwrap();
     let load = |k: usize| {
         found["points"][k]["figures"]["states.hit.load"]
@@ -54,7 +50,7 @@ fn a_sweep_shows_the_loads_that_are_found() {
         &scene,
         &[&["--no-estimate", "--set", target], &more[..]].concat(),
     );
-    assert!(one.status.success(), "{}", told(&one));
+    assert!(one.status.success(), "{}", stderr(&one));
     let names = std::fs::read_dir(out)
         .unwrap()
         .map(|entry| entry.unwrap().file_name());
@@ -74,12 +70,12 @@ fn a_sweep_has_a_row_per_point_and_goes_on_where_it_was() {
     let common = ["--vary", ratio, "--jobs", "2", "--set", set];
     let run = |more: &[&str]| sweep(&scene, &[&common[..], more].concat());
     let first = run(&["--json"]);
-    assert!(first.status.success(), "{}", told(&first));
+    assert!(first.status.success(), "{}", stderr(&first));
     assert_eq!(
-        told(&first).matches(": done in").count(),
+        stderr(&first).matches(": done in").count(),
         4,
         "{}",
-        told(&first)
+        stderr(&first)
     );
     let found: Value = serde_json::from_slice(&first.stdout).unwrap();
     let points = found["points"].as_array().unwrap();
@@ -127,10 +123,10 @@ fn a_sweep_has_a_row_per_point_and_goes_on_where_it_was() {
     // Nothing is run again, unless it has changed or its results are gone.
     let again = run(&[]);
     assert_eq!(
-        told(&again).matches(": finished before").count(),
+        stderr(&again).matches(": finished before").count(),
         4,
         "{}",
-        told(&again)
+        stderr(&again)
     );
     let printed = String::from_utf8_lossy(&again.stdout).into_owned();
     assert!(
@@ -140,17 +136,17 @@ fn a_sweep_has_a_row_per_point_and_goes_on_where_it_was() {
     std::fs::remove_dir_all(dir.join("youngs_modulus_100000.0-poissons_ratio_0.3")).unwrap();
     let third = run(&[]);
     assert_eq!(
-        told(&third).matches(": done in").count(),
+        stderr(&third).matches(": done in").count(),
         1,
         "{}",
-        told(&third)
+        stderr(&third)
     );
     let changed = run(&["--set", "title=other"]);
     assert_eq!(
-        told(&changed).matches(": done in").count(),
+        stderr(&changed).matches(": done in").count(),
         4,
         "{}",
-        told(&changed)
+        stderr(&changed)
     );
 }
 
@@ -166,8 +162,8 @@ fn what_is_wrong_with_any_point_is_said_before_the_first_runs() {
         ("program.targets=1", "program.targets"),
     ] {
         let refused = brinell(&["sweep", &scene, "--vary", vary]);
-        assert_eq!(refused.status.code(), Some(2), "{}", told(&refused));
-        assert!(told(&refused).contains(part), "{}", told(&refused));
+        assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
+        assert!(stderr(&refused).contains(part), "{}", stderr(&refused));
         assert!(!folder.path().join("patch.sweep").exists());
     }
     let mine = folder.path().join("mine");
@@ -181,11 +177,11 @@ fn what_is_wrong_with_any_point_is_said_before_the_first_runs() {
         "--out",
         mine.to_str().unwrap(),
     ]);
-    assert_eq!(refused.status.code(), Some(2), "{}", told(&refused));
+    assert_eq!(refused.status.code(), Some(2), "{}", stderr(&refused));
     assert!(
-        told(&refused).contains("is no sweep of brinell"),
+        stderr(&refused).contains("is no sweep of brinell"),
         "{}",
-        told(&refused)
+        stderr(&refused)
     );
     assert_eq!(std::fs::read_dir(&mine).unwrap().count(), 1);
     // No key of that name: the point would be refused.
@@ -202,15 +198,15 @@ fn a_point_that_fails_is_told_in_its_row() {
     let scene = patch(folder.path());
     let run = brinell(&["sweep", &scene, "--vary", "support=[],[]  ", "--no-report"]);
     // The same value twice is a slip.
-    assert_eq!(run.status.code(), Some(2), "{}", told(&run));
+    assert_eq!(run.status.code(), Some(2), "{}", stderr(&run));
     let unheld = brinell(&["sweep", &scene, "--vary", "support=[]", "--no-report"]);
-    assert_eq!(unheld.status.code(), Some(5), "{}", told(&unheld));
+    assert_eq!(unheld.status.code(), Some(5), "{}", stderr(&unheld));
     let printed = String::from_utf8_lossy(&unheld.stdout).into_owned();
     assert!(printed.contains("exit code 4"), "{printed}");
     assert!(
-        told(&unheld).contains("1 of 1 points did not end well"),
+        stderr(&unheld).contains("1 of 1 points did not end well"),
         "{}",
-        told(&unheld)
+        stderr(&unheld)
     );
 }
 
@@ -218,11 +214,11 @@ fn a_point_that_fails_is_told_in_its_row() {
 #[cfg(all(unix, any(feature = "cholmod", feature = "faer")))]
 #[test]
 fn an_interrupted_sweep_keeps_what_it_has() {
-    use std::process::{Command, Stdio};
+    use std::process::Stdio;
     use std::time::{Duration, Instant};
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("ball.toml");
-    let made = brinell(&[
+    succeeds(&[
         "new",
         "ball-on-flat",
         "--load",
@@ -232,9 +228,8 @@ fn an_interrupted_sweep_keeps_what_it_has() {
         "--out",
         scene.to_str().unwrap(),
     ]);
-    assert!(made.status.success());
     let out = folder.path().join("swept");
-    let mut child = Command::new(env!("CARGO_BIN_EXE_brinell"))
+    let mut child = program()
         .args([
             "sweep",
             scene.to_str().unwrap(),
@@ -283,14 +278,14 @@ fn materials_are_listed_with_their_sources_and_taken_by_name() {
     let unknown = brinell(&["materials", "S356"]);
     assert_eq!(unknown.status.code(), Some(2));
     assert!(
-        told(&unknown).contains("did you mean \"S355\"?"),
+        stderr(&unknown).contains("did you mean \"S355\"?"),
         "{}",
-        told(&unknown)
+        stderr(&unknown)
     );
 
     let folder = tempfile::tempdir().unwrap();
     let scene = folder.path().join("ball.toml");
-    let made = brinell(&[
+    succeeds(&[
         "new",
         "ball-on-flat",
         "--diameter",
@@ -306,10 +301,9 @@ fn materials_are_listed_with_their_sources_and_taken_by_name() {
         "--out",
         scene.to_str().unwrap(),
     ]);
-    assert!(made.status.success(), "{}", told(&made));
     let checked = brinell(&["check", scene.to_str().unwrap()]);
     let text = String::from_utf8_lossy(&checked.stdout).into_owned();
-    assert!(checked.status.success(), "{}", told(&checked));
+    assert!(checked.status.success(), "{}", stderr(&checked));
     // The steel of the list yields at its 355 MPa, the ball not at all.
     let yields = text.lines().find(|l| l.contains("plasticity")).unwrap();
     assert!(

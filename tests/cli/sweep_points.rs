@@ -1,7 +1,7 @@
 //! Points of a sweep from a table, taken together, in shares, and what they will cost.
 
-use super::sweep::{patch, told};
-use super::{brinell, stdout};
+use super::sweep::patch;
+use super::{brinell, stderr, stdout};
 use serde_json::Value;
 use std::process::Output;
 
@@ -12,7 +12,7 @@ fn swept(scene: &str, more: &[&str]) -> Output {
 /// The figures of a sweep that must end well.
 fn points(scene: &str, more: &[&str]) -> Vec<Value> {
     let run = swept(scene, &[&["--json"], more].concat());
-    assert!(run.status.success(), "{}", told(&run));
+    assert!(run.status.success(), "{}", stderr(&run));
     let found: Value = serde_json::from_slice(&run.stdout).unwrap();
     found["points"].as_array().unwrap().clone()
 }
@@ -64,16 +64,16 @@ fn shares_are_gathered() {
         .map(|share| share.join().unwrap())
         .collect();
     for (share, count) in shares.iter().zip([3, 2]) {
-        assert!(share.status.success(), "{}", told(share));
-        assert_eq!(told(share).matches(": done in").count(), count);
+        assert!(share.status.success(), "{}", stderr(share));
+        assert_eq!(stderr(share).matches(": done in").count(), count);
         assert!(stdout(share).contains("without --shard gathers all"));
     }
     let dir = folder.path().join("patch.sweep");
     assert!(dir.join("sweep-1-of-2.json").exists() && dir.join("sweep-2-of-2.json").exists());
     assert!(!dir.join("sweep.csv").exists());
     let whole = swept(&scene, &["--vary", &moduli]);
-    assert!(whole.status.success(), "{}", told(&whole));
-    assert_eq!(told(&whole).matches("finished before").count(), 5);
+    assert!(whole.status.success(), "{}", stderr(&whole));
+    assert_eq!(stderr(&whole).matches("finished before").count(), 5);
     let table = std::fs::read_to_string(dir.join("sweep.csv")).unwrap();
     assert_eq!(table.lines().count(), 6, "{table}");
 }
@@ -86,7 +86,7 @@ fn the_cost_of_the_whole_is_told() {
     let moduli = format!("{MODULUS}=1e5,2e5,3e5");
     let cost = |more: &[&str]| {
         let output = swept(&scene, &[&["--check", "--vary", &moduli], more].concat());
-        assert!(output.status.success(), "{}", told(&output));
+        assert!(output.status.success(), "{}", stderr(&output));
         stdout(&output)
     };
     let text = cost(&[]);
@@ -147,11 +147,11 @@ fn points_that_are_none_are_refused() {
     ] {
         let refused = swept(&scene, arguments);
         let code = if part == "none.csv" { 3 } else { 2 };
-        assert_eq!(refused.status.code(), Some(code), "{}", told(&refused));
+        assert_eq!(refused.status.code(), Some(code), "{}", stderr(&refused));
         assert!(
-            told(&refused).contains(part),
+            stderr(&refused).contains(part),
             "{part:?} is not in {}",
-            told(&refused)
+            stderr(&refused)
         );
     }
     assert!(!folder.path().join("patch.sweep").exists());

@@ -1,14 +1,13 @@
 //! Points of one elastic structure share its factorisation.
 
-use super::{brinell, stdout};
-use crate::cli::sweep::told;
+use super::{program, stdout, succeeds};
 use serde_json::Value;
 use std::path::Path;
 
 /// A ball on a flat whose mesh does not depend on the yield stress.
 fn ball(folder: &Path) -> String {
     let scene = folder.join("ball.toml");
-    let text = std::fs::read_to_string(super::scene("ball_on_half_space")).unwrap();
+    let text = std::fs::read_to_string(super::scene_path("ball_on_half_space")).unwrap();
     let mesh = "resolution = 3\nhalf_width = 0.16\ncontact_width = 4.0";
     let text = text.replace("resolution = 12", mesh);
     let text = text.replace("far_size = 200.0", "far_size = 20.0");
@@ -21,8 +20,7 @@ fn ball(folder: &Path) -> String {
 
 fn swept(scene: &str, more: &[&str]) -> Vec<Value> {
     let all = ["sweep", scene, "--no-estimate", "--no-report", "--json"];
-    let run = brinell(&[&all[..], more].concat());
-    assert!(run.status.success(), "{}", told(&run));
+    let run = succeeds(&[&all[..], more].concat());
     let found: Value = serde_json::from_slice(&run.stdout).unwrap();
     found["points"].as_array().unwrap().clone()
 }
@@ -50,7 +48,7 @@ fn yield_stresses_and_loads_share_a_factorisation() {
         for (k, (point, value)) in points.iter().zip(values).enumerate() {
             assert_eq!(point["values"][key], value);
             assert_eq!(made[k] > 0, k == furthest, "{key}: {made:?}");
-            let alone = brinell(&[
+            let alone = succeeds(&[
                 "run",
                 &scene,
                 "-q",
@@ -62,7 +60,6 @@ fn yield_stresses_and_loads_share_a_factorisation() {
                 "--set",
                 &format!("{key}={value}"),
             ]);
-            assert!(alone.status.success(), "{}", told(&alone));
             let alone: Value = serde_json::from_str(&stdout(&alone)).unwrap();
             assert!(alone["counts"]["factorizations"].as_u64() >= Some(1));
             for (state, name) in [(0, "pressed"), (1, "off")] {
@@ -101,12 +98,12 @@ fn other_structures_have_factors_of_their_own() {
 #[cfg(target_os = "linux")]
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 fn a_killed_process_takes_one_point_with_it() {
-    use std::process::{Command, Stdio};
+    use std::process::Stdio;
     use std::time::{Duration, Instant};
     let folder = tempfile::tempdir().unwrap();
     let scene = ball(folder.path());
     let out = folder.path().join("swept");
-    let child = Command::new(env!("CARGO_BIN_EXE_brinell"))
+    let child = program()
         .args(["sweep", &scene, "--no-estimate", "--no-report", "--json"])
         .args(["--vary", "materials.steel.yield_stress=450,600,650"])
         .args(["--out", out.to_str().unwrap()])

@@ -1,21 +1,20 @@
 //! Looking at a run: progress as JSON lines, results in the terminal.
 
-use super::{brinell, scene, stdout};
+use super::{brinell, scene_path, stderr, stdout, succeeds};
 use serde_json::Value;
 
 #[test]
 fn progress_is_a_json_object_per_line() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let run = brinell(&[
+    let run = succeeds(&[
         "run",
-        &scene("three_bodies"),
+        &scene_path("three_bodies"),
         "--progress",
         "json",
         "--out",
         out.to_str().unwrap(),
     ]);
-    assert!(run.status.success());
     let text = String::from_utf8(run.stderr).unwrap();
     let events: Vec<Value> = text
         .lines()
@@ -54,8 +53,7 @@ fn progress_is_a_json_object_per_line() {
     // Not on a terminal: a line for each phase, with its time, and the time it will take where that
     // is worth telling.
     for other in [&["--progress", "plain"] as &[&str], &[]] {
-        let run = brinell(&[&["yield", &scene("thick_cylinder")], other].concat());
-        assert!(run.status.success(), "{other:?}");
+        let run = succeeds(&[&["yield", &scene_path("thick_cylinder")], other].concat());
         let text = String::from_utf8(run.stderr).unwrap();
         let lines: Vec<&str> = text.lines().collect();
         assert!(lines.len() >= 4, "{text}");
@@ -63,8 +61,7 @@ fn progress_is_a_json_object_per_line() {
             assert!(line.starts_with('[') && line.contains(" s] "), "{text}");
         }
     }
-    let run = brinell(&["yield", &scene("thick_cylinder"), "--progress", "bar"]);
-    assert!(run.status.success());
+    succeeds(&["yield", &scene_path("thick_cylinder"), "--progress", "bar"]);
 }
 
 #[test]
@@ -72,10 +69,8 @@ fn results_are_shown_in_the_terminal() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let out = out.to_str().unwrap();
-    let run = brinell(&["run", "-q", &scene("three_bodies"), "--out", out]);
-    assert!(run.status.success());
-    let shown = brinell(&["view", out, "--terminal", "--width", "60"]);
-    assert!(shown.status.success());
+    succeeds(&["run", "-q", &scene_path("three_bodies"), "--out", out]);
+    let shown = succeeds(&["view", out, "--terminal", "--width", "60"]);
     let text = stdout(&shown);
     for word in [
         "Shim between two blocks",
@@ -95,13 +90,13 @@ fn results_are_shown_in_the_terminal() {
     for more in [&[] as &[&str], &["--terminal"]] {
         let nothing = brinell(&[&["view", folder.path().to_str().unwrap()], more].concat());
         assert_eq!(nothing.status.code(), Some(3));
-        assert!(String::from_utf8_lossy(&nothing.stderr).contains("summary.json"));
+        assert!(stderr(&nothing).contains("summary.json"));
     }
 }
 
 #[test]
 fn an_error_is_a_json_object_too() {
-    let run = brinell(&["run", &scene("no_such_scene"), "--progress", "json"]);
+    let run = brinell(&["run", &scene_path("no_such_scene"), "--progress", "json"]);
     assert_eq!(run.status.code(), Some(3));
     let text = String::from_utf8(run.stderr).unwrap();
     let event: Value = serde_json::from_str(text.trim_end()).unwrap();

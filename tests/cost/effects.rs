@@ -1,6 +1,6 @@
 //! What an effect costs is paid by the scenes that ask for it.
 
-use crate::support::{close, largest, load, parse, run_on, try_run};
+use crate::support::{close, largest, load, run_file, run_on, run_text, try_run};
 use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::results::{Counts, Effect, Results};
@@ -11,13 +11,8 @@ const CYLINDER: [&str; 2] = [
     "program.targets=[{ yield = true }, { load_factor = 1.5 }, { load_factor = 0.0 }]",
 ];
 
-fn run(changes: &[&str]) -> Results {
-    let changes = [&CYLINDER[..], changes].concat();
-    try_run(
-        &load("cylinder_on_half_plane", &changes),
-        Backend::default(),
-    )
-    .unwrap()
+fn run_cylinder(changes: &[&str]) -> Results {
+    run_file("cylinder_on_half_plane", &[&CYLINDER[..], changes].concat())
 }
 
 fn effect<'r>(results: &'r Results, name: &str) -> &'r Effect {
@@ -36,16 +31,16 @@ fn cost(results: &Results) -> (Counts, u64, usize) {
 /// with them is one more, and the tangent has a stress more.
 #[test]
 fn back_stresses_are_stored_where_they_fade() {
-    let plain = run(&[]);
+    let plain = run_cylinder(&[]);
     assert!(!effect(&plain, "kinematic hardening").on);
     for none in ["back_stresses=[[0.0, 0.0]]", "kinematic_modulus=0.0"] {
-        let results = run(&[&format!("materials.steel.{none}")]);
+        let results = run_cylinder(&[&format!("materials.steel.{none}")]);
         assert_eq!(cost(&results), cost(&plain), "{none}");
         let effect = effect(&results, "kinematic hardening");
         assert!(!effect.on && effect.why.contains("no material that may yield"));
     }
     let bytes = |laws: &str| {
-        let results = run(&[&format!("materials.steel.back_stresses={laws}")]);
+        let results = run_cylinder(&[&format!("materials.steel.back_stresses={laws}")]);
         assert!(effect(&results, "kinematic hardening").on);
         effect(&results, "plasticity").memory_bytes
     };
@@ -70,8 +65,8 @@ fn back_stresses_are_stored_where_they_fade() {
 /// each point of the zone.
 #[test]
 fn yield_stresses_by_depth_are_stored_where_there_are_any() {
-    let plain = run(&[]);
-    let profile = |rows: &str| run(&[&format!("bodies.half_plane.yield_by_depth={rows}")]);
+    let plain = run_cylinder(&[]);
+    let profile = |rows: &str| run_cylinder(&[&format!("bodies.half_plane.yield_by_depth={rows}")]);
     let none = profile("[[0.0, 500.0], [1.0, 500.0]]");
     assert_eq!(cost(&none), cost(&plain));
     let found = effect(&none, "yield stress by depth");
@@ -91,7 +86,7 @@ fn yield_stresses_by_depth_are_stored_where_there_are_any() {
 /// Loads by temperature and on volumes that are nothing cost what a scene without them costs.
 #[test]
 fn loads_that_are_nothing_are_off_and_cost_nothing() {
-    let plain = run(&[]);
+    let plain = run_cylinder(&[]);
     let with = |effect_name: &str, material: &str, load: &str, why: &str| {
         let mut scene = load_of(load);
         let steel = scene.materials.get_mut("steel").unwrap();
@@ -132,14 +127,14 @@ fn loads_that_are_nothing_are_off_and_cost_nothing() {
 /// A temperature that no material depends on, and one at which it is what it is anyway.
 #[test]
 fn a_temperature_that_changes_no_material_is_off_and_costs_nothing() {
-    let plain = run(&[]);
+    let plain = run_cylinder(&[]);
     let name = "materials over temperature";
     assert!(!effect(&plain, name).on && !effect(&plain, name).asked);
     let bodies = [
         "bodies.half_plane.temperature=80.0",
         "bodies.cylinder.temperature=20.0",
     ];
-    let none = run(&bodies);
+    let none = run_cylinder(&bodies);
     let found = effect(&none, name);
     assert!(
         !found.on && found.why.contains("no material"),
@@ -148,7 +143,7 @@ fn a_temperature_that_changes_no_material_is_off_and_costs_nothing() {
     );
     assert_eq!(cost(&none), cost(&plain));
     let rows = "materials.steel.over_temperature=[{ temperature = 20.0, poissons_ratio = 0.3 }]";
-    let same = run(&[bodies[0], bodies[1], rows]);
+    let same = run_cylinder(&[bodies[0], bodies[1], rows]);
     assert!(effect(&same, name).on);
     assert_eq!(cost(&same), cost(&plain));
 }
@@ -156,14 +151,15 @@ fn a_temperature_that_changes_no_material_is_off_and_costs_nothing() {
 /// What is brought along and is zero is no load; a run that no one starts from leaves no more work.
 #[test]
 fn an_initial_state_that_is_nothing_is_off_and_costs_nothing() {
-    let plain = run(&[]);
+    let plain = run_cylinder(&[]);
     assert!(!effect(&plain, "initial state").on && !effect(&plain, "earlier run").on);
-    let zero = run(&["bodies.half_plane.initial_stress=[[0.0, 0.0, 0.0, 0.0]]"]);
+    let zero = run_cylinder(&["bodies.half_plane.initial_stress=[[0.0, 0.0, 0.0, 0.0]]"]);
     let found = effect(&zero, "initial state");
     assert!(!found.on && found.why.contains("is zero"), "{}", found.why);
     assert_eq!(cost(&zero), cost(&plain));
-    let some =
-        run(&["bodies.half_plane.initial_stress=[[0.0, -5.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]"]);
+    let some = run_cylinder(&[
+        "bodies.half_plane.initial_stress=[[0.0, -5.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]]",
+    ]);
     assert!(effect(&some, "initial state").on);
     assert_eq!(some.counts.factorizations, plain.counts.factorizations);
 }
@@ -184,15 +180,14 @@ fn preloads_and_prescribed_displacements_of_nothing_are_off() {
              [program]\ntargets = [{{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]\n{end}"
         )
     };
-    let run = |text: String| try_run(&parse(&text), Backend::default()).unwrap();
-    let plain = run(text("[\"x\", \"y\"]", "", ""));
-    let nothing = run(text(
+    let plain = run_text(&text("[\"x\", \"y\"]", "", ""));
+    let nothing = run_text(&text(
         "[\"x\"]",
         ", { on = \"b.left\", displacement = { y = 0.0 } }, \
          { on = \"b\", temperature = 0.0, history = \"constant\" }",
         "",
     ));
-    let all = run(text(
+    let all = run_text(&text(
         "[\"x\"]",
         ", { on = \"b.left\", displacement = { y = 0.1 } }, \
          { on = \"b\", temperature = 0.1, history = \"constant\" }",

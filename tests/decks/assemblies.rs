@@ -1,9 +1,8 @@
 //! Decks of parts and an assembly, as Abaqus/CAE writes them, and flat ones that say the same.
 
-use super::run;
-use brinell::deck::{self, Deck, Options};
+use super::{run_text, with_text};
+use brinell::deck::{Deck, Options};
 use brinell::mesh::inp;
-use brinell::model::Model;
 use brinell::results::Results;
 
 /// The sides of a block: a node set each, and a face of elements.
@@ -128,13 +127,6 @@ S, PE
 CSTRESS,
 *End Step
 ";
-
-fn run_text(text: &str) -> (Model, Results) {
-    let beside = tempfile::tempdir().unwrap();
-    let path = beside.path().join("deck.inp");
-    std::fs::write(&path, text).unwrap();
-    run(&path, &[])
-}
 
 /// Displacements and stresses of all states agree to round-off.
 fn same(a: &Results, b: &Results) {
@@ -404,10 +396,7 @@ fn the_account_tells_of_parts() {
     let expected = "numbers of nodes and elements are those of the part plus 100 in Lower-1, 200 \
                     in Upper, 1";
     assert_eq!(account.taken[0].text, expected);
-    let beside = tempfile::tempdir().unwrap();
-    let path = beside.path().join("deck.inp");
-    std::fs::write(&path, &text).unwrap();
-    let scene = deck::load_with(&path, &[], Options::default()).unwrap();
+    let scene = with_text(&text, Ok).unwrap();
     assert!(
         scene
             .warnings

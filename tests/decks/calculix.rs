@@ -1,6 +1,6 @@
 //! Displacements of every node at the end of every step, compared with those of CalculiX.
 
-use super::{deck_path, folder, run};
+use super::{deck_path, folder, run_file};
 use crate::support::tools;
 use brinell::model::Model;
 use brinell::results::Results;
@@ -83,7 +83,7 @@ const fn case(name: &'static str, overrides: &'static [&'static str], bound: f64
 pub(super) type Table = BTreeMap<String, BTreeMap<u64, [f64; 3]>>;
 
 /// The tables of displacements of a `.dat` file.
-fn parse(text: &str) -> Table {
+fn read_table(text: &str) -> Table {
     let mut out = Table::new();
     let mut time = None;
     for line in text.lines() {
@@ -106,7 +106,7 @@ fn parse(text: &str) -> Table {
 
 pub(super) fn stored(name: &str) -> Table {
     let path = folder().join(format!("reference/{name}.dat"));
-    parse(&std::fs::read_to_string(path).unwrap())
+    read_table(&std::fs::read_to_string(path).unwrap())
 }
 
 fn largest(table: &BTreeMap<u64, [f64; 3]>) -> f64 {
@@ -136,7 +136,7 @@ pub(super) fn far((model, results): &(Model, Results), stored: &Table) -> f64 {
 fn displacements_are_those_of_calculix() {
     let mut wrong = Vec::new();
     for case in &CASES {
-        let (model, results) = run(&deck_path(case.name), case.overrides);
+        let (model, results) = run_file(&deck_path(case.name), case.overrides);
         let stored = stored(case.name);
         assert_eq!(results.states.len(), stored.len(), "{}", case.name);
         let scale = stored.values().map(largest).fold(0.0, f64::max);
@@ -192,7 +192,7 @@ fn calculix_prints_what_is_stored() {
             .unwrap();
         assert!(status.success(), "{}", case.name);
         let text = std::fs::read_to_string(work.path().join(format!("{}.dat", case.name))).unwrap();
-        let (fresh, stored) = (parse(&text), stored(case.name));
+        let (fresh, stored) = (read_table(&text), stored(case.name));
         for (time, table) in &stored {
             let scale = largest(table).max(f64::MIN_POSITIVE);
             for (node, u) in table {

@@ -1,7 +1,7 @@
 //! A deck, and the scene and mesh that it is written as, are the same model.
 
-use super::{deck_path, folder, run};
-use std::process::Command;
+use super::{deck_path, folder, run_file};
+use crate::support::program::{program, stdout, succeeds};
 
 /// All decks of the folder.
 fn decks() -> Vec<String> {
@@ -21,15 +21,15 @@ fn a_deck_and_what_it_is_converted_to_give_the_same_results() {
     let work = tempfile::tempdir().unwrap();
     for name in decks() {
         let scene = work.path().join(format!("{name}.toml"));
-        let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let mut command = program();
         command
             .arg("convert")
             .arg(deck_path(&name))
             .arg("--out")
             .arg(&scene);
-        assert!(command.output().unwrap().status.success(), "{name}");
-        let (model, results) = run(&deck_path(&name), &[]);
-        let (again, converted) = run(&scene, &[]);
+        succeeds(&mut command);
+        let (model, results) = run_file(&deck_path(&name), &[]);
+        let (again, converted) = run_file(&scene, &[]);
         assert_eq!(model.mesh.coordinates, again.mesh.coordinates, "{name}");
         assert_eq!(model.mesh.connectivity, again.mesh.connectivity, "{name}");
         assert_eq!(model.mesh.bodies, again.mesh.bodies, "{name}");
@@ -53,14 +53,9 @@ fn a_deck_and_what_it_is_converted_to_give_the_same_results() {
 
 #[test]
 fn the_program_tells_what_it_made_of_a_deck() {
-    let program = || Command::new(env!("CARGO_BIN_EXE_brinell"));
-    let output = program()
-        .arg("check")
-        .arg(deck_path("two_blocks"))
-        .output()
-        .unwrap();
-    assert!(output.status.success());
-    let text = String::from_utf8(output.stdout).unwrap();
+    let text = stdout(&succeeds(
+        program().arg("check").arg(deck_path("two_blocks")),
+    ));
     // Where a line is broken depends on the length of the path in it.
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
     for fragment in [
@@ -77,14 +72,9 @@ fn the_program_tells_what_it_made_of_a_deck() {
     command
         .args(["--no-estimate", "--no-report", "--out"])
         .arg(out.path().join("out"));
-    let output = command.output().unwrap();
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    succeeds(&mut command);
     // The folder holds a scene that can be run again.
-    let (_, results) = run(&out.path().join("out/scene_as_run.toml"), &[]);
+    let (_, results) = run_file(&out.path().join("out/scene_as_run.toml"), &[]);
     assert_eq!(results.states[1].name, "step-2");
 }
 
@@ -93,7 +83,7 @@ fn the_program_tells_what_it_made_of_a_deck() {
 fn tables_are_those_of_calculix() {
     let work = tempfile::tempdir().unwrap();
     let (out, dat) = (work.path().join("out"), work.path().join("tied.dat"));
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let mut command = program();
     command.arg("run").arg(deck_path("tied"));
     command.args([
         "--no-estimate",
@@ -102,8 +92,7 @@ fn tables_are_those_of_calculix() {
         "mesh.formulation=full",
     ]);
     command.arg("--out").arg(&out).arg("--dat").arg(&dat);
-    let output = command.output().unwrap();
-    assert!(output.status.success(), "{output:?}");
+    succeeds(&mut command);
     let text = std::fs::read_to_string(&dat).unwrap();
     let tables = |head: &str| -> Vec<Vec<f64>> {
         let from = text.find(head).unwrap_or_else(|| panic!("{head}\n{text}"));
@@ -157,7 +146,6 @@ fn tables_are_those_of_calculix() {
 fn a_new_scene_from_a_deck_is_its_conversion() {
     let work = tempfile::tempdir().unwrap();
     let scene = work.path().join("new.toml");
-    let program = || Command::new(env!("CARGO_BIN_EXE_brinell"));
     let output = program()
         .args(["new", "--from"])
         .arg(deck_path("ring"))
@@ -170,7 +158,7 @@ fn a_new_scene_from_a_deck_is_its_conversion() {
         output.status.success() && text.contains("run it with: brinell run"),
         "{text}"
     );
-    let (_, results) = run(&scene, &[]);
+    let (_, results) = run_file(&scene, &[]);
     assert_eq!(results.states[0].name, "step-1");
     for arguments in [&["new"][..], &["new", "punch", "--from", "x.inp"]] {
         let output = program().args(arguments).output().unwrap();

@@ -1,7 +1,6 @@
 //! Expansion by temperature, against closed forms.
 
-use super::run;
-use brinell::deck::{self, Options};
+use super::{run_text, with_text};
 
 /// Secant coefficients at 0 and 300, straight between, from 20.
 fn strain(temperature: f64) -> f64 {
@@ -30,10 +29,7 @@ fn heated(name: &str, axis: usize) -> String {
 #[test]
 fn ends_move_apart_by_the_integral_of_the_strain() {
     for (name, axis, length) in [("expanding_bar", 0, 2.0), ("expanding_ring", 1, 0.5)] {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("deck.inp");
-        std::fs::write(&path, heated(name, axis)).unwrap();
-        let (model, results) = run(&path, &[]);
+        let (model, results) = run_text(&heated(name, axis));
         let mesh = &model.mesh;
         let d = mesh.dimension;
         let u = &results.states[0].fields.as_ref().unwrap().displacement;
@@ -80,26 +76,21 @@ fn ends_move_apart_by_the_integral_of_the_strain() {
 /// nothing else is told what it lacks.
 #[test]
 fn temperatures_without_an_expansion_do_nothing() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("deck.inp");
     let text = std::fs::read_to_string(super::deck_path("expanding_ring")).unwrap();
     let (before, rest) = text.split_once("*EXPANSION").unwrap();
     let (_, after) = rest.split_once("*SOLID SECTION").unwrap();
     let without = format!("{before}*SOLID SECTION{after}");
     let said = "material M has no *EXPANSION: temperatures do nothing";
-    std::fs::write(&path, &without).unwrap();
-    let error = deck::load_with(&path, &[], Options::default()).err();
-    let error = error.unwrap().to_string();
+    let error = with_text(&without, Ok).err().unwrap().to_string();
     assert!(
         error.contains("*TEMPERATURE: ") && error.contains(said),
         "{error}"
     );
     // With another load it runs.
     let loaded = without.replace("*TEMPERATURE", "*CLOAD\n1, 1, 10.\n*TEMPERATURE");
-    std::fs::write(&path, loaded).unwrap();
-    let scene = deck::load_with(&path, &[], Options::default()).unwrap();
+    let scene = with_text(&loaded, Ok).unwrap();
     let is_said = scene.warnings.iter().any(|text| text.contains(said));
     assert!(is_said, "{:?}", scene.warnings);
-    let (_, results) = run(&path, &[]);
+    let (_, results) = run_text(&loaded);
     assert!(results.states[0].fields.as_ref().unwrap().displacement[0] > 0.0);
 }

@@ -2,13 +2,11 @@
 
 use super::{deck_path, folder};
 use crate::support::frd::{Frd, difference, largest};
-use crate::support::{limit, tools};
-use brinell::analysis::Analysis;
+use crate::support::program::program;
+use crate::support::{limit, load, run_with_model, tools};
 use brinell::deck::{self, Options};
-use brinell::linalg::Backend;
 use brinell::model::Model;
 use brinell::output;
-use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::Scene;
 use std::path::Path;
@@ -104,9 +102,7 @@ fn asking(name: &str) -> String {
 
 /// Runs a scene or deck that asks for results, in this process; the text of its `.frd` file.
 fn written(scene: &Scene) -> (Model, Results, String) {
-    let model = Model::new(scene).unwrap();
-    let mut analysis = Analysis::new(model.clone(), Backend::default()).unwrap();
-    let results = analysis.run(&mut Silent).unwrap();
+    let (model, results) = run_with_model(scene);
     let work = tempfile::tempdir().unwrap();
     let path = work.path().join("results.frd");
     output::write_frd(&path, &model, &results).unwrap();
@@ -253,7 +249,7 @@ fn jobs_leave_what_those_of_calculix_leave() {
             let path = work.path().join(case.name).with_extension("inp");
             std::fs::write(path, asking(case.name)).unwrap();
         }
-        let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let mut brinell = program();
         let of_brinell = job(brinell.arg("ccx"), ours.path(), case.name);
         let of_ccx = job(&mut Command::new("ccx"), theirs.path(), case.name);
         let files = [&of_brinell("frd"), &of_ccx("frd")].map(|text| Frd::parse(text));
@@ -278,8 +274,7 @@ fn jobs_leave_what_those_of_calculix_leave() {
 /// was computed.
 #[test]
 fn what_is_read_back_is_what_was_computed() {
-    let path = crate::support::scene_file("contact_patch");
-    let mut scene = Scene::load(path).unwrap();
+    let mut scene = load("contact_patch", &[]);
     scene.requests.ask_for_usual(scene.program.targets.len());
     scene.requests.point_values = true;
     let (model, results, text) = written(&scene);

@@ -1,6 +1,6 @@
 //! Supports and forces along the axes of a cylinder (`*TRANSFORM, TYPE=C`): each node has its own.
 
-use super::run;
+use super::run_text;
 use crate::support::{close, largest};
 use std::fmt::Write;
 
@@ -54,10 +54,7 @@ fn ring() -> String {
 /// direction, cost a solve of their own.
 #[test]
 fn a_ring_in_the_axes_of_its_cylinder() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("ring.inp");
-    std::fs::write(&path, ring()).unwrap();
-    let (model, results) = run(&path, &[]);
+    let (model, results) = run_text(&ring());
     // The loads, their sum being one, with the load that is reported; the state.
     assert!(results.counts.full_solves <= 3, "{:?}", results.counts);
     // Two of four freedoms of a node are free in no direction but outward.

@@ -1,10 +1,9 @@
 //! Messages about a deck are in its own words: keyword and line, never a key of a scene.
 
-use brinell::analysis::Analysis;
-use brinell::deck;
+use super::with_text;
+use crate::support::{run_as_far_as_it_goes, try_run};
 use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
+use brinell::results::Results;
 use brinell::{Error, Result};
 
 /// One cube on another.
@@ -81,13 +80,8 @@ const OF_SCENES: [&str; 14] = [
     "_stress",
 ];
 
-fn run(text: &str) -> Result<()> {
-    let work = tempfile::tempdir().unwrap();
-    let path = work.path().join("deck.inp");
-    std::fs::write(&path, text).unwrap();
-    let scene = deck::load(&path)?;
-    Analysis::new(Model::new(&scene)?, Backend::Dense)?.run(&mut Silent)?;
-    Ok(())
+fn try_text(text: &str) -> Result<Results> {
+    with_text(text, |scene| try_run(&scene, Backend::Dense))
 }
 
 fn message(changes: &[(&str, &str)]) -> String {
@@ -96,13 +90,13 @@ fn message(changes: &[(&str, &str)]) -> String {
         assert!(text.contains(old), "{old}");
         text = text.replacen(old, new, 1);
     }
-    let error: Option<Error> = run(&text).err();
+    let error: Option<Error> = try_text(&text).err();
     error.map_or_else(|| panic!("taken: {changes:?}"), |error| error.to_string())
 }
 
 #[test]
 fn messages_of_a_deck_have_no_keys_of_scenes() {
-    run(DECK).unwrap();
+    try_text(DECK).unwrap();
     let tie = (
         "*CONTACT PAIR, INTERACTION=I, TYPE=SURFACE TO SURFACE, SMALL SLIDING",
         "*TIE, NAME=T, POSITION TOLERANCE=1E-4",
@@ -177,8 +171,6 @@ fn messages_of_a_deck_have_no_keys_of_scenes() {
 /// Warnings are in the words of the deck, too: contacts and ties by their lines, not by numbers.
 #[test]
 fn warnings_of_a_deck_have_no_numbers_of_entries() {
-    let work = tempfile::tempdir().unwrap();
-    let path = work.path().join("deck.inp");
     // Surfaces that a support takes apart never touch.
     let text = DECK.replacen("2, P2, 50.", "2, P2, -50.", 1);
     let text = text.replacen(
@@ -186,11 +178,7 @@ fn warnings_of_a_deck_have_no_numbers_of_entries() {
         "BASE, 3, 3\n15, 3, 3\n16, 3, 3\n17, 3, 3\n18, 3, 3\n",
         1,
     );
-    std::fs::write(&path, text).unwrap();
-    let model = Model::new(&deck::load(&path).unwrap()).unwrap();
-    let mut analysis = Analysis::new(model, Backend::Dense).unwrap();
-    let results = analysis.run(&mut Silent).unwrap();
-    let told = results.warnings.join("\n");
+    let told = try_text(&text).unwrap().warnings.join("\n");
     assert!(told.contains("the *CONTACT PAIR of "), "{told}");
     assert!(told.contains("is open in every state"), "{told}");
     assert!(!told.contains("contact 1"), "{told}");
@@ -205,7 +193,7 @@ fn elements_and_sets_are_told_by_type_and_line() {
                  *SOLID SECTION, ELSET=E, MATERIAL=M\n*NSET, NSET=A\nB\n*NSET, NSET=B\n1\n\
                  *BOUNDARY\n1, 1, 2\n4, 1\n*STEP\n*STATIC\n*DLOAD\n\
                  E, GRAV, 1., 1., 0.\n*END STEP\n";
-    run(plane).unwrap();
+    try_text(plane).unwrap();
     let axisymmetric = ("CPE4", "CAX4");
     let axial = ("GRAV, 1., 1., 0.", "GRAV, 1., 0., 1.");
     let side = ("5, -1., 0.\n6, -1., 1.", "5, 2., 0.\n6, 2., 1.");
@@ -245,7 +233,7 @@ fn elements_and_sets_are_told_by_type_and_line() {
             assert!(text.contains(old), "{old}");
             text.replacen(old, new, 1)
         });
-        let text = run(&text).unwrap_err().to_string();
+        let text = try_text(&text).map(drop).unwrap_err().to_string();
         assert!(text.contains(expected), "{expected}: {text}");
         assert_eq!(text.matches("deck.inp").count(), 1, "{text}");
         for key in OF_SCENES {
@@ -263,15 +251,8 @@ fn nlgeom_is_measured() {
             .replace("*END STEP, NLGEOM", "*END STEP")
             .replace("50.", pressure);
         let text = text.replace("*PLASTIC\n300., 0.\n400., 0.1\n", curve);
-        let work = tempfile::tempdir().unwrap();
-        let path = work.path().join("deck.inp");
-        std::fs::write(&path, text).unwrap();
-        let scene = deck::load(&path).unwrap();
-        let model = Model::new(&scene).unwrap();
-        Analysis::new(model, Backend::Dense)
-            .unwrap()
-            .run(&mut Silent)
-            .unwrap()
+        let run = |scene| Ok(run_as_far_as_it_goes(&scene, Backend::Dense));
+        with_text(&text, run).unwrap()
     };
     let large = |pressure: &str| with(pressure, "");
     let small = large("50.");

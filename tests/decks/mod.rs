@@ -18,28 +18,38 @@ mod table;
 mod two_bars;
 mod variants;
 
-use brinell::analysis::Analysis;
+use crate::support::{root, run_with_model};
+use brinell::Result;
 use brinell::deck::{self, Options};
-use brinell::linalg::Backend;
 use brinell::model::Model;
-use brinell::progress::Silent;
 use brinell::results::Results;
+use brinell::scene::Scene;
 use std::path::{Path, PathBuf};
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/decks")
+    root().join("tests/decks")
 }
 
 fn deck_path(name: &str) -> PathBuf {
     folder().join(format!("{name}.inp"))
 }
 
-/// Runs a deck or a scene.
-fn run(path: &Path, overrides: &[&str]) -> (Model, Results) {
+/// Runs the file of a deck or a scene.
+fn run_file(path: &Path, overrides: &[&str]) -> (Model, Results) {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     let scene = deck::load_with(path, &overrides, Options::default()).unwrap();
-    let model = Model::new(&scene).unwrap();
-    let mut analysis = Analysis::new(model.clone(), Backend::default()).unwrap();
-    let results = analysis.run(&mut Silent).unwrap();
-    (model, results)
+    run_with_model(&scene)
+}
+
+/// Runs the text of a deck.
+fn run_text(text: &str) -> (Model, Results) {
+    with_text(text, |scene| Ok(run_with_model(&scene))).unwrap()
+}
+
+/// Writes the text of a deck as `deck.inp`, which holds the mesh, and hands its scene on.
+fn with_text<T>(text: &str, see: impl FnOnce(Scene) -> Result<T>) -> Result<T> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("deck.inp");
+    std::fs::write(&path, text).unwrap();
+    see(deck::load(&path)?)
 }

@@ -66,7 +66,7 @@ fn changed(changes: &[(&str, &str)]) -> String {
 }
 
 /// The scene of a deck, and the remarks on the deck.
-fn scene(text: &str) -> Result<(String, String)> {
+fn converted(text: &str) -> Result<(String, String)> {
     let deck = Deck::parse(text.as_bytes(), "deck.inp")?;
     let conversion = deck.convert(Options::default())?;
     conversion.finish("deck.inp", &[])?;
@@ -78,12 +78,12 @@ fn scene(text: &str) -> Result<(String, String)> {
 
 #[track_caller]
 fn same(old: &str, new: &str) {
-    let found = scene(&changed(&[(old, new)])).unwrap_or_else(|error| panic!("{new}: {error}"));
-    assert_eq!(found.0, scene(DECK).unwrap().0, "{new}");
+    let found = converted(&changed(&[(old, new)])).unwrap_or_else(|error| panic!("{new}: {error}"));
+    assert_eq!(found.0, converted(DECK).unwrap().0, "{new}");
 }
 
 fn refused(old: &str, new: &str) -> Error {
-    let found = scene(&changed(&[(old, new)]));
+    let found = converted(&changed(&[(old, new)]));
     found.err().unwrap_or_else(|| panic!("taken: {new}"))
 }
 
@@ -97,7 +97,7 @@ fn requests_for_output_are_read_over() {
         "*FILTER, NAME=F\n",
     ] {
         let text = changed(&[("*OUTPUT, FIELD\n", keyword)]);
-        let notes = scene(&text).unwrap().1;
+        let notes = converted(&text).unwrap().1;
         let name = keyword.split([',', '\n']).next().unwrap();
         assert!(notes.contains(&format!("{name}: output: ")), "{notes}");
     }
@@ -148,8 +148,8 @@ fn other_forms_mean_the_same() {
         "NAME=A, SHIFTX=-1., SHIFTY=0.5\n1., -0.5, 2., 0.5",
     );
     same("TOP, P, 10.", "TOP, P, 1.+1, 0., 0.0");
-    let of_macintosh = scene(&DECK.replace('\n', "\r")).unwrap();
-    assert_eq!(of_macintosh.0, scene(DECK).unwrap().0);
+    let of_macintosh = converted(&DECK.replace('\n', "\r")).unwrap();
+    assert_eq!(of_macintosh.0, converted(DECK).unwrap().0);
     let absolute = changed(&[
         (
             "NAME=A\n0., 0., 1., 1.",
@@ -157,10 +157,10 @@ fn other_forms_mean_the_same() {
         ),
         ("TOP, P, 10.", "TOP, P, 77."),
     ]);
-    assert_eq!(scene(&absolute).unwrap().0, scene(DECK).unwrap().0);
+    assert_eq!(converted(&absolute).unwrap().0, converted(DECK).unwrap().0);
     let [named, plain] = ["\"1\"", "BASE"].map(|name| {
         let held = format!("1, 1\n{name}, 2, 2");
-        scene(&changed(&[
+        converted(&changed(&[
             ("NSET=\"1\"", &format!("NSET={name}")),
             ("1, 1, 2\n2, 2", &held),
         ]))
@@ -250,7 +250,7 @@ fn extrapolation_and_tied_contact_are_understood() {
     let pair = "*CONTACT PAIR, INTERACTION=SMOOTH, TYPE=SURFACE TO SURFACE";
     let tied = changed(&[(pair, &format!("{pair}, ADJUST=0.1, TIED"))]);
     let tie = changed(&[(pair, "*TIE, NAME=T, POSITION TOLERANCE=0.1")]);
-    assert_eq!(scene(&tied).unwrap().0, scene(&tie).unwrap().0);
+    assert_eq!(converted(&tied).unwrap().0, converted(&tie).unwrap().0);
 }
 
 /// Elements that are not there are left out of surfaces, as out of sets.
@@ -258,8 +258,8 @@ fn extrapolation_and_tied_contact_are_understood() {
 fn surfaces_leave_out_what_is_not_there() {
     let more = changed(&[("TOP\n2, S3", "TOP\n77, S3\n2, S3\n78, S3")]);
     let plain = changed(&[("TOP\n2, S3", "TOP\n2, S3\n**\n**")]);
-    let (found, notes) = scene(&more).unwrap();
-    assert_eq!(found, scene(&plain).unwrap().0);
+    let (found, notes) = converted(&more).unwrap();
+    assert_eq!(found, converted(&plain).unwrap().0);
     let expected = "line 20: *SURFACE: TOP: there is no element 77, nor 1 more: left out";
     assert!(notes.contains(expected), "{notes}");
     let error = refused("TOP\n2, S3", "TOP\n77, S3").to_string();
@@ -278,7 +278,7 @@ fn a_later_new_in_a_step_has_no_effect() {
             "*DLOAD\nBLOCKS, GRAV, 10., 0., -1.",
             "*CLOAD\n8, 1, 3.\n7, 1, 3.",
         )]);
-        scene(&base.replace("*END STEP\n", &more)).unwrap()
+        converted(&base.replace("*END STEP\n", &more)).unwrap()
     };
     let (kept, notes) = step("", ", OP=NEW");
     assert_eq!(kept, step("", "").0);

@@ -4,6 +4,7 @@
 
 use super::folder;
 use crate::support::frd::{Frd, difference, largest};
+use crate::support::program::program;
 use crate::support::{limit, tools};
 use brinell::mesh::gmsh;
 use std::path::{Path, PathBuf};
@@ -74,18 +75,12 @@ fn copy(to: &Path, without: &[&str]) {
     }
 }
 
-fn run(program: &mut Command, work: &Path, name: &str) -> Frd {
+fn results_of(program: &mut Command, work: &Path, name: &str) -> Frd {
     let output = limit::output(program.args(["-i", name]).current_dir(work));
     let printed = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{name}: {printed}");
     let path = work.join(name).with_extension("frd");
     Frd::parse(&std::fs::read_to_string(path).unwrap())
-}
-
-fn brinell() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
-    command.arg("ccx");
-    command
 }
 
 #[test]
@@ -96,13 +91,13 @@ fn decks_of_other_programs_run_as_in_calculix() {
     for case in &CASES {
         let [ours, theirs] = [0, 1].map(|_| tempfile::tempdir().unwrap());
         copy(ours.path(), &[]);
-        let own = run(&mut brinell(), ours.path(), case.name);
+        let own = results_of(program().arg("ccx"), ours.path(), case.name);
         assert!(!own.last("DISP").values.is_empty(), "{}", case.name);
         if !both {
             continue;
         }
         copy(theirs.path(), case.without);
-        let other = run(&mut Command::new("ccx"), theirs.path(), case.name);
+        let other = results_of(&mut Command::new("ccx"), theirs.path(), case.name);
         let mut line = format!("| `{}` |", case.name);
         for (block, bound) in [("DISP", case.bounds[0]), ("STRESS", case.bounds[1])] {
             let (a, b) = (own.last(block), other.last(block));
@@ -133,7 +128,7 @@ fn a_deck_of_abaqus_has_the_exact_answer() {
     // Abaqus writes displacements unasked; here they go into the file of CalculiX.
     let text = text.replace("*Output, field, variable=PRESELECT", "*Node file\nU");
     std::fs::write(work.path().join("cae_blocks.inp"), text).unwrap();
-    let own = run(&mut brinell(), work.path(), "cae_blocks");
+    let own = results_of(program().arg("ccx"), work.path(), "cae_blocks");
     let top = &own.last("DISP").values;
     let lowest = top.values().map(|u| u[2]).fold(0.0, f64::min);
     let exact = -2.0 * 50.0 / 210_000.0 - 50.0 / 1e9;

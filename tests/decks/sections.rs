@@ -1,6 +1,7 @@
 //! Forces through surfaces (`*SECTION PRINT`) beside those of CalculiX.
 
 use super::{deck_path, folder};
+use crate::support::program::program;
 use crate::support::{limit, tools};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -44,7 +45,7 @@ impl Case {
     }
 
     /// What a program prints for it: the lines from each head on.
-    fn run(&self, program: &mut Command) -> String {
+    fn printed_by(&self, program: &mut Command) -> String {
         let work = tempfile::tempdir().unwrap();
         let path = work.path().join("deck");
         std::fs::write(path.with_extension("inp"), self.deck()).unwrap();
@@ -106,8 +107,8 @@ fn stored(name: &str) -> String {
 fn what_passes_a_surface_is_what_calculix_prints() {
     let mut wrong = Vec::new();
     for case in &CASES {
-        let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
-        let ours = case.run(brinell.arg("ccx"));
+        let mut brinell = program();
+        let ours = case.printed_by(brinell.arg("ccx"));
         for line in differences(&ours, &stored(case.name), case.bound) {
             wrong.push(format!("{}:\n{line}", case.name));
         }
@@ -125,7 +126,7 @@ fn calculix_prints_the_sections_that_are_stored() {
     }
     let mut all = String::new();
     for case in &CASES {
-        let fresh = case.run(&mut Command::new("ccx"));
+        let fresh = case.printed_by(&mut Command::new("ccx"));
         write!(all, "** deck {}\n{fresh}", case.name).unwrap();
         if std::env::var_os("BRINELL_TABLE").is_none() {
             let wrong = differences(&fresh, &stored(case.name), 1e-6);
@@ -191,7 +192,7 @@ fn a_plate_passes_on_what_pulls_it() {
     let work = tempfile::tempdir().unwrap();
     let path = work.path().join("deck");
     std::fs::write(path.with_extension("inp"), PLATE).unwrap();
-    let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+    let mut brinell = program();
     brinell.args(["ccx", "-i", "deck"]).current_dir(work.path());
     let output = limit::output(&mut brinell);
     let printed = String::from_utf8_lossy(&output.stdout);

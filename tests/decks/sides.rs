@@ -1,6 +1,6 @@
 //! The wrong face of an element in a contact surface: noticed by name. What truly overlaps is not.
 
-use brinell::deck::{self, Options};
+use super::with_text;
 use brinell::model::Model;
 use std::fmt::Write as _;
 
@@ -137,10 +137,7 @@ impl Blocks {
     }
 
     fn model(&self) -> brinell::Result<Model> {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("blocks.inp");
-        std::fs::write(&path, self.text()).unwrap();
-        Model::new(&deck::load_with(&path, &[], Options::default())?)
+        with_text(&self.text(), |scene| Model::new(&scene))
     }
 }
 
@@ -236,12 +233,10 @@ fn one_face_of_a_surface_that_looks_away_is_named() {
         let text = right.text();
         let [from, to] = [under, top].map(|face| format!("\n{element}, S{face}\n"));
         assert!(text.contains(&from), "{text}");
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("blocks.inp");
-        std::fs::write(&path, text.replace(&from, &to)).unwrap();
-        let scene = deck::load_with(&path, &[], Options::default()).unwrap();
-        let error = Model::new(&scene).err().map(|error| error.to_string());
-        let error = error.unwrap_or_default();
+        let model = with_text(&text.replace(&from, &to), |scene| Model::new(&scene));
+        let error = model
+            .err()
+            .map_or_else(String::new, |error| error.to_string());
         let named = format!("face S{top} of element {element} of `UNDER` looks away from `TOP`");
         assert!(error.contains(&named), "{kind}: {error}");
     }

@@ -2,8 +2,9 @@
 //! beside it: `BRINELL_DECKS=data/peers/decks.md cargo test --test all decks::table`.
 
 use super::calculix::{far, stored};
-use super::{deck_path, folder, run};
+use super::{deck_path, folder, run_file};
 use crate::support::frd::{Frd, difference, largest};
+use crate::support::program::program;
 use crate::support::{limit, tools};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -22,7 +23,7 @@ fn slaves_of_calculix_follow_points() {
     ] {
         let stored = stored(deck);
         let full = &["mesh.formulation=full"];
-        let of = |name: &str| far(&run(&deck_path(name), full), &stored);
+        let of = |name: &str| far(&run_file(&deck_path(name), full), &stored);
         assert!(of(equations) < bound, "{deck}: {:.2e}", of(equations));
         // The mean over faces is another thing.
         assert!(of(deck) > apart, "{deck}: {:.2e}", of(deck));
@@ -195,7 +196,7 @@ impl Row {
     /// The row of the page.
     fn compared(&self) -> String {
         let text = self.text();
-        let mut brinell = Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let mut brinell = program();
         brinell.arg("ccx");
         let ours = job(brinell, &text, str::to_string);
         let theirs = job(Command::new("ccx"), &text, for_ccx);

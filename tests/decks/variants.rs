@@ -1,12 +1,12 @@
 //! Decks as other programs and systems write them: they say the same in other ways.
 
-use super::{folder, run};
+use super::{folder, run_file};
 use brinell::deck::{self, Options};
 use brinell::model::Model;
 use brinell::results::Results;
 use std::path::Path;
 
-fn run_with(path: &Path, overrides: &[&str]) -> brinell::Result<Model> {
+fn model_of(path: &Path, overrides: &[&str]) -> brinell::Result<Model> {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     Model::new(&deck::load_with(path, &overrides, Options::default())?)
 }
@@ -27,7 +27,7 @@ fn changed(name: &str, changes: &[(&str, &str)]) -> Results {
     }
     let path = beside.path().join("changed.inp");
     std::fs::write(&path, text).unwrap();
-    run(&path, &[]).1
+    run_file(&path, &[]).1
 }
 
 fn same(name: &str, changes: &[(&str, &str)]) {
@@ -131,7 +131,7 @@ fn an_overlap_in_the_mesh_is_an_interference() {
         let beside = tempfile::tempdir().unwrap();
         let path = beside.path().join("overlap.inp");
         std::fs::write(&path, text).unwrap();
-        let (model, results) = run(&path, &[]);
+        let (model, results) = run_file(&path, &[]);
         assert!(
             model
                 .warnings
@@ -147,7 +147,7 @@ fn an_overlap_in_the_mesh_is_an_interference() {
             "{lower}, {upper}: {force}"
         );
         // Whoever does not say so is told.
-        let apart = run_with(
+        let apart = model_of(
             &path,
             &["contact.0.overlap=false", "contact.0.interference=0.1"],
         )
@@ -217,7 +217,7 @@ load = [{{ on = \"{pressed}\", pressure = 10.0 }}]
 program.targets = [{{ load_factor = 1.0 }}]
 "
     );
-    crate::support::run(&crate::support::parse(&scene))
+    crate::support::run_text(&scene)
 }
 
 /// Sets of lines are surfaces, of a deck as of a scene's mesh; a truss that a section makes one is
@@ -236,13 +236,13 @@ fn lines_carry_the_sets_of_faces() {
         let fields = results.states[0].fields.as_ref().unwrap();
         fields.displacement[4 * 2 + 1]
     };
-    let of_deck = sunk(&run(&deck, &[]).1);
+    let of_deck = sunk(&run_file(&deck, &[]).1);
     assert!((of_deck + 10.0 / 210e3).abs() < 1e-15, "{of_deck}");
     let results = of_scene("plane_stress", &mesh, ["bottom", "top"]);
     assert_eq!(sunk(&results), of_deck);
     let truss = ON_LINES.replace("ELSET=block", "ELSET=top");
     let truss = write("truss.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{truss}"));
-    let why = run_with(&truss, &[]).unwrap_err().to_string();
+    let why = model_of(&truss, &[]).unwrap_err().to_string();
     assert!(why.contains("element 3 (T3D2) is a truss, a beam"), "{why}");
 }
 
@@ -304,7 +304,7 @@ fn plane_elements_beside_solids_carry_the_sets_of_faces() {
         let text = held.replace("\ntop\n", &format!("\n{top}\n"));
         let text = text.replace("ELSET=bottom", &format!("ELSET={bottom}"));
         let deck = write("deck.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{text}"));
-        let of_deck = sunk(&run(&deck, &[]).1);
+        let of_deck = sunk(&run_file(&deck, &[]).1);
         assert!((of_deck + 10.0 / 210e3).abs() < 1e-15, "{of_deck}");
         let results = of_scene("solid", &mesh, [bottom, top]);
         assert_eq!(sunk(&results), of_deck);
@@ -319,6 +319,6 @@ fn plane_elements_beside_solids_carry_the_sets_of_faces() {
     }
     let plate = held.replace("ELSET=block", "ELSET=top");
     let plate = write("plate.inp", &format!("*INCLUDE, INPUT=mesh.inp\n{plate}"));
-    let why = run_with(&plate, &[]).unwrap_err().to_string();
+    let why = model_of(&plate, &[]).unwrap_err().to_string();
     assert!(why.contains("element 4 (CPS4, T3D2)"), "{why}");
 }

@@ -5,14 +5,15 @@ mod house;
 mod imports;
 mod paper;
 
+use crate::support::program::{program, succeeds, summary};
+use crate::support::{root, scene_file};
 use brinell::scene::Scene;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
+/// Folders of Rust code.
+const CODE: [&str; 5] = ["src", "tests", "benches", "examples", "ffi/examples"];
 
 /// All files below `folder` with this ending, sorted.
 fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
@@ -205,7 +206,7 @@ fn the_library_never_prints() {
 
 #[test]
 fn files_have_at_most_500_lines() {
-    let long: Vec<String> = ["src", "tests"]
+    let long: Vec<String> = CODE
         .iter()
         .flat_map(|folder| files(folder, "rs"))
         .map(|path| {
@@ -228,7 +229,7 @@ fn lines_have_at_most_100_columns() {
         text.trim_start().starts_with('|') || line.contains("://")
     };
     let mut long = Vec::new();
-    let paths = ["src", "tests", "ffi/examples"].map(|folder| files(folder, "rs"));
+    let paths = CODE.map(|folder| files(folder, "rs"));
     for path in paths.concat() {
         let text = std::fs::read_to_string(&path).unwrap();
         for (number, line) in text.lines().enumerate() {
@@ -253,10 +254,10 @@ fn every_scene_parses() {
 fn the_schema_has_the_keys_that_the_program_writes() {
     let out = tempfile::tempdir().unwrap();
     let dir = out.path().join("results");
-    let run = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .args(["run", "-q", "--out"])
+    let mut run = program();
+    run.args(["run", "-q", "--out"])
         .arg(&dir)
-        .arg(root().join("data/scenes/hard/interference.toml"))
+        .arg(scene_file("hard/interference"))
         // With yield, reference values and the angle of contact: an object of each kind.
         .args(["--set", "materials.steel.yield_stress=200"])
         .args(["--set", "materials.steel.plastic_modulus=20000"])
@@ -264,35 +265,26 @@ fn the_schema_has_the_keys_that_the_program_writes() {
         .args([
             "--set",
             "reference=[{ quantity = \"states.0.load\", value = 1.0, source = \"none\" }]",
-        ])
-        .output()
-        .unwrap();
-    assert!(
-        run.status.success(),
-        "{}",
-        String::from_utf8_lossy(&run.stderr)
-    );
-    let summary = std::fs::read_to_string(dir.join("summary.json")).unwrap();
-    let summary: Value = serde_json::from_str(&summary).unwrap();
+        ]);
+    succeeds(&mut run);
+    let found = summary(&dir);
     let schema: Value = serde_json::from_str(brinell::output::SUMMARY_SCHEMA).unwrap();
     let on_disk = std::fs::read_to_string(root().join("data/schema/summary.schema.json")).unwrap();
     assert_eq!(on_disk, brinell::output::SUMMARY_SCHEMA);
-    if let Err(error) = jsonschema::validate(&schema, &summary) {
+    if let Err(error) = jsonschema::validate(&schema, &found) {
         panic!("{error}");
     }
     let mut compared = 0;
-    same_keys(&schema, &schema, &summary, "summary", &mut compared);
+    same_keys(&schema, &schema, &found, "summary", &mut compared);
     assert!(compared >= 8, "only {compared} objects compared");
     // What only solids have.
-    let solid = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"))
-        .args(["run", "-q", "--no-estimate", "--no-report", "--out"])
-        .arg(&dir)
-        .arg(root().join("data/scenes/blocks_tet10.toml"))
-        .output()
-        .unwrap();
-    assert!(solid.status.success(), "{solid:?}");
-    let solid = std::fs::read_to_string(dir.join("summary.json")).unwrap();
-    let solid: Value = serde_json::from_str(&solid).unwrap();
+    succeeds(
+        program()
+            .args(["run", "-q", "--no-estimate", "--no-report", "--out"])
+            .arg(&dir)
+            .arg(scene_file("blocks_tet10")),
+    );
+    let solid = summary(&dir);
     if let Err(error) = jsonschema::validate(&schema, &solid) {
         panic!("{error}");
     }

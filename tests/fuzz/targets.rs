@@ -186,11 +186,11 @@ impl Seeds {
     /// Feeds an input; panics where the outcome is none that may be. Says whether it was taken.
     pub fn feed(&self, target: Target, input: &[u8]) -> bool {
         match target {
-            Target::Scene => scene(input).is_some(),
+            Target::Scene => read_scene(input).is_some(),
             Target::Override => self.put_over(input),
             Target::Mesh => self.mesh(input),
             Target::CommandLine => command_line(input),
-            Target::Run => scene(input).is_some_and(|scene| run(&scene)),
+            Target::Run => read_scene(input).is_some_and(|scene| run_with_patience(&scene)),
             Target::Deck => deck(input).map_err(refused).is_ok(),
         }
     }
@@ -262,7 +262,7 @@ fn refused(error: Error) {
 }
 
 /// Reads a scene; what is read can be written and read again.
-fn scene(input: &[u8]) -> Option<Scene> {
+fn read_scene(input: &[u8]) -> Option<Scene> {
     let text = String::from_utf8_lossy(input);
     match Scene::parse(&text, "fuzz.toml") {
         Ok(scene) => {
@@ -317,7 +317,7 @@ impl Observer for Patience {
     }
 }
 
-fn run(scene: &Scene) -> bool {
+fn run_with_patience(scene: &Scene) -> bool {
     if cells(&scene.mesh) > 500.0 {
         return false;
     }

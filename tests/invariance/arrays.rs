@@ -1,11 +1,9 @@
 //! A model from arrays gives bit for bit what the same model from a scene gives.
 
-use crate::support::{SMALL_BALL, close, load, same_contact};
-use brinell::analysis::Analysis;
+use crate::support::{SMALL_BALL, close, load, run_model, same_contact};
 use brinell::linalg::Backend;
 use brinell::mesh::Mesh;
 use brinell::model::{Model, ModelBuilder, NodePair};
-use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::Scene;
 
@@ -83,14 +81,6 @@ fn from_arrays(scene: &Scene, mesh: &Mesh, pairs: Option<&Model>) -> ModelBuilde
     builder
 }
 
-fn run(model: Model) -> Results {
-    let backend = Backend::default();
-    Analysis::new(model, backend)
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap()
-}
-
 /// All figures, each number to its last bit.
 fn bits(results: &Results) -> String {
     assert!(!results.states.is_empty() && results.incomplete.is_none());
@@ -103,13 +93,19 @@ fn bits(results: &Results) -> String {
 fn same(name: &str, overrides: &[&str]) {
     let scene = load(name, overrides);
     let model = Model::new(&scene).unwrap();
-    let expected = bits(&run(model.clone()));
+    let expected = bits(&run_model(model.clone(), Backend::default()));
     let plain = from_arrays(&scene, &model.mesh, None).build().unwrap();
-    assert!(bits(&run(plain)) == expected, "{name}: sets and surfaces");
+    assert!(
+        bits(&run_model(plain, Backend::default())) == expected,
+        "{name}: sets and surfaces"
+    );
     let paired = from_arrays(&scene, &model.mesh, Some(&model));
     let paired = paired.build().unwrap();
     assert_eq!(paired.pairs, model.pairs, "{name}");
-    assert!(bits(&run(paired)) == expected, "{name}: given pairs");
+    assert!(
+        bits(&run_model(paired, Backend::default())) == expected,
+        "{name}: given pairs"
+    );
 }
 
 #[test]
@@ -162,7 +158,10 @@ fn the_order_of_pairs_does_not_matter() {
         let mut reversed = model.clone();
         reversed.pairs.reverse();
         let other = from_arrays(&scene, &model.mesh, Some(&reversed));
-        let (a, b) = (run(model), run(other.build().unwrap()));
+        let (a, b) = (
+            run_model(model, Backend::default()),
+            run_model(other.build().unwrap(), Backend::default()),
+        );
         assert!(a.states[0].plastic_points > 0);
         for (s, t) in a.states.iter().zip(&b.states) {
             let mut t = t.clone();
@@ -190,7 +189,7 @@ fn three_bodies() {
 fn nodal_forces_act_as_the_pressure_that_they_are_consistent_with() {
     let scene = load("hard/floating_body", &[]);
     let model = Model::new(&scene).unwrap();
-    let expected = run(model.clone());
+    let expected = run_model(model.clone(), Backend::default());
     let entry = scene.load[0].clone();
     let nodes = model.mesh.set_nodes(&entry.on).unwrap();
     let pressure = entry.pressure.unwrap().uniform().unwrap();
@@ -207,7 +206,7 @@ fn nodal_forces_act_as_the_pressure_that_they_are_consistent_with() {
     builder
         .nodal_load("by hand", &nodes, &forces, entry.history)
         .unwrap();
-    let found = run(builder.build().unwrap());
+    let found = run_model(builder.build().unwrap(), Backend::default());
     for (a, b) in expected.states.iter().zip(&found.states) {
         for (p, q) in a.pairs.iter().zip(&b.pairs) {
             // Both solve the same system; the forces differ by the round-off of the integration.

@@ -1,13 +1,13 @@
 //! One thread or two: the same bits.
 
+use crate::support::program::{program, succeeds, summary};
 use crate::support::tools::with_these_kernels;
-use crate::support::{SMALL_BALL, either, limit, scene_file, sparse};
+use crate::support::{SMALL_BALL, either, scene_file, sparse};
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 
-fn run(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str]) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+fn run_on_threads(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str]) {
+    let mut command = program();
     command
         .arg("run")
         .arg(scene_file(name))
@@ -21,18 +21,12 @@ fn run(name: &str, [solver, threads]: [&str; 2], out: &Path, overrides: &[&str])
     for set in overrides {
         command.args(["--set", set]);
     }
-    let output = limit::output(with_these_kernels(&mut command));
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    succeeds(with_these_kernels(&mut command));
 }
 
 /// The summary without what depends on the clock and the process.
-fn summary(out: &Path) -> Value {
-    let text = std::fs::read_to_string(out.join("summary.json")).unwrap();
-    let mut summary: Value = serde_json::from_str(&text).unwrap();
+fn summary_without_times(out: &Path) -> Value {
+    let mut summary = summary(out);
     let object = summary.as_object_mut().unwrap();
     assert!(object.remove("timings").is_some());
     assert!(object.remove("peak_memory_bytes").is_some());
@@ -81,10 +75,14 @@ fn assert_threads_change_no_bit(solver: &str, scenes: usize) {
         let folder = tempfile::tempdir().unwrap();
         let [one, two] = ["1", "2"].map(|threads| {
             let out = folder.path().join(threads);
-            run(name, [solver, threads], &out, overrides);
+            run_on_threads(name, [solver, threads], &out, overrides);
             out
         });
-        assert_eq!(summary(&one), summary(&two), "{name}");
+        assert_eq!(
+            summary_without_times(&one),
+            summary_without_times(&two),
+            "{name}"
+        );
         let files = |out: &Path| {
             let mut names: Vec<_> = std::fs::read_dir(out)
                 .unwrap()

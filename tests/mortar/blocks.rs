@@ -1,41 +1,23 @@
 //! Two blocks of one material on one another.
 
 use crate::mortar::sheet::Sheet;
+use crate::support::build::{Build, elastic};
 use crate::support::grid::{Grid, Point};
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
-use brinell::progress::Silent;
-use brinell::results::{Results, State};
-use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, SlaveSide, Support, Target};
+use brinell::results::State;
+use brinell::scene::{Contact, Direction, Kind, SlaveSide};
 
 /// A body's elements: shape and cells.
 pub type Cells = (Shape, [usize; 3]);
 
 /// Gives both bodies one material.
 pub fn of_one_material(builder: &mut ModelBuilder, bodies: &[&str], modulus: f64, ratio: f64) {
-    let material = Material {
-        youngs_modulus: modulus,
-        poissons_ratio: ratio,
-        ..Material::default()
-    };
+    let material = elastic(modulus, ratio);
     builder.material("steel", material).unwrap();
     for name in bodies {
-        let body = Body {
-            material: "steel".into(),
-            ..Body::default()
-        };
-        builder.body(name, body).unwrap();
+        builder.of(name, "steel");
     }
-}
-
-pub fn held(builder: &mut ModelBuilder, on: &str, direction: Direction) {
-    builder.support(Support {
-        on: on.into(),
-        fix: vec![direction],
-        ..Support::default()
-    });
 }
 
 pub fn touching(builder: &mut ModelBuilder, first: &str, second: &str, slave: SlaveSide) {
@@ -95,36 +77,21 @@ pub fn supported(builder: &mut ModelBuilder, slave: SlaveSide) {
         false => ["upper.bottom", "lower.top", "lower.bottom"],
     };
     touching(builder, names[0], names[1], slave);
-    held(
-        builder,
-        names[2],
-        if solid { Direction::Z } else { Direction::Y },
-    );
-    builder.target(Target {
-        load_factor: Some(1.0),
-        fields: true,
-        ..Target::default()
-    });
+    let axis = if solid { Direction::Z } else { Direction::Y };
+    builder.hold(names[2], axis);
+    builder.reach(1.0);
 }
 
 /// The sides of both bodies at x = 0 (and y = 0) are planes of symmetry.
 pub fn symmetric(builder: &mut ModelBuilder) {
     for body in ["lower", "upper"] {
         if builder.dimension() == 3 {
-            held(builder, &format!("{body}.x0"), Direction::X);
-            held(builder, &format!("{body}.y0"), Direction::Y);
+            builder.hold(format!("{body}.x0"), Direction::X);
+            builder.hold(format!("{body}.y0"), Direction::Y);
         } else {
-            held(builder, &format!("{body}.left"), Direction::X);
+            builder.hold(format!("{body}.left"), Direction::X);
         }
     }
-}
-
-pub fn pressed(builder: &mut ModelBuilder, on: &str, pressure: f64) {
-    builder.load(Load {
-        on: on.into(),
-        pressure: Some(pressure.into()),
-        ..Load::default()
-    });
 }
 
 /// Middles of edges halfway between their ends.
@@ -147,16 +114,6 @@ fn halfway<'a>(
         let (a, b) = (map(low), map(high));
         [0, 1, 2].map(|d| 0.5 * (a[d] + b[d]))
     }
-}
-
-pub fn run(builder: &ModelBuilder) -> Results {
-    let model = builder.build().unwrap();
-    let results = Analysis::new(model, Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
-    results
 }
 
 /// Largest deviation from a uniform state: of pressures, as a share; of stresses, as a share of the

@@ -1,15 +1,15 @@
 //! Curved surfaces that fit each other, with different facets: the gap is that of the true
 //! surfaces.
 
-use crate::mortar::blocks::{held, of_one_material, run};
+use crate::mortar::blocks::of_one_material;
 use crate::mortar::sheet::Sheet;
+use crate::support::build::Build;
 use crate::support::grid::{Grid, Point};
-use crate::support::{either, load, try_run};
-use brinell::linalg::Backend;
+use crate::support::{either, load, run, run_built};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::State;
-use brinell::scene::{Contact, Direction, Kind, SlaveSide, Support, Target};
+use brinell::scene::{Contact, Direction, Kind, SlaveSide, Target};
 
 type Vector = [f64; 3];
 
@@ -40,7 +40,7 @@ fn a_shaft_in_a_ring_under_interference() {
                         &format!("contact.0.slave={slave}"),
                     ],
                 );
-                let results = try_run(&scene, Backend::default()).unwrap();
+                let results = run(&scene);
                 let [mean, scatter] = deviations(&results.states[0]);
                 assert!(
                     mean < 0.01 && scatter < 0.02,
@@ -71,8 +71,8 @@ fn tube_in_ring(shape: Shape, cells: [usize; 2], slave: SlaveSide) -> ModelBuild
             },
         };
         sheet.add(&mut builder);
-        held(&mut builder, &format!("{name}.bottom"), Direction::Y);
-        held(&mut builder, &format!("{name}.top"), Direction::X);
+        builder.hold(format!("{name}.bottom"), Direction::Y);
+        builder.hold(format!("{name}.top"), Direction::X);
     }
     of_one_material(&mut builder, &["tube", "ring"], 210e3, 0.3);
     builder.contact(Contact {
@@ -102,7 +102,7 @@ fn circles_are_recognised() {
     for shape in [Shape::Quad4, Shape::Quad8, Shape::Tri6] {
         for cells in [[12, 8], [8, 12]] {
             for slave in [SlaveSide::First, SlaveSide::Second] {
-                let results = run(&tube_in_ring(shape, cells, slave));
+                let results = run_built(&tube_in_ring(shape, cells, slave));
                 let [mean, scatter] = {
                     let state = &results.states[0];
                     let [mean, scatter] = deviations(state);
@@ -155,11 +155,7 @@ fn shells(
         };
         grid.add(&mut builder);
         for (side, direction) in sides {
-            builder.support(Support {
-                on: format!("{name}.{side}"),
-                direction: Some((*direction).into()),
-                ..Support::default()
-            });
+            builder.hold_along(format!("{name}.{side}"), *direction);
         }
     }
     of_one_material(&mut builder, &["inside", "outside"], 210e3, 0.3);
@@ -179,7 +175,7 @@ fn shells(
 
 /// Mean and scatter of the pressure of what nothing says is round.
 fn of_shells(builder: &ModelBuilder, exact: f64) -> [f64; 2] {
-    let results = run(builder);
+    let results = run_built(builder);
     let state = &results.states[0];
     let [_, scatter] = deviations(state);
     let force: f64 = state.pairs.iter().map(|p| p.force).sum();

@@ -1,12 +1,14 @@
 //! What stands at the ends of surfaces, on supports, and between three bodies; what is refused.
 
 use crate::mortar::blocks::{
-    held, of_one_material, off_uniform, pressed, run, stacked, supported, symmetric, touching,
+    of_one_material, off_uniform, stacked, supported, symmetric, touching,
 };
 use crate::mortar::sheet::Sheet;
+use crate::support::build::Build;
+use crate::support::run_built;
 use brinell::mesh::Shape;
 use brinell::model::{Model, ModelBuilder};
-use brinell::scene::{Direction, History, Kind, SlaveSide, Target};
+use brinell::scene::{Direction, History, Kind, SlaveSide};
 
 /// A punch from 0 to `WIDTH` on a block from 0 to 2 with edges of 0.4.
 const WIDTH: f64 = 1.56;
@@ -25,7 +27,7 @@ fn punch(shape: Shape, width: f64, slave: SlaveSide) -> ModelBuilder {
     of_one_material(&mut builder, &["lower", "upper"], 1000.0, 0.3);
     supported(&mut builder, slave);
     symmetric(&mut builder);
-    pressed(&mut builder, "upper.top", 25.0);
+    builder.press("upper.top", 25.0);
     builder
 }
 
@@ -68,7 +70,7 @@ pub fn taylor(shape: Shape, slave: SlaveSide) {
     builder
         .nodal_load("beside", &on, &pushed, History::Proportional)
         .unwrap();
-    let results = run(&builder);
+    let results = run_built(&builder);
     let off = off_uniform(&results.states[0], 25.0, 1, 4);
     assert!(off < 1e-10, "{shape:?} {slave:?}: {off:.1e}");
 }
@@ -79,7 +81,7 @@ fn partly_covered_edges() {
     for shape in Shape::PLANE {
         for slave in [SlaveSide::First, SlaveSide::Second] {
             for width in [1.2 + 1e-9, 1.21, 1.3, 1.4, 1.599] {
-                let results = run(&punch(shape, width, slave));
+                let results = run_built(&punch(shape, width, slave));
                 let force: f64 = results.states[0].pairs.iter().map(|p| p.force).sum();
                 let off = (force / (25.0 * width) - 1.0).abs();
                 assert!(off < 1e-10, "{shape:?} {slave:?} {width}: {off:.1e}");
@@ -136,17 +138,13 @@ fn three_in_a_row() {
             builder.body("middle", body).unwrap();
             touching(&mut builder, "middle.bottom", "lower.top", sides[0]);
             touching(&mut builder, "upper.bottom", "middle.top", sides[1]);
-            held(&mut builder, "lower.bottom", Direction::Y);
+            builder.hold("lower.bottom", Direction::Y);
             for body in ["lower", "middle", "upper"] {
-                held(&mut builder, &format!("{body}.left"), Direction::X);
+                builder.hold(format!("{body}.left"), Direction::X);
             }
-            builder.target(Target {
-                load_factor: Some(1.0),
-                fields: true,
-                ..Target::default()
-            });
-            pressed(&mut builder, "upper.top", 10.0);
-            let results = run(&builder);
+            builder.reach(1.0);
+            builder.press("upper.top", 10.0);
+            let results = run_built(&builder);
             let off = off_uniform(&results.states[0], 10.0, 1, 4);
             assert!(off < 1e-10, "{sides:?} {modulus}: {off:.1e}");
         }
@@ -176,8 +174,8 @@ fn stiffness_ratios() {
             builder.body("upper", body).unwrap();
             supported(&mut builder, slave);
             symmetric(&mut builder);
-            pressed(&mut builder, "upper.top", 10.0);
-            let results = run(&builder);
+            builder.press("upper.top", 10.0);
+            let results = run_built(&builder);
             let off = off_uniform(&results.states[0], 10.0, 1, 4);
             let more_rows = ratio > 1.0 && slave == SlaveSide::First;
             println!("{ratio:e} {slave:?}: {off:.1e}");
@@ -204,7 +202,7 @@ fn a_slave_of_two_contacts_is_named() {
     of_one_material(&mut builder, &["lower", "upper"], 1000.0, 0.3);
     supported(&mut builder, SlaveSide::Second);
     touching(&mut builder, "upper.bottom", "lower.top", SlaveSide::Second);
-    pressed(&mut builder, "upper.top", 10.0);
+    builder.press("upper.top", 10.0);
     let why = refusal(&builder);
     assert!(
         why.contains("is the slave of two contacts, 1 and 2"),
@@ -219,7 +217,7 @@ fn surfaces_that_do_not_face_each_other_are_named() {
     let mut builder = stacked(Kind::PlaneStress, 1.0, cells[0], cells[1], &|x| x);
     of_one_material(&mut builder, &["lower", "upper"], 1000.0, 0.3);
     touching(&mut builder, "upper.left", "lower.top", SlaveSide::Auto);
-    pressed(&mut builder, "upper.top", 10.0);
+    builder.press("upper.top", 10.0);
     let why = refusal(&builder);
     assert!(why.contains("lies opposite"), "{why}");
 }
@@ -241,7 +239,7 @@ fn the_finer_surface_has_the_slaves() {
         let mut builder = stacked(Kind::PlaneStress, 1.0, of(cells[0]), of(cells[1]), &|x| x);
         of_one_material(&mut builder, &["lower", "upper"], 1000.0, 0.3);
         supported(&mut builder, slave);
-        pressed(&mut builder, "upper.top", 10.0);
+        builder.press("upper.top", 10.0);
         let model = builder.build().unwrap();
         assert_eq!(model.pairs.len(), expected, "{slave:?} {cells:?}");
         for pair in &model.pairs {

@@ -1,9 +1,9 @@
 //! A uniform pressure passes through every pairing of facets.
 
-use crate::mortar::blocks::{
-    Cells, of_one_material, off_uniform, pressed, run, stacked, supported, symmetric,
-};
+use crate::mortar::blocks::{Cells, of_one_material, off_uniform, stacked, supported, symmetric};
+use crate::support::build::Build;
 use crate::support::grid::Point;
+use crate::support::run_built;
 use brinell::mesh::Shape;
 use brinell::results::Results;
 use brinell::scene::{Kind, SlaveSide};
@@ -29,8 +29,8 @@ fn pressed_together(
     } else {
         "upper.top"
     };
-    pressed(&mut builder, top, 10.0);
-    run(&builder)
+    builder.press(top, 10.0);
+    run_built(&builder)
 }
 
 /// Round-off: conditions of these matrices are some 1e4.

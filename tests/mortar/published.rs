@@ -1,6 +1,8 @@
 //! Published cases by name.
 
-use crate::mortar::blocks::{of_one_material, pressed, run, stacked, supported, symmetric};
+use crate::mortar::blocks::{of_one_material, stacked, supported, symmetric};
+use crate::support::build::Build;
+use crate::support::run_built;
 use brinell::mesh::Shape;
 use brinell::scene::{Displacement, Kind, Load, SlaveSide};
 
@@ -38,7 +40,7 @@ fn ssnp121_contact_patch() {
             ..Load::default()
         });
         let model = builder.build().unwrap();
-        let results = run(&builder);
+        let results = run_built(&builder);
         let state = &results.states[0];
         let u = &state.fields.as_ref().unwrap().displacement;
         let d = model.mesh.dimension;
@@ -65,9 +67,9 @@ fn divided_cube() {
         of_one_material(&mut builder, &["lower", "upper"], 900.0, 0.25);
         supported(&mut builder, SlaveSide::Auto);
         symmetric(&mut builder);
-        pressed(&mut builder, "upper.z1", 100.0);
+        builder.press("upper.z1", 100.0);
         let model = builder.build().unwrap();
-        let results = run(&builder);
+        let results = run_built(&builder);
         let u = &results.states[0].fields.as_ref().unwrap().displacement;
         let corner = (0..model.mesh.n_nodes())
             .find(|&n| model.mesh.point(n) == [1.0; 3])

@@ -1,10 +1,11 @@
 //! Soft contact: a pressure in proportion to the overlap.
 
-use crate::mortar::blocks::{Cells, held, of_one_material, pressed, run, stacked, supported};
-use crate::support::{load, run as run_scene};
+use crate::mortar::blocks::{Cells, of_one_material, stacked, supported};
+use crate::support::build::Build;
+use crate::support::{load, run, run_built};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
-use brinell::scene::{Contact, Direction, Kind, Material, SlaveSide, Target};
+use brinell::scene::{Contact, Direction, Kind, Material, SlaveSide};
 
 const MODULUS: f64 = 1000.0;
 const STIFFNESS: f64 = 4000.0;
@@ -25,16 +26,9 @@ fn blocks(kind: Kind, [lower, upper]: [Cells; 2], interference: f64) -> ModelBui
         interference: interference.into(),
         ..Contact::default()
     });
-    held(
-        &mut builder,
-        names[2],
-        if solid { Direction::Z } else { Direction::Y },
-    );
-    builder.target(Target {
-        load_factor: Some(1.0),
-        fields: true,
-        ..Target::default()
-    });
+    let axis = if solid { Direction::Z } else { Direction::Y };
+    builder.hold(names[2], axis);
+    builder.reach(1.0);
     builder
 }
 
@@ -71,9 +65,9 @@ fn blocks_and_contact_in_series() {
         } else {
             "upper.top"
         };
-        pressed(&mut builder, top, 10.0);
+        builder.press(top, 10.0);
         let model = builder.build().unwrap();
-        let results = run(&builder);
+        let results = run_built(&builder);
         let state = &results.states[0];
         let exact = -10.0 * (2.0 / MODULUS + 1.0 / STIFFNESS);
         let d = model.mesh.dimension;
@@ -112,9 +106,9 @@ fn an_interference_is_shared() {
             Kind::Solid => ("upper.z1", Direction::Z),
             _ => ("upper.top", Direction::Y),
         };
-        held(&mut builder, top, axis);
-        pressed(&mut builder, top, 0.0);
-        let state = run(&builder).states.remove(0);
+        builder.hold(top, axis);
+        builder.press(top, 0.0);
+        let state = run_built(&builder).states.remove(0);
         let exact = 0.01 / (2.0 / MODULUS + 1.0 / STIFFNESS);
         for pair in state.pairs.iter().filter(|pair| pair.area > 0.0) {
             assert!(
@@ -142,7 +136,7 @@ fn hard_contact_is_the_limit() {
         ];
         overrides.extend(stiffness.map(|k| format!("contact.0.stiffness={k:e}")));
         let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
-        let results = run_scene(&load("cylinder_on_half_plane", &overrides));
+        let results = run(&load("cylinder_on_half_plane", &overrides));
         results.states[0].max_pressure
     };
     let hard = peak(None);

@@ -1,14 +1,14 @@
 //! Surfaces that are tied: one stress passes through, whatever stands at their ends.
 
-use crate::mortar::blocks::{
-    Cells, held, of_one_material, pressed, run, stacked, supported, touching,
-};
+use crate::mortar::blocks::{Cells, of_one_material, stacked, supported, touching};
 use crate::mortar::sheet::Sheet;
+use crate::support::build::Build;
 use crate::support::grid::Point;
+use crate::support::run_built;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::Results;
-use brinell::scene::{Direction, Kind, Load, SlaveSide, Support, Target, Tie};
+use brinell::scene::{Direction, Kind, Load, SlaveSide, Support, Tie};
 
 const SIDES: [SlaveSide; 3] = [SlaveSide::First, SlaveSide::Second, SlaveSide::Auto];
 /// As for contact: conditions of these matrices are some 1e4.
@@ -43,11 +43,7 @@ fn pinned(builder: &mut ModelBuilder, body: &str, pins: &[([f64; 2], &[Direction
 }
 
 pub fn aim(builder: &mut ModelBuilder) {
-    builder.target(Target {
-        load_factor: Some(1.0),
-        fields: true,
-        ..Target::default()
-    });
+    builder.reach(1.0);
 }
 
 /// A stress, `xx yy zz xy yz zx`, as tractions on the whole outline of the upper and lower block.
@@ -123,7 +119,7 @@ fn uniform(
     }
     for body in ["lower", "upper"] {
         for (side, direction) in holds {
-            held(&mut builder, &format!("{body}.{side}"), *direction);
+            builder.hold(format!("{body}.{side}"), *direction);
         }
     }
     use Direction::{X, Y, Z};
@@ -141,7 +137,7 @@ fn uniform(
     pinned(&mut builder, "lower", pins);
     stressed(&mut builder, &["lower", "upper"], stress);
     aim(&mut builder);
-    off(&run(&builder), stress, solid)
+    off(&run_built(&builder), stress, solid)
 }
 
 /// Tension across, along and shear at once, held by nothing; then with the ends of the surfaces on
@@ -252,7 +248,7 @@ fn three_in_a_row() {
             pinned(&mut builder, "a", pins);
             stressed(&mut builder, &names, stress);
             aim(&mut builder);
-            let off = off(&run(&builder), stress, false);
+            let off = off(&run_built(&builder), stress, false);
             assert!(off < ROUND_OFF, "{below:?} {above:?}: {off:.1e}");
         }
     }
@@ -283,15 +279,15 @@ fn a_node_in_contact_that_is_tied() {
                 touching(&mut builder, "punch.bottom", "inset.top", touch);
                 tied(&mut builder, "inset.right", "rest.left", slave);
                 for body in ["inset", "punch"] {
-                    held(&mut builder, &format!("{body}.left"), Direction::X);
+                    builder.hold(format!("{body}.left"), Direction::X);
                 }
                 for body in ["inset", "rest"] {
-                    held(&mut builder, &format!("{body}.bottom"), Direction::Y);
+                    builder.hold(format!("{body}.bottom"), Direction::Y);
                 }
-                pressed(&mut builder, "punch.top", 10.0);
-                pressed(&mut builder, "rest.top", 10.0);
+                builder.press("punch.top", 10.0);
+                builder.press("rest.top", 10.0);
                 aim(&mut builder);
-                let results = run(&builder);
+                let results = run_built(&builder);
                 let off = off(&results, [0.0, -10.0, 0.0, 0.0, 0.0, 0.0], false);
                 assert!(off < ROUND_OFF, "{shape:?} {touch:?} {slave:?}: {off:.1e}");
             }
@@ -314,11 +310,11 @@ fn contact_beside_a_tie() {
     of_one_material(&mut builder, &["lower", "upper", "top"], 1000.0, 0.3);
     supported(&mut builder, SlaveSide::Auto);
     for body in ["lower", "upper", "top"] {
-        held(&mut builder, &format!("{body}.left"), Direction::X);
+        builder.hold(format!("{body}.left"), Direction::X);
     }
     tied(&mut builder, "top.bottom", "upper.top", SlaveSide::Auto);
-    pressed(&mut builder, "top.top", 10.0);
-    let results = run(&builder);
+    builder.press("top.top", 10.0);
+    let results = run_built(&builder);
     let off = off(&results, [0.0, -10.0, 0.0, 0.0, 0.0, 0.0], false);
     assert!(off < ROUND_OFF, "{off:.1e}");
     for pair in &results.states[0].pairs {

@@ -1,8 +1,10 @@
 //! Tied bodies against closed forms and meshes that match; what cannot be tied.
 
-use crate::mortar::blocks::{held, of_one_material, pressed, run, touching};
+use crate::mortar::blocks::{of_one_material, touching};
 use crate::mortar::sheet::Sheet;
 use crate::mortar::tie::{aim, tied};
+use crate::support::build::Build;
+use crate::support::{parse, run_built, run_with_model};
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
 use brinell::results::State;
@@ -32,13 +34,13 @@ fn tube(
         };
         sheet.add(&mut builder);
         if sides {
-            held(&mut builder, &format!("{name}.bottom"), Direction::Y);
-            held(&mut builder, &format!("{name}.top"), Direction::X);
+            builder.hold(format!("{name}.bottom"), Direction::Y);
+            builder.hold(format!("{name}.top"), Direction::X);
         }
     }
     of_one_material(&mut builder, &["inner", "outer"], 1000.0, 0.3);
     tied(&mut builder, "inner.right", "outer.left", slave);
-    pressed(&mut builder, "inner.left", 10.0);
+    builder.press("inner.left", 10.0);
     aim(&mut builder);
     builder
 }
@@ -50,7 +52,7 @@ const BORE: f64 = 1.3 * 10.0 / (1000.0 * (16.0 - 1.0)) * (0.4 + 16.0);
 fn bore(shape: Shape, n: usize, slave: SlaveSide) -> f64 {
     let builder = tube(shape, [[2 * n, 4 * n], [2 * n, 3 * n]], slave, true);
     let model = builder.build().unwrap();
-    let results = run(&builder);
+    let results = run_built(&builder);
     let u = &results.states[0].fields.as_ref().unwrap().displacement;
     let nodes = model.mesh.set_nodes("inner.left").unwrap();
     let errors = nodes.into_iter().map(|node| {
@@ -118,12 +120,12 @@ fn a_fine_part_in_a_coarse_body() {
         touching(&mut builder, "bump.bottom", "fine.top", SlaveSide::Auto);
         tied(&mut builder, "fine.bottom", "coarse.top", SlaveSide::Auto);
         for body in bodies {
-            held(&mut builder, &format!("{body}.left"), Direction::X);
+            builder.hold(format!("{body}.left"), Direction::X);
         }
-        held(&mut builder, "coarse.bottom", Direction::Y);
-        pressed(&mut builder, "bump.top", 2.0);
+        builder.hold("coarse.bottom", Direction::Y);
+        builder.press("bump.top", 2.0);
         aim(&mut builder);
-        let state = run(&builder).states.remove(0);
+        let state = run_built(&builder).states.remove(0);
         (state.max_pressure, state.half_width)
     };
     let [(p, b), (exact_p, exact_b)] = [true, false].map(pressed_into);
@@ -148,9 +150,9 @@ fn apart(gap: f64) -> ModelBuilder {
         sheet.add(&mut builder);
     }
     of_one_material(&mut builder, &["lower", "upper"], 1000.0, 0.3);
-    held(&mut builder, "lower.bottom", Direction::Y);
-    held(&mut builder, "lower.left", Direction::X);
-    pressed(&mut builder, "upper.top", 1.0);
+    builder.hold("lower.bottom", Direction::Y);
+    builder.hold("lower.left", Direction::X);
+    builder.press("upper.top", 1.0);
     aim(&mut builder);
     builder
 }
@@ -182,7 +184,7 @@ fn a_surface_may_be_tied_in_parts() {
     };
     let whole_model = whole.build().unwrap();
     let facets = &whole_model.mesh.surfaces["upper.bottom"].facets;
-    let expected = run(&whole).states[0].clone();
+    let expected = run_built(&whole).states[0].clone();
     for cut in 1..facets.len() {
         for swapped in [false, true] {
             let mut builder = apart(0.0);
@@ -195,7 +197,7 @@ fn a_surface_may_be_tied_in_parts() {
                 builder.surface(name, facets).unwrap();
                 tied(&mut builder, name, "lower.top", SlaveSide::First);
             }
-            same(&run(&builder).states[0], &expected);
+            same(&run_built(&builder).states[0], &expected);
         }
     }
 }
@@ -236,11 +238,7 @@ material = "steel"
 [program]
 targets = [{ load_factor = 1.0 }]
 "#;
-    let scene = brinell::scene::Scene::parse(text, "corner").unwrap();
-    let model = brinell::model::Model::new(&scene).unwrap();
-    let backend = brinell::linalg::Backend::default();
-    let mut analysis = brinell::analysis::Analysis::new(model.clone(), backend).unwrap();
-    let results = analysis.run(&mut brinell::progress::Silent).unwrap();
+    let (model, results) = run_with_model(&parse(text));
     let fields = results.states[0].fields.as_ref().unwrap();
     let of_block = (0..model.mesh.n_elements()).filter(|&e| model.mesh.element_body[e] == 2);
     for e in of_block {
@@ -269,7 +267,7 @@ fn a_contact_ends_at_a_tie() {
         }
         tied(&mut builder, "tied", "lower.top", SlaveSide::First);
         touching(&mut builder, "lower.top", "touching", slave);
-        let results = run(&builder);
+        let results = run_built(&builder);
         let u = &results.states[0].fields.as_ref().unwrap().displacement;
         for node in mesh.set_nodes("upper.top").unwrap() {
             let down = u[2 * node + 1];
@@ -284,7 +282,7 @@ fn only_some_nodes_touch() {
     let chosen = |nodes: &[usize], slave: SlaveSide| {
         let mut builder = apart(0.0);
         // What the supports of the lower body hold sideways is held here.
-        held(&mut builder, "upper.left", Direction::X);
+        builder.hold("upper.left", Direction::X);
         builder.node_set("chosen", nodes).unwrap();
         builder.contact(Contact {
             first: "lower.top".into(),
@@ -305,7 +303,7 @@ fn only_some_nodes_touch() {
         let slaves: Vec<usize> = model.pairs.iter().map(|pair| pair.slave).collect();
         assert_eq!(slaves.len(), nodes.len());
         assert!(slaves.iter().all(|node| nodes.contains(node)));
-        let force = run(&builder).states[0].contact_force;
+        let force = run_built(&builder).states[0].contact_force;
         assert!((force - 1.0).abs() < 1e-12, "{force}");
     }
     refused(
@@ -326,7 +324,7 @@ fn the_forces_of_a_tie_are_in_balance() {
         let mut builder = apart(0.0);
         tied(&mut builder, "upper.bottom", "lower.top", slave);
         let model = builder.build().unwrap();
-        let results = run(&builder);
+        let results = run_built(&builder);
         let force = &results.states[0].fields.as_ref().unwrap().force;
         let size = |node: usize| force[2 * node].hypot(force[2 * node + 1]);
         let largest = (0..model.mesh.n_nodes()).map(size).fold(0.0, f64::max);
@@ -382,7 +380,7 @@ fn what_cannot_be_tied_is_named() {
     let mut twice = apart(0.0);
     tie(&mut twice, SlaveSide::First);
     tie(&mut twice, SlaveSide::First);
-    let [once, twice] = [&said_once, &twice].map(|builder| run(builder).states[0].clone());
+    let [once, twice] = [&said_once, &twice].map(|builder| run_built(builder).states[0].clone());
     same(&once, &twice);
     let mut circle = apart(0.0);
     tie(&mut circle, SlaveSide::First);
@@ -409,14 +407,14 @@ fn what_cannot_be_tied_is_named() {
     refused(&itself, &["cannot be tied to itself"]);
     // Nothing would hold the upper block by what is held already.
     let mut all_held = apart(0.0);
-    held(&mut all_held, "lower.top", Direction::Y);
+    all_held.hold("lower.top", Direction::Y);
     tie(&mut all_held, SlaveSide::Second);
     refused(
         &all_held,
         &["are held along (0, 1)", "let the other surface follow"],
     );
     let mut other = apart(0.0);
-    held(&mut other, "lower.top", Direction::Y);
+    other.hold("lower.top", Direction::Y);
     tie(&mut other, SlaveSide::First);
     assert!(other.build().is_ok());
 }

@@ -9,13 +9,9 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
-use support::{limit, scenes, tools};
+use support::{limit, scene_path, scenes, tools};
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_brinell");
-
-fn scene(name: &str) -> String {
-    format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"))
-}
 
 /// The program on so many ranks, more than there may be processors.
 fn on_ranks(ranks: usize, arguments: &[&str]) -> Command {
@@ -33,7 +29,7 @@ fn mpirun(ranks: usize) -> Command {
     command
 }
 
-fn run(ranks: usize, scene: &str, changes: &[&str], out: &Path) -> Value {
+fn summary_on_ranks(ranks: usize, scene: &str, changes: &[&str], out: &Path) -> Value {
     let out = out.to_str().unwrap();
     let mut arguments = vec!["run", scene, "-q", "--json", "--no-estimate", "--no-report"];
     arguments.extend(["--out", out]);
@@ -66,13 +62,13 @@ fn are_those_of_cholmod(scenes: &[String], chosen: impl Fn(usize, usize) -> bool
     let out = folder.path().join("out");
     let mut counts = [(0, 0); RANKS.len()];
     for (i, name) in scenes.iter().enumerate() {
-        let path = scene(name);
+        let path = scene_path(name);
         let smaller = scenes::smaller(name);
-        let expected = run(0, &path, smaller, &out);
+        let expected = summary_on_ranks(0, &path, smaller, &out);
         assert_eq!(expected["solver"], "cholmod");
         let bound = scenes::agreement(name);
         for (r, ranks) in RANKS.into_iter().enumerate().filter(|(r, _)| chosen(i, *r)) {
-            let found = run(ranks, &path, smaller, &out);
+            let found = summary_on_ranks(ranks, &path, smaller, &out);
             assert_eq!(found["solver"], "mumps");
             let off = scenes::difference(&found, &expected);
             println!("{name} on {ranks}: {off:.1e}");
@@ -117,8 +113,8 @@ fn fields_in_pieces_are_those_of_one_process() {
         ("fit_by_heat", &[]),
         ("ball_on_flat_3d", &["mesh.curved_bodies.resolution=4"]),
     ] {
-        run(0, &scene(name), changes, &one);
-        let summary = run(3, &scene(name), changes, &several);
+        summary_on_ranks(0, &scene_path(name), changes, &one);
+        let summary = summary_on_ranks(3, &scene_path(name), changes, &several);
         let [whole, pieces] = [&one, &several].map(|dir| read(dir).unwrap().results.states);
         let (mut n, bound) = (0, scenes::agreement(name));
         for (i, (whole, pieces)) in whole.iter().zip(&pieces).enumerate() {
@@ -177,7 +173,7 @@ fn errors_end_all_ranks_with_one_message() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
     let out = out.to_str().unwrap();
-    let patch = scene("contact_patch");
+    let patch = scene_path("contact_patch");
     let each = limit::output(&mut on_ranks(3, &["run", &patch, "--out", out]));
     ends(&each, 2, "3 processes were started");
     assert!(!Path::new(out).exists());
@@ -213,7 +209,12 @@ fn nobody_is_asked_between_load_steps() {
     for name in ["cylinder_on_half_plane", "ball_on_half_space"] {
         let [few, many] = [4, 40].map(|steps| {
             let steps = format!("program.steps={steps}");
-            let summary = run(3, &scene(name), &["program.stepping=steps", &steps], &out);
+            let summary = summary_on_ranks(
+                3,
+                &scene_path(name),
+                &["program.stepping=steps", &steps],
+                &out,
+            );
             let history = std::fs::read_to_string(out.join("history.csv")).unwrap();
             (history.lines().count() - 1, summary)
         });
@@ -245,7 +246,7 @@ fn nobody_is_asked_between_load_steps() {
 
 /// The scene of the ball in three dimensions, elastic.
 fn elastic_ball(folder: &Path) -> String {
-    let text = std::fs::read_to_string(scene("ball_on_flat_3d")).unwrap();
+    let text = std::fs::read_to_string(scene_path("ball_on_flat_3d")).unwrap();
     let (model, _) = text.split_once("[program]").unwrap();
     let model = model.replace(
         "resolution = 6",
@@ -336,7 +337,8 @@ fn ranks_without_an_element_do_no_harm() {
         "mesh.parts.0.block.elements=[1,1]",
         "mesh.parts.1.block.elements=[1,1]",
     ];
-    let [alone, many] = [0, 5].map(|n| run(n, &scene("contact_patch"), &changes, &out));
+    let [alone, many] =
+        [0, 5].map(|n| summary_on_ranks(n, &scene_path("contact_patch"), &changes, &out));
     assert_eq!(many["elements"], 2);
     assert!(scenes::difference(&many, &alone) <= 1e-10);
 }
@@ -351,7 +353,7 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
     }
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let path = scene("ball_on_flat_3d");
+    let path = scene_path("ball_on_flat_3d");
     let changes = ["mesh.curved_bodies.resolution=4"];
     let options = [
         "--solver",
@@ -386,11 +388,10 @@ fn a_run_that_is_stopped_keeps_what_it_has() {
             .success()
     );
     assert_eq!(limit::wait(&mut running).code(), Some(128 + 10));
-    let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
-    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let summary = support::program::summary(&out);
     assert_eq!(summary["incomplete"], "stopped on request");
 
-    let expected = run(0, &path, &changes, &folder.path().join("other"));
+    let expected = summary_on_ranks(0, &path, &changes, &folder.path().join("other"));
     let mut running = start(&[&json[..], &["--checkpoint=1"]].concat());
     until_increment(&mut running);
     running.kill().unwrap();
@@ -418,7 +419,7 @@ fn a_killed_rank_ends_the_run() {
     }
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("out");
-    let ball = scene("ball_on_flat_3d");
+    let ball = scene_path("ball_on_flat_3d");
     let arguments = [
         "run",
         &ball,

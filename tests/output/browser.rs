@@ -1,6 +1,7 @@
 //! The report in a browser, at the widths of a phone and a screen.
 
-use crate::output::report::{SCENES, drawings, run};
+use crate::output::report::{SCENES, drawings, write_report_of};
+use crate::support::program::stderr;
 use crate::support::tools;
 use serde_json::Value;
 use std::process::Command;
@@ -66,7 +67,7 @@ fn a_browser_shows_it_without_errors_at_phone_and_screen_width_in_light_and_dark
     let temporary = tempfile::tempdir().unwrap();
     for (scene, overrides) in &SCENES[1..4] {
         let dir = temporary.path().join(scene);
-        run(scene, overrides, &dir);
+        write_report_of(scene, overrides, &dir);
         let page = std::fs::read_to_string(dir.join("report.html")).unwrap();
         let n_figures = drawings(&page).len();
         let measuring = dir.join("measure.html");
@@ -90,7 +91,7 @@ fn a_browser_shows_it_without_errors_at_phone_and_screen_width_in_light_and_dark
                 .output()
                 .unwrap();
             let dom = String::from_utf8_lossy(&shown.stdout);
-            let errors = String::from_utf8_lossy(&shown.stderr);
+            let errors = stderr(&shown);
             let console: Vec<&str> = errors.lines().filter(|l| l.contains("CONSOLE")).collect();
             assert!(console.is_empty(), "{scene}: {console:?}");
             // The script itself stands in the page, before what it found.

@@ -1,13 +1,10 @@
 //! The field files, read back bit by bit by a reader of our own.
 
 use super::{fixture, vtu};
-use brinell::analysis::Analysis;
+use crate::support::{load, run_with_model};
 use brinell::linalg::Backend;
-use brinell::model::Model;
 use brinell::output::{RunHeader, read, write, write_without_report};
-use brinell::progress::Silent;
 use brinell::results::{Ranks, Results, State};
-use brinell::scene::Scene;
 use std::fs;
 
 fn bits(values: &[f64]) -> Vec<u64> {
@@ -319,15 +316,12 @@ fn pieces_that_do_not_make_up_the_whole_are_refused() {
 
 /// Runs a scene here and writes it as a run on so many ranks would.
 fn run_on_ranks(scene: &str, count: usize, dir: &std::path::Path) -> Results {
-    let file = format!("{}/data/scenes/{scene}.toml", env!("CARGO_MANIFEST_DIR"));
-    let model = Model::new(&Scene::load(file).unwrap()).unwrap();
-    let mut analysis = Analysis::new(model, Backend::default()).unwrap();
-    let mut results = analysis.run(&mut Silent).unwrap();
+    let (model, mut results) = run_with_model(&load(scene, &[]));
     results.ranks = Some(Ranks {
         count,
         ..Ranks::default()
     });
-    let header = RunHeader::new(analysis.model(), Backend::default(), 0.0);
-    write_without_report(dir, &header, analysis.model(), &results).unwrap();
+    let header = RunHeader::new(&model, Backend::default(), 0.0);
+    write_without_report(dir, &header, &model, &results).unwrap();
     results
 }

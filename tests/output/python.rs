@@ -1,6 +1,7 @@
 //! The field files, read by the libraries that users read them with.
 
 use crate::output::fixture;
+use crate::support::program::stderr;
 use brinell::output::write;
 use std::ffi::OsStr;
 use std::path::Path;
@@ -75,7 +76,7 @@ fn vtk_reads_the_pieces_of_a_state() {
     let results = fixture::results_of_ranks(&mesh, 8);
     write(&dir, &fixture::header(), &mesh, &results).unwrap();
     let file = dir.join("state_03_released.pvtu");
-    let read = run(python.as_os_str(), &[GRID, PIECES].concat(), &file);
+    let read = printed_by(python.as_os_str(), &[GRID, PIECES].concat(), &file);
     let mut lines = read.lines();
     let nodes: Vec<usize> = (0..mesh.n_nodes()).collect();
     assert_eq!(lines.next(), Some(format!("{nodes:?}").as_str()));
@@ -143,7 +144,7 @@ fn reads_the_fields(library: &str, script: &str) {
         .iter()
         .map(|(name, bytes)| format!("{name} {}\n", hexadecimal(bytes)))
         .collect();
-    let read = run(
+    let read = printed_by(
         python.as_os_str(),
         script,
         &dir.join("state_03_released.vtu"),
@@ -151,13 +152,13 @@ fn reads_the_fields(library: &str, script: &str) {
     assert_eq!(read, expected);
 }
 
-fn run(python: &OsStr, script: &str, file: &Path) -> String {
+fn printed_by(python: &OsStr, script: &str, file: &Path) -> String {
     let output = Command::new(python)
         .args(["-c", script])
         .arg(file)
         .output()
         .unwrap();
-    let errors = String::from_utf8_lossy(&output.stderr);
+    let errors = stderr(&output);
     assert!(output.status.success(), "{errors}");
     String::from_utf8(output.stdout).unwrap().replace('\r', "")
 }

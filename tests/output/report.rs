@@ -1,10 +1,11 @@
 //! `report.html` and its figures: complete, self-contained, well formed, the same from run to run.
 
+use crate::support::program::{program, stderr, succeeds, summary};
 use crate::support::svg::{self, Picture};
+use crate::support::{limit, scene_file};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::process::Command;
 
 /// Scenes of every kind, small: contact, none, axisymmetric, elastic, interference, several bodies,
 /// quadratic elements.
@@ -23,17 +24,14 @@ pub const SCENES: [(&str, &[&str]); 6] = [
     ("contact_patch", &[]),
 ];
 
-pub fn run(scene: &str, overrides: &[&str], out: &Path) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut command = Command::new(env!("CARGO_BIN_EXE_brinell"));
+pub fn write_report_of(scene: &str, overrides: &[&str], out: &Path) {
+    let mut command = program();
     command.args(["run", "-q", "--out"]).arg(out);
-    command.arg(root.join(format!("data/scenes/{scene}.toml")));
+    command.arg(scene_file(scene));
     for value in overrides {
         command.args(["--set", value]);
     }
-    let run = crate::support::limit::output(&mut command);
-    let text = String::from_utf8_lossy(&run.stderr);
-    assert!(run.status.success(), "{scene}: {text}");
+    succeeds(&mut command);
 }
 
 fn figures(dir: &Path) -> BTreeMap<String, String> {
@@ -68,10 +66,9 @@ fn every_kind_of_scene_has_a_self_contained_well_formed_report() {
     let temporary = tempfile::tempdir().unwrap();
     for (scene, overrides) in SCENES {
         let dir = temporary.path().join(scene);
-        run(scene, overrides, &dir);
+        write_report_of(scene, overrides, &dir);
         let page = std::fs::read_to_string(dir.join("report.html")).unwrap();
-        let summary = std::fs::read_to_string(dir.join("summary.json")).unwrap();
-        let summary: Value = serde_json::from_str(&summary).unwrap();
+        let summary = summary(&dir);
 
         // Nothing is fetched: addresses are anchors, files beside the page, or data.
         for address in attributes(&page, "href")
@@ -215,7 +212,7 @@ fn pictures_are_bands_in_order_with_the_largest_value_marked() {
     let temporary = tempfile::tempdir().unwrap();
     let dir = temporary.path().join("out");
     let (scene, overrides) = SCENES[0];
-    run(scene, overrides, &dir);
+    write_report_of(scene, overrides, &dir);
     let recorded = brinell::output::read(&dir).unwrap();
     let mesh = &recorded.model.mesh;
     let (mut n_pictures, mut n_magnified) = (0, 0);
@@ -306,7 +303,7 @@ fn check_magnified(recorded: &brinell::output::Recorded, rest: &str, text: &str)
 fn the_areas_of_a_picture_are_those_of_the_section() {
     let temporary = tempfile::tempdir().unwrap();
     let dir = temporary.path().join("out");
-    run("thick_cylinder", &[], &dir);
+    write_report_of("thick_cylinder", &[], &dir);
     let ring = std::f64::consts::PI * (200.0f64.powi(2) - 100.0f64.powi(2));
     let mut n_pictures = 0;
     for (name, text) in figures(&dir)
@@ -329,17 +326,15 @@ fn the_areas_of_a_picture_are_those_of_the_section() {
 #[test]
 fn figures_are_the_same_for_any_number_of_threads() {
     let temporary = tempfile::tempdir().unwrap();
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut runs = Vec::new();
     for threads in ["1", "3"] {
         let dir = temporary.path().join(threads);
-        let run = crate::support::limit::output(
-            Command::new(env!("CARGO_BIN_EXE_brinell"))
+        succeeds(
+            program()
                 .args(["run", "-q", "--threads", threads, "--out"])
                 .arg(&dir)
-                .arg(root.join("data/scenes/three_bodies.toml")),
+                .arg(scene_file("three_bodies")),
         );
-        assert!(run.status.success());
         runs.push(figures(&dir));
     }
     assert!(runs[0] == runs[1]);
@@ -349,16 +344,14 @@ fn figures_are_the_same_for_any_number_of_threads() {
 fn a_report_can_be_left_out_and_goes_with_its_result() {
     let temporary = tempfile::tempdir().unwrap();
     let dir = temporary.path().join("out");
-    run("contact_patch", &[], &dir);
+    write_report_of("contact_patch", &[], &dir);
     assert!(dir.join("report.html").exists() && dir.join("report_scene.svg").exists());
     std::fs::write(dir.join("mine.svg"), "mine").unwrap();
-    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/scenes/contact_patch.toml");
-    let again = crate::support::limit::output(
-        Command::new(env!("CARGO_BIN_EXE_brinell"))
+    succeeds(
+        program()
             .args(["run", "-q", "--no-report", "--out"])
-            .args([&dir, &scene]),
+            .args([&dir, &scene_file("contact_patch")]),
     );
-    assert!(again.status.success());
     assert!(!dir.join("report.html").exists() && !dir.join("report_scene.svg").exists());
     assert!(dir.join("mine.svg").exists() && dir.join("summary.json").exists());
 }
@@ -368,13 +361,7 @@ fn a_report_can_be_left_out_and_goes_with_its_result() {
 #[test]
 fn a_report_is_made_anew_from_its_directory_to_the_byte() {
     let temporary = tempfile::tempdir().unwrap();
-    let view = |dir: &Path| {
-        crate::support::limit::output(
-            Command::new(env!("CARGO_BIN_EXE_brinell"))
-                .arg("view")
-                .arg(dir),
-        )
-    };
+    let view = |dir: &Path| limit::output(program().arg("view").arg(dir));
     for (scene, overrides) in [
         (
             "gmsh_blocks",
@@ -390,14 +377,14 @@ fn a_report_is_made_anew_from_its_directory_to_the_byte() {
         ("shrink_fit", &[]),
     ] {
         let dir = temporary.path().join(scene);
-        run(scene, overrides, &dir);
+        write_report_of(scene, overrides, &dir);
         let before = content(&dir);
         for name in before.keys().filter(|n| n.starts_with("report")) {
             std::fs::remove_file(dir.join(name)).unwrap();
         }
         std::fs::write(dir.join("report_of_something_else.svg"), "stale").unwrap();
         let shown = view(&dir);
-        let error = String::from_utf8_lossy(&shown.stderr);
+        let error = stderr(&shown);
         assert!(shown.status.success(), "{scene}: {error}");
         let printed = String::from_utf8(shown.stdout).unwrap();
         assert_eq!(Path::new(printed.trim()), dir.join("report.html"));
@@ -448,7 +435,7 @@ fn a_report_is_made_anew_from_its_directory_to_the_byte() {
         std::fs::write(dir.join(file), damage).unwrap();
         let refused = view(&dir);
         assert_eq!(refused.status.code(), Some(2), "{file}");
-        let error = String::from_utf8_lossy(&refused.stderr).into_owned();
+        let error = stderr(&refused);
         assert!(
             error.contains(file) || error.contains("summary.json"),
             "{error}"
@@ -478,7 +465,7 @@ fn names_are_escaped() {
     let temporary = tempfile::tempdir().unwrap();
     let dir = temporary.path().join("out");
     let title = "title=<b>\"bold\" & 'risky'</b><script>alert(1)</script>";
-    run(
+    write_report_of(
         "contact_patch",
         &[
             title,

@@ -1,30 +1,10 @@
 //! The generator of two curved bodies against Hertz' theory, against its own halves, and against
 //! the axisymmetric model.
 
-use crate::support::either;
-use brinell::analysis::Analysis;
+use crate::support::{either, load, run, run_file, same_figures};
 use brinell::analytical::{HertzEllipse, contact_modulus};
-use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
-use brinell::results::{Results, State};
-use brinell::scene::{Scene, Target};
-
-fn scene(name: &str, overrides: &[&str]) -> Scene {
-    let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let overrides: Vec<String> = overrides.iter().map(|o| o.to_string()).collect();
-    Scene::load_with(path, &overrides).unwrap()
-}
-
-fn run(scene: &Scene) -> Results {
-    let model = Model::new(scene).unwrap();
-    let results = Analysis::new(model, Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
-    results
-}
+use brinell::results::State;
+use brinell::scene::Target;
 
 fn near(value: f64, exact: f64, off: f64, what: &str) {
     assert!(
@@ -50,7 +30,7 @@ fn first_yield_is_that_of_hertz() {
         let hertz = HertzEllipse::new(radii, modulus).unwrap();
         for &n in sizes {
             let resolution = format!("mesh.curved_bodies.resolution={n}");
-            let mut scene = scene(name, &[&resolution]);
+            let mut scene = load(name, &[&resolution]);
             scene.program.targets = vec![Target {
                 first_yield: true,
                 ..Target::default()
@@ -118,7 +98,7 @@ fn the_elastic_solution_converges_to_that_of_hertz() {
             "reference=[]".to_string(),
         ];
         let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
-        run(&scene(name, &overrides)).states.remove(0)
+        run_file(name, &overrides).states.remove(0)
     };
     let sizes = either([3, 6], [4, 8]);
     let states = sizes.map(state);
@@ -166,7 +146,7 @@ fn a_quarter_and_a_half_are_those_of_the_whole() {
             // The zones differ; displacements follow forces with a hundredfold error.
             "analysis.tolerance=1e-12",
         ];
-        run(&scene("crossed_cylinders", &overrides))
+        run_file("crossed_cylinders", &overrides)
     };
     let bottom = r#"{ on = "lower.bottom", fix = ["z"] }"#;
     let across = |axis: &str| {
@@ -181,24 +161,7 @@ fn a_quarter_and_a_half_are_those_of_the_whole() {
         let firsts = [&quarter, other].map(|results| results.first_yield.unwrap());
         near(firsts[1].load, firsts[0].load, 1e-9, "first yield");
         for (a, b) in quarter.states.iter().zip(&other.states) {
-            let same = |of: fn(&State) -> f64, scale: f64| {
-                assert!(
-                    (of(a) - of(b)).abs() < 1e-9 * scale,
-                    "{}: {} {}",
-                    a.name,
-                    of(a),
-                    of(b)
-                );
-            };
-            let largest = &quarter.states[0];
-            same(|s| s.contact_force, largest.contact_force);
-            same(|s| s.max_pressure, largest.max_pressure);
-            same(|s| s.approach, largest.approach);
-            same(|s| s.residual_depth, largest.approach);
-            same(
-                |s| s.max_equivalent_plastic_strain,
-                largest.max_equivalent_plastic_strain,
-            );
+            same_figures(a, b, 1.0, &quarter.states[0], 1e-9);
             for (p, q) in a.patches.iter().zip(&b.patches) {
                 near(q.area, p.area, 1e-7, "area");
                 near(q.semi_axes[0], p.semi_axes[0], 1e-7, "larger half axis");
@@ -211,12 +174,12 @@ fn a_quarter_and_a_half_are_those_of_the_whole() {
 /// difference is of the order of the coarser mesh.
 #[test]
 fn the_history_of_a_ball_is_that_of_the_axisymmetric_model() {
-    let fine = run(&scene("ball_on_half_space", &[]));
+    let fine = run_file("ball_on_half_space", &[]);
     let resolution = 4;
-    let solid = run(&scene(
+    let solid = run_file(
         "ball_on_flat_3d",
         &[&format!("mesh.curved_bodies.resolution={resolution}")],
-    ));
+    );
     let h = 1.0 / resolution as f64;
     // Load factors count from each model's own first yield.
     for (a, b) in fine.states.iter().zip(&solid.states).skip(1).take(3) {

@@ -1,14 +1,15 @@
 //! Rigid motions, and supports at any angle in space.
 
+use crate::support::build::{Build, elastic};
 use crate::support::grid::{Grid, Point};
+use crate::support::run_model;
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
-use brinell::progress::Silent;
 use brinell::results::Results;
-use brinell::scene::{Body, Contact, Kind, Load, Material, Support, Target};
+use brinell::scene::{Contact, Kind, Load};
 
 /// Orthonormal rows: the axes of a block that stands askew.
 const ASKEW: [Point; 3] = [
@@ -26,33 +27,9 @@ fn body(builder: &mut ModelBuilder, name: &str, shape: Shape, map: &dyn Fn(Point
         map,
     }
     .add(builder);
-    let steel = Material {
-        youngs_modulus: 1000.0,
-        poissons_ratio: 0.3,
-        ..Material::default()
-    };
+    let steel = elastic(1000.0, 0.3);
     builder.material(name, steel).unwrap();
-    let entry = Body {
-        material: name.into(),
-        ..Body::default()
-    };
-    builder.body(name, entry).unwrap();
-}
-
-fn hold(builder: &mut ModelBuilder, on: &str, direction: Point) {
-    builder.support(Support {
-        on: on.into(),
-        direction: Some(direction.into()),
-        ..Support::default()
-    });
-}
-
-fn pressed(builder: &mut ModelBuilder, on: &str, pressure: f64) {
-    builder.load(Load {
-        on: on.into(),
-        pressure: Some(pressure.into()),
-        ..Load::default()
-    });
+    builder.of(name, name);
 }
 
 fn pulled(builder: &mut ModelBuilder, on: &str, traction: Point) {
@@ -63,18 +40,9 @@ fn pulled(builder: &mut ModelBuilder, on: &str, traction: Point) {
     });
 }
 
-fn run(builder: &mut ModelBuilder) -> Results {
-    builder.target(Target {
-        load_factor: Some(1.0),
-        fields: true,
-        ..Target::default()
-    });
-    let results = Analysis::new(builder.build().unwrap(), Backend::Dense)
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
-    results
+fn run_to_the_load(builder: &mut ModelBuilder) -> Results {
+    builder.reach(1.0);
+    run_model(builder.build().unwrap(), Backend::Dense)
 }
 
 fn stresses_are(results: &Results, exact: [f64; 6], what: &str) {
@@ -108,7 +76,7 @@ fn each_of_the_six_rigid_motions_is_named() {
             let node = nodes.iter().find(|(_, x)| *x == at).unwrap().0;
             builder.node_set(name, &[node]).unwrap();
             for &direction in directions.iter().filter(|&&d| (name, d) != without) {
-                hold(&mut builder, name, direction);
+                builder.hold_along(name, direction);
             }
         }
         pulled(&mut builder, load.0, load.1);
@@ -118,7 +86,7 @@ fn each_of_the_six_rigid_motions_is_named() {
         let mut builder = ModelBuilder::new(Kind::Solid);
         body(&mut builder, "block", Shape::Hex8, &|x| x);
         for (on, direction) in held {
-            hold(&mut builder, on, direction);
+            builder.hold_along(on, direction);
         }
         pulled(&mut builder, load.0, load.1);
         builder
@@ -177,8 +145,8 @@ fn a_body_that_no_support_holds_and_no_load_drives() {
     let both = ["block.x0", "block.x1"].map(|side| builder.set_nodes(side));
     let both: Vec<usize> = both.iter().flatten().map(|(node, _)| *node).collect();
     builder.surface_of_nodes("ends", &both).unwrap();
-    pressed(&mut builder, "ends", 10.0);
-    let results = run(&mut builder);
+    builder.press("ends", 10.0);
+    let results = run_to_the_load(&mut builder);
     stresses_are(&results, [-10.0, 0.0, 0.0, 0.0, 0.0, 0.0], "free");
     let told = results
         .warnings
@@ -209,11 +177,15 @@ fn a_block_askew_between_three_planes() {
     for shape in Shape::SOLID {
         let mut builder = ModelBuilder::new(Kind::Solid);
         body(&mut builder, "lower", shape, &turned);
-        hold(&mut builder, "lower.x0", ASKEW[0]);
-        hold(&mut builder, "lower.y0", ASKEW[1]);
-        hold(&mut builder, "lower.z0", ASKEW[2]);
-        pressed(&mut builder, "lower.z1", 10.0);
-        stresses_are(&run(&mut builder), exact, &format!("{shape:?}, one block"));
+        builder.hold_along("lower.x0", ASKEW[0]);
+        builder.hold_along("lower.y0", ASKEW[1]);
+        builder.hold_along("lower.z0", ASKEW[2]);
+        builder.press("lower.z1", 10.0);
+        stresses_are(
+            &run_to_the_load(&mut builder),
+            exact,
+            &format!("{shape:?}, one block"),
+        );
 
         let mut builder = ModelBuilder::new(Kind::Solid);
         body(&mut builder, "lower", shape, &turned);
@@ -221,17 +193,17 @@ fn a_block_askew_between_three_planes() {
             turned([x, y, 1.0 + z])
         });
         for name in ["lower", "upper"] {
-            hold(&mut builder, &format!("{name}.x0"), ASKEW[0]);
-            hold(&mut builder, &format!("{name}.y0"), ASKEW[1]);
+            builder.hold_along(format!("{name}.x0"), ASKEW[0]);
+            builder.hold_along(format!("{name}.y0"), ASKEW[1]);
         }
-        hold(&mut builder, "lower.z0", ASKEW[2]);
+        builder.hold_along("lower.z0", ASKEW[2]);
         builder.contact(Contact {
             first: "upper.z0".into(),
             second: "lower.z1".into(),
             ..Contact::default()
         });
-        pressed(&mut builder, "upper.z1", 10.0);
-        let results = run(&mut builder);
+        builder.press("upper.z1", 10.0);
+        let results = run_to_the_load(&mut builder);
         stresses_are(&results, exact, &format!("{shape:?}, two blocks"));
         for pair in &results.states[0].pairs {
             assert!((pair.pressure - 10.0).abs() < 1e-9, "{shape:?} {pair:?}");

@@ -1,14 +1,12 @@
 //! Hertz' contact of balls on quarter models.
 
-use crate::support::either;
+use crate::support::build::{Build, elastic};
 use crate::support::grid::{Grid, Point};
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
+use crate::support::{either, run_built};
 use brinell::mesh::Shape;
 use brinell::model::{ModelBuilder, NodePair};
-use brinell::progress::Silent;
 use brinell::results::Results;
-use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, PlaneForce, Support};
+use brinell::scene::{Contact, Direction, Kind, Load, PlaneForce};
 
 /// Contact half axis 1 over so many even elements, then elements that grow.
 fn graded(t: f64, cells: usize, fine: usize, extent: f64) -> f64 {
@@ -56,35 +54,15 @@ fn ball(fine: usize, cells: usize, extent: f64, radius: f64, load: f64) -> Resul
         map: &upper,
     }
     .add(&mut builder);
-    let material = Material {
-        youngs_modulus: 1000.0,
-        poissons_ratio: 0.3,
-        ..Material::default()
-    };
+    let material = elastic(1000.0, 0.3);
     builder.material("steel", material).unwrap();
     for body in ["lower", "upper"] {
-        builder
-            .body(
-                body,
-                Body {
-                    material: "steel".into(),
-                    ..Body::default()
-                },
-            )
-            .unwrap();
+        builder.of(body, "steel");
         for (axis, direction) in [("x0", Direction::X), ("y0", Direction::Y)] {
-            builder.support(Support {
-                on: format!("{body}.{axis}"),
-                fix: vec![direction],
-                ..Support::default()
-            });
+            builder.hold(format!("{body}.{axis}"), direction);
         }
     }
-    builder.support(Support {
-        on: "lower.z0".into(),
-        fix: vec![Direction::Z],
-        ..Support::default()
-    });
+    builder.hold("lower.z0", Direction::Z);
     // Pairs by place.
     let model_nodes = |name: &str, builder: &ModelBuilder| builder.set_nodes(name);
     let (first, second) = (
@@ -121,11 +99,7 @@ fn ball(fine: usize, cells: usize, extent: f64, radius: f64, load: f64) -> Resul
         }),
         ..Load::default()
     });
-    let model = builder.build().unwrap();
-    Analysis::new(model, Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap()
+    run_built(&builder)
 }
 
 #[test]

@@ -1,10 +1,6 @@
 //! How often a solid is factored.
 
-use crate::support::{close, healthy, load, run};
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
+use crate::support::{close, healthy, load, run, yield_load};
 
 /// Once: a coarser mesh has shown where yielding will spread. What it shows decides where yielding
 /// is looked for and nothing else: the load at first yield alone, for which no coarser mesh is run,
@@ -23,8 +19,7 @@ fn a_ball_is_factored_once() {
     assert_eq!(results.counts.factorizations, 1);
     // Only a part of what may yield is zone.
     assert!(results.sizes.zone_elements < results.sizes.elements / 4);
-    let mut alone = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
-    let alone = alone.yield_load(&mut Silent).unwrap().first_yield.unwrap();
+    let alone = yield_load(&scene).first_yield.unwrap();
     let together = results.first_yield.unwrap();
     for (a, b) in [
         (alone.load, together.load),

@@ -1,13 +1,12 @@
 //! Uniform states are exact on distorted elements, within a body and across a contact.
 
+use crate::support::build::Build;
 use crate::support::grid::{Grid, Point};
-use brinell::analysis::Analysis;
+use crate::support::run_model;
 use brinell::linalg::Backend;
 use brinell::mesh::{Integration, Shape};
 use brinell::model::ModelBuilder;
-use brinell::progress::Silent;
-use brinell::results::Results;
-use brinell::scene::{Body, Contact, Direction, Kind, Load, Material, Support, Target};
+use brinell::scene::{Body, Contact, Direction, Kind, Load, Material};
 
 /// Points inside are moved; those on the faces of the box stay on them, alike on the lowest and the
 /// highest.
@@ -28,22 +27,6 @@ fn steel() -> Material {
         poissons_ratio: 0.3,
         ..Material::default()
     }
-}
-
-fn held(builder: &mut ModelBuilder, on: &str, direction: Direction) {
-    builder.support(Support {
-        on: on.into(),
-        fix: vec![direction],
-        ..Support::default()
-    });
-}
-
-fn run(builder: &ModelBuilder) -> Results {
-    let model = builder.build().unwrap();
-    Analysis::new(model, Backend::Dense)
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap()
 }
 
 /// Straight sides: the middles of edges are halfway.
@@ -95,20 +78,12 @@ fn a_block_under_pressure_is_exact() {
                 },
             )
             .unwrap();
-        held(&mut builder, "block.x0", Direction::X);
-        held(&mut builder, "block.y0", Direction::Y);
-        held(&mut builder, "block.z0", Direction::Z);
-        builder.load(Load {
-            on: "block.z1".into(),
-            pressure: Some(10.0.into()),
-            ..Load::default()
-        });
-        builder.target(Target {
-            load_factor: Some(1.0),
-            fields: true,
-            ..Target::default()
-        });
-        let results = run(&builder);
+        builder.hold("block.x0", Direction::X);
+        builder.hold("block.y0", Direction::Y);
+        builder.hold("block.z0", Direction::Z);
+        builder.press("block.z1", 10.0);
+        builder.reach(1.0);
+        let results = run_model(builder.build().unwrap(), Backend::Dense);
         let fields = results.states[0].fields.as_ref().unwrap();
         for stress in fields.stress.chunks_exact(6) {
             for (s, exact) in stress.iter().zip([0.0, 0.0, -10.0, 0.0, 0.0, 0.0]) {
@@ -155,10 +130,10 @@ fn a_contact_passes_a_uniform_pressure() {
                     },
                 )
                 .unwrap();
-            held(&mut builder, &format!("{body}.x0"), Direction::X);
-            held(&mut builder, &format!("{body}.y0"), Direction::Y);
+            builder.hold(format!("{body}.x0"), Direction::X);
+            builder.hold(format!("{body}.y0"), Direction::Y);
         }
-        held(&mut builder, "lower.z0", Direction::Z);
+        builder.hold("lower.z0", Direction::Z);
         builder.contact(Contact {
             first: "upper.z0".into(),
             second: "lower.z1".into(),
@@ -169,7 +144,7 @@ fn a_contact_passes_a_uniform_pressure() {
             force: Some([0.0, 0.0, -10.0].into()),
             ..Load::default()
         });
-        let results = run(&builder);
+        let results = run_model(builder.build().unwrap(), Backend::Dense);
         let state = &results.states[0];
         for pair in &state.pairs {
             assert!((pair.pressure - 10.0).abs() < 1e-9, "{shape:?} {pair:?}");

@@ -1,14 +1,10 @@
 //! How patches of contact are read off the pressures, apart from how good these are.
 
 use crate::support::random::Random;
-use crate::support::{close, either, parse, run_on};
-use brinell::analysis::Analysis;
+use crate::support::{close, either, parse, run_file, run_on, run_text_as_far_as_it_goes};
 use brinell::analytical::{HertzEllipse, contact_modulus};
-use brinell::linalg::Backend;
 use brinell::model::Model;
-use brinell::progress::Silent;
 use brinell::results::{State, Status};
-use brinell::scene::Scene;
 use std::f64::consts::PI;
 
 /// Hertz' pressure `p0 sqrt(1 - (x/a)^2 - (y/b)^2)` carries `P = 2/3 p0 A`: the area of an elastic
@@ -18,18 +14,15 @@ use std::f64::consts::PI;
 #[test]
 fn areas_agree_with_the_load_and_the_largest_pressure() {
     for name in ["crossed_cylinders", "ball_in_groove"] {
-        let path = format!("{}/data/scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let n = either(4, 6);
         let square = 1.0 / (n * n) as f64;
         let changes = [
-            format!("mesh.curved_bodies.resolution={n}"),
-            "mesh.curved_bodies.far_size=8".to_string(),
-            "mesh.curved_bodies.growth=1.7".to_string(),
-            "program.targets=[{ load_factor = 1.0 }]".to_string(),
+            &format!("mesh.curved_bodies.resolution={n}"),
+            "mesh.curved_bodies.far_size=8",
+            "mesh.curved_bodies.growth=1.7",
+            "program.targets=[{ load_factor = 1.0 }]",
         ];
-        let scene = Scene::load_with(&path, &changes).unwrap();
-        let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
-        let results = analysis.run(&mut Silent).unwrap();
+        let results = run_file(name, &changes);
         let [patch] = &results.states[0].patches[..] else {
             panic!("{name}: not one patch");
         };
@@ -133,7 +126,7 @@ program.targets = [{{ load_factor = 1.0 }}]
 
 /// A quarter of two curved bodies pressed together, the lower one of which may yield.
 fn pressed(upper: [f64; 2], resolution: usize, more: &str, targets: &str) -> Vec<State> {
-    let scene = parse(&format!(
+    let text = format!(
         r#"kind = "solid"
 symmetry = 4
 mesh.curved_bodies = {{ upper = {upper:?}, lower = [0.0, 0.0], resolution = {resolution}, {more} }}
@@ -148,9 +141,8 @@ support = [
 load = [{{ on = "upper.top", plane_force = {{ direction = "z", total = -1.0 }} }}]
 program = {{ unit = "yield", targets = [{targets}] }}
 "#
-    ));
-    let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
-    analysis.run(&mut Silent).unwrap().states
+    );
+    run_text_as_far_as_it_goes(&text).states
 }
 
 /// A round patch ends between its last closed pairs, of which half a face may be free, and its

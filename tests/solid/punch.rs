@@ -1,16 +1,12 @@
 //! A square punch, elastic and at its limit load.
 
+use crate::support::build::{Build, elastic};
 use crate::support::grid::{Grid, Point};
-use brinell::analysis::Analysis;
+use crate::support::run_built;
 use brinell::analytical::contact_modulus;
-use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
-use brinell::progress::Silent;
-use brinell::results::Results;
-use brinell::scene::{
-    Body, Contact, Direction, Displacement, Kind, Load, Material, PlaneForce, Support, Target,
-};
+use brinell::scene::{Contact, Direction, Displacement, Kind, Load, Material, PlaneForce, Target};
 
 /// Even elements out to 1, then so many more that each is longer than the one before by the same
 /// ratio, out to `extent`.
@@ -39,11 +35,7 @@ fn punch(fine: usize, more: usize, extent: f64, block: Material) -> ModelBuilder
     let below = move |[x, y, z]: Point| [g(x), g(y), -g(1.0 - z)];
     let mut builder = ModelBuilder::new(Kind::Solid);
     builder.symmetry(4);
-    let stiff = Material {
-        youngs_modulus: 1e5 * block.youngs_modulus,
-        poissons_ratio: 0.3,
-        ..Material::default()
-    };
+    let stiff = elastic(1e5 * block.youngs_modulus, 0.3);
     for (name, cells, map, material) in [
         (
             "block",
@@ -61,24 +53,12 @@ fn punch(fine: usize, more: usize, extent: f64, block: Material) -> ModelBuilder
         };
         grid.add(&mut builder);
         builder.material(name, material).unwrap();
-        let body = Body {
-            material: name.into(),
-            ..Body::default()
-        };
-        builder.body(name, body).unwrap();
+        builder.of(name, name);
         for (side, direction) in [("x0", Direction::X), ("y0", Direction::Y)] {
-            builder.support(Support {
-                on: format!("{name}.{side}"),
-                fix: vec![direction],
-                ..Support::default()
-            });
+            builder.hold(format!("{name}.{side}"), direction);
         }
     }
-    builder.support(Support {
-        on: "block.z0".into(),
-        fix: vec![Direction::Z],
-        ..Support::default()
-    });
+    builder.hold("block.z0", Direction::Z);
     builder.contact(Contact {
         first: "punch.z0".into(),
         second: "block.z1".into(),
@@ -87,24 +67,11 @@ fn punch(fine: usize, more: usize, extent: f64, block: Material) -> ModelBuilder
     builder
 }
 
-fn run(builder: &ModelBuilder) -> Results {
-    let results = Analysis::new(builder.build().unwrap(), Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
-    results
-}
-
 /// A rigid smooth square of side 2 a on a half space sinks in by `P / (2 a E* 2 beta/sqrt(pi))`
 /// with beta = 1.012 (R. B. King, Int. J. Solids Struct. 23 (1987) 1657-1664, table 1).
 #[test]
 fn a_square_punch_sinks_in_as_king_has_it() {
-    let elastic = Material {
-        youngs_modulus: 1000.0,
-        poissons_ratio: 0.3,
-        ..Material::default()
-    };
+    let elastic = elastic(1000.0, 0.3);
     // The punch's side is rigid.
     let modulus = contact_modulus(1000.0, 0.3, 1e12, 0.3);
     let stiffness = |fine: usize, extent: f64| {
@@ -117,7 +84,7 @@ fn a_square_punch_sinks_in_as_king_has_it() {
             }),
             ..Load::default()
         });
-        let state = &run(&builder).states[0];
+        let state = &run_built(&builder).states[0];
         4.0 / state.approach / (2.0 * modulus)
     };
     let exact = 1.012 * 2.0 / std::f64::consts::PI.sqrt();
@@ -154,7 +121,7 @@ fn the_limit_load_of_a_square_punch_lies_between_its_bounds() {
                 ..Target::default()
             });
         }
-        let results = run(&builder);
+        let results = run_built(&builder);
         let [half, whole] = [0, 1].map(|k| results.states[k].contact_force / 4.0);
         // Collapsed: the second half of the way adds next to nothing.
         assert!(whole < 1.02 * half, "{n}: {half} {whole}");

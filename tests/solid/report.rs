@@ -1,26 +1,17 @@
 //! The report of a run in three dimensions.
 
 use crate::support::svg::{Picture, area, rings};
-use brinell::analysis::Analysis;
+use crate::support::{load, run_with_model};
 use brinell::linalg::Backend;
-use brinell::model::Model;
 use brinell::output::{RunHeader, write_with_report};
-use brinell::progress::Silent;
 use brinell::results::Results;
-use brinell::scene::Scene;
 use std::path::Path;
 
-fn run(dir: &Path) -> Results {
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/data/scenes/ball_on_flat_3d.toml"
-    );
-    let overrides = ["mesh.curved_bodies.resolution=3".to_string()];
-    let scene = Scene::load_with(path, &overrides).unwrap();
-    let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
-    let results = analysis.run(&mut Silent).unwrap();
-    let header = RunHeader::new(analysis.model(), Backend::default(), 1.0);
-    write_with_report(dir, &header, analysis.model(), &results).unwrap();
+fn report_of_a_ball(dir: &Path) -> Results {
+    let scene = load("ball_on_flat_3d", &["mesh.curved_bodies.resolution=3"]);
+    let (model, results) = run_with_model(&scene);
+    let header = RunHeader::new(&model, Backend::default(), 1.0);
+    write_with_report(dir, &header, &model, &results).unwrap();
     results
 }
 
@@ -30,7 +21,7 @@ fn run(dir: &Path) -> Results {
 fn a_solid_has_maps_of_pressure_sections_and_its_scene() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("out");
-    let results = run(&dir);
+    let results = report_of_a_ball(&dir);
     let read = |name: &str| std::fs::read_to_string(dir.join(name)).unwrap();
     let named = |part: &str| -> Vec<String> {
         let mut names: Vec<String> = (std::fs::read_dir(&dir).unwrap())
@@ -129,7 +120,7 @@ fn a_solid_has_maps_of_pressure_sections_and_its_scene() {
 fn the_scene_is_painted_from_the_back_to_the_front() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("out");
-    run(&dir);
+    report_of_a_ball(&dir);
     let text = std::fs::read_to_string(dir.join("report_scene.svg")).unwrap();
     let xml = roxmltree::Document::parse(&text).unwrap();
     let painted: Vec<(&str, f64)> = xml

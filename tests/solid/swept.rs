@@ -1,16 +1,12 @@
 //! Plane and axisymmetric scenes drawn out to solids.
 
-use crate::support::either;
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
+use crate::support::{either, parse, run, same_figures};
 use brinell::results::{Results, Status};
 use brinell::scene::Scene;
 
 /// A cylinder or ball on a flat body, plane or drawn out; `more` are keys of the mesh, `planes`
 /// supports beside that of the base.
-fn scene(kind: &str, more: &str, planes: &[(&str, &str)], force: f64) -> Scene {
+fn cylinder_on_flat(kind: &str, more: &str, planes: &[(&str, &str)], force: f64) -> Scene {
     let supports: Vec<String> = ["cylinder", "half_plane"]
         .iter()
         .flat_map(|body| planes.iter().map(move |(on, axis)| (body, on, axis)))
@@ -52,20 +48,11 @@ targets = [{{ load_factor = 1.0 }}, {{ load_factor = 2.0 }}, {{ load_factor = 0.
         supports.concat(),
         -force,
     );
-    Scene::parse(&text, "swept").unwrap()
+    parse(&text)
 }
 
 /// Figures of parts against those of the whole: both are iterated to 1e-10 of the forces.
 const SAME: f64 = 1e-7;
-
-fn run(scene: &Scene) -> Results {
-    let results = Analysis::new(Model::new(scene).unwrap(), Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
-    results
-}
 
 /// The paper's cylinder, drawn out between planes of symmetry, has the plane model's history, twice
 /// its first yield and back; its contact is a strip. Increments begin where the recovered stress
@@ -73,40 +60,21 @@ fn run(scene: &Scene) -> Results {
 #[test]
 fn an_extruded_cylinder_is_that_of_plane_strain() {
     let depth = 0.25;
-    let plane = run(&scene("plane_strain", "", &[("symmetry", "x")], 110.0));
+    let plane = run(&cylinder_on_flat(
+        "plane_strain",
+        "",
+        &[("symmetry", "x")],
+        110.0,
+    ));
     let extrude = format!("extrude = {{ depth = {depth}, elements = 2 }}");
     let planes = [("symmetry", "x"), ("front", "z"), ("back", "z")];
-    let solid = run(&scene("solid", &extrude, &planes, 110.0 * depth));
+    let solid = run(&cylinder_on_flat("solid", &extrude, &planes, 110.0 * depth));
     let closed = |s: &brinell::results::State| {
         let closed = s.pairs.iter().filter(|p| p.status == Status::Closed);
         closed.count()
     };
     for (a, b) in plane.states.iter().zip(&solid.states) {
-        let largest = &plane.states[1];
-        for (what, x, y, scale) in [
-            (
-                "force",
-                a.contact_force,
-                b.contact_force / depth,
-                largest.contact_force,
-            ),
-            (
-                "pressure",
-                a.max_pressure,
-                b.max_pressure,
-                largest.max_pressure,
-            ),
-            ("approach", a.approach, b.approach, largest.approach),
-            ("dent", a.residual_depth, b.residual_depth, largest.approach),
-            (
-                "plastic strain",
-                a.max_equivalent_plastic_strain,
-                b.max_equivalent_plastic_strain,
-                largest.max_equivalent_plastic_strain,
-            ),
-        ] {
-            assert!((x - y).abs() < 1e-5 * scale, "{} {what}: {x} {y}", a.name);
-        }
+        same_figures(a, b, 1.0 / depth, &plane.states[1], 1e-5);
         assert_eq!(closed(b), 3 * closed(a));
     }
     assert!(plane.states[1].plastic_points > 20);
@@ -127,11 +95,16 @@ fn an_extruded_cylinder_is_that_of_plane_strain() {
 #[test]
 fn a_revolved_ball_is_the_axisymmetric_one() {
     let force = 20.0;
-    let whole = run(&scene("axisymmetric", "", &[("symmetry", "x")], force));
+    let whole = run(&cylinder_on_flat(
+        "axisymmetric",
+        "",
+        &[("symmetry", "x")],
+        force,
+    ));
     let sector = |n: usize| {
         let revolve = format!("revolve = {{ angle = 90, elements = {n} }}");
         let planes = [("front", "z"), ("back", "x")];
-        run(&scene("solid", &revolve, &planes, 0.25 * force))
+        run(&cylinder_on_flat("solid", &revolve, &planes, 0.25 * force))
     };
     let sectors = either([3, 6, 12], [4, 8, 16]).map(sector);
     for (state, name) in [(0, "elastic"), (1, "plastic")] {
@@ -160,7 +133,7 @@ fn sectors_between_planes_at_an_angle_are_parts_of_the_quarter() {
         let revolve = format!("revolve = {{ angle = {angle}, elements = {elements} }}");
         let planes = [("front", "z"), ("back", "x")];
         let share = force * angle as f64 / 360.0;
-        let mut scene = scene("solid", &revolve, &planes, share);
+        let mut scene = cylinder_on_flat("solid", &revolve, &planes, share);
         let (sin, cos) = (angle as f64).to_radians().sin_cos();
         for support in &mut scene.support {
             if support.on.ends_with(".back") {
@@ -174,35 +147,7 @@ fn sectors_between_planes_at_an_angle_are_parts_of_the_quarter() {
         let (part, quarter) = (sector(angle, elements), sector(90, of_quarter));
         let times = 90.0 / angle as f64;
         for (a, b) in quarter.states.iter().zip(&part.states) {
-            let largest = &quarter.states[1];
-            for (what, x, y, scale) in [
-                (
-                    "force",
-                    a.contact_force,
-                    times * b.contact_force,
-                    largest.contact_force,
-                ),
-                (
-                    "pressure",
-                    a.max_pressure,
-                    b.max_pressure,
-                    largest.max_pressure,
-                ),
-                ("approach", a.approach, b.approach, largest.approach),
-                ("dent", a.residual_depth, b.residual_depth, largest.approach),
-                (
-                    "plastic strain",
-                    a.max_equivalent_plastic_strain,
-                    b.max_equivalent_plastic_strain,
-                    largest.max_equivalent_plastic_strain,
-                ),
-            ] {
-                assert!(
-                    (x - y).abs() < 1e-8 * scale,
-                    "{angle} {} {what}: {x} {y}",
-                    a.name
-                );
-            }
+            same_figures(a, b, times, &quarter.states[1], 1e-8);
         }
         assert!(quarter.states[1].plastic_points > 20);
         let first_yield = |results: &Results| results.first_yield.as_ref().unwrap().load;

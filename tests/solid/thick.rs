@@ -1,5 +1,6 @@
 //! Thick shells under internal pressure: exact elastoplastic solutions.
 
+use crate::support::build::Build;
 use crate::support::either;
 use crate::support::grid::{Grid, Point};
 use brinell::ErrorKind;
@@ -10,7 +11,7 @@ use brinell::mesh::Shape;
 use brinell::model::{Model, ModelBuilder, Slot};
 use brinell::progress::Silent;
 use brinell::results::Results;
-use brinell::scene::{Body, Direction, Kind, Load, Material, Support, Target};
+use brinell::scene::{Direction, Kind, Material};
 
 const INNER: f64 = 100.0;
 const OUTER: f64 = 200.0;
@@ -33,34 +34,18 @@ fn shell(shape: Shape, cells: [usize; 3], nu: f64, map: &dyn Fn(Point) -> Point)
         ..Material::default()
     };
     builder.material("steel", steel).unwrap();
-    let body = Body {
-        material: "steel".into(),
-        ..Body::default()
-    };
-    builder.body("shell", body).unwrap();
-    builder.load(Load {
-        on: "shell.z0".into(),
-        pressure: Some(1.0.into()),
-        ..Load::default()
-    });
+    builder.of("shell", "steel");
+    builder.press("shell.z0", 1.0);
     builder
 }
 
 fn held(builder: &mut ModelBuilder, on: &str, direction: Point) {
-    builder.support(Support {
-        on: format!("shell.{on}"),
-        direction: Some(direction.into()),
-        ..Support::default()
-    });
+    builder.hold_along(format!("shell.{on}"), direction);
 }
 
 fn driven(mut builder: ModelBuilder, factors: &[f64]) -> (Model, Results) {
     for &load_factor in factors {
-        builder.target(Target {
-            load_factor: Some(load_factor),
-            fields: true,
-            ..Target::default()
-        });
+        builder.reach(load_factor);
     }
     let mut analysis = Analysis::new(builder.build().unwrap(), Backend::default()).unwrap();
     let results = analysis.run(&mut Silent).unwrap();
@@ -185,11 +170,7 @@ fn an_edge_of_two_planes_at_an_angle_keeps_one_freedom() {
     let mut builder = shell(Shape::Hex8, [1, 1, 1], 0.3, &|x| x);
     held(&mut builder, "x0", [1.0, 0.0, 1.0]);
     held(&mut builder, "z1", [0.0, 0.0, 1.0]);
-    builder.support(Support {
-        on: "shell.y0".into(),
-        fix: vec![Direction::Y],
-        ..Support::default()
-    });
+    builder.hold("shell.y0", Direction::Y);
     let (model, _) = driven(builder, &[0.1]);
     let node = |x: Point| (0..model.mesh.n_nodes()).find(|&n| model.mesh.point(n) == x);
     let slots = model.freedoms.of_node(node([0.0, 1.0, 1.0]).unwrap());

@@ -2,14 +2,11 @@
 //! load or the increments themselves keep out of reach. Each run ends by name and with what was
 //! reached.
 
-use crate::support::{close, load, run};
+use crate::support::{close, load, run, run_as_far_as_it_goes};
 use brinell::ErrorKind;
 use brinell::accuracy::{Effort, Extent, estimate};
-use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
-use brinell::model::Model;
 use brinell::progress::Silent;
-use brinell::results::Results;
 use brinell::scene::Scene;
 
 /// A tube of few elements, to the given load factors.
@@ -21,11 +18,6 @@ fn tube(targets: &str, overrides: &[&str]) -> Scene {
 
 const TWO: &str = "[{ load_factor = 150 }, { load_factor = 180 }]";
 
-fn as_far_as_it_goes(scene: &Scene) -> Results {
-    let mut analysis = Analysis::new(Model::new(scene).unwrap(), Backend::default()).unwrap();
-    analysis.run(&mut Silent).unwrap()
-}
-
 /// A bound on the increments changes none of them: the run ends at its place, with the states
 /// before it.
 #[test]
@@ -36,7 +28,7 @@ fn a_run_ends_at_its_bound_on_increments() {
         let rows = whole.history.len();
         for most in 1..=rows {
             let bound = format!("program.max_increments={most}");
-            let found = as_far_as_it_goes(&tube(TWO, &[&chosen, &bound]));
+            let found = run_as_far_as_it_goes(&tube(TWO, &[&chosen, &bound]), Backend::default());
             assert_eq!(found.history[..], whole.history[..most], "{stepping}");
             if most == rows {
                 assert!(found.incomplete.is_none(), "{:?}", found.incomplete);
@@ -63,7 +55,10 @@ fn a_run_ends_at_its_bound_on_increments() {
 fn a_limit_load_ends_increments_of_any_path_error() {
     let limit = |path_error: f64| {
         let asked = format!("program.path_error={path_error}");
-        let found = as_far_as_it_goes(&tube("[{ load_factor = 250 }]", &[&asked]));
+        let found = run_as_far_as_it_goes(
+            &tube("[{ load_factor = 250 }]", &[&asked]),
+            Backend::default(),
+        );
         let end = found.incomplete.expect("an end");
         assert_eq!(end.kind, ErrorKind::Collapse, "{}", end.why);
         assert!(end.why.contains("is the last that was held"), "{}", end.why);

@@ -5,7 +5,7 @@
 //! behind a dense factor, the rest of a search. Then "restart changes the answer". Passing means
 //! the same bits.
 
-use crate::support::{SMALL_BALL, SMALL_PUNCH, either, load};
+use crate::support::{SMALL_BALL, SMALL_PUNCH, analysis, either, load};
 use brinell::analysis::Analysis;
 use brinell::checkpoint::Checkpoints;
 use brinell::linalg::Backend;
@@ -41,10 +41,6 @@ impl Observer for Collector<'_> {
             Flow::Continue
         }
     }
-}
-
-fn analysis(scene: &Scene) -> Analysis {
-    Analysis::new(Model::new(scene).unwrap(), Backend::default()).unwrap()
 }
 
 /// All numbers of a run, bit by bit: `Debug` writes the shortest text that only the same number

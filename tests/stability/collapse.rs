@@ -1,23 +1,14 @@
 //! Limit loads, and iterations that do not converge: the one is not taken for the other.
 
-use crate::support::{close, load, run, run_file, sparse};
+use crate::support::{close, load, run, run_as_far_as_it_goes, run_file, sparse};
 use brinell::ErrorKind;
-use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::Scene;
 
-/// What was computed up to the end of a run that need not complete.
-fn as_far_as_it_goes(scene: &Scene, backend: Backend) -> Results {
-    let mut analysis = Analysis::new(Model::new(scene).unwrap(), backend).unwrap();
-    analysis.run(&mut Silent).unwrap()
-}
-
 /// The kind of the end, the last load factor that was held, and why the run ended.
 fn end_of(scene: &Scene) -> (Option<ErrorKind>, f64, String) {
-    let results = as_far_as_it_goes(scene, Backend::default());
+    let results = run_as_far_as_it_goes(scene, Backend::default());
     let held = results.history.last().unwrap().alpha;
     (
         results.ending().kind(),
@@ -162,11 +153,11 @@ fn tangents_are_factored_where_little_stiffness_is_left() {
         "mesh.parts.0.element=tri6",
     ];
     let scene = load("hard/nearly_incompressible", &set);
-    let dense = as_far_as_it_goes(&scene, Backend::Dense);
+    let dense = run_as_far_as_it_goes(&scene, Backend::Dense);
     assert_eq!(dense.counts.zone_factorizations, 0);
     assert!(dense.counts.trailing_solves < 3000, "{:?}", dense.counts);
     for backend in sparse() {
-        let factored = as_far_as_it_goes(&scene, backend);
+        let factored = run_as_far_as_it_goes(&scene, backend);
         let [a, b] = [&factored, &dense].map(|results| {
             assert_eq!(results.ending().kind(), Some(ErrorKind::Collapse));
             results.history.last().unwrap().alpha

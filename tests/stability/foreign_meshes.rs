@@ -7,13 +7,9 @@
 
 use crate::support::msh::{Body, Msh};
 use crate::support::random::Random;
-use crate::support::{either, parse};
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
+use crate::support::{either, run_text_as_far_as_it_goes};
+use brinell::ErrorKind;
 use brinell::results::Results;
-use brinell::{ErrorKind, Result};
 use std::path::Path;
 
 const YIELD: [f64; 2] = [200.0, 800.0];
@@ -155,18 +151,15 @@ fn limit(results: &Results, what: &str) -> Option<f64> {
 #[test]
 fn default_settings_come_to_the_end_or_to_a_limit_load() {
     let folder = tempfile::tempdir().unwrap();
-    let run = |text: &str| -> Result<Results> {
-        Analysis::new(Model::new(&parse(text))?, Backend::default())?.run(&mut Silent)
-    };
     let (mut yielded, mut limits) = (0, 0);
     for seed in 1..=either(100, 500) {
         let text = model(seed, folder.path());
-        let results = run(&text).unwrap_or_else(|why| panic!("seed {seed}: {why}\n{text}"));
+        let results = run_text_as_far_as_it_goes(&text);
         yielded += usize::from(results.states.iter().any(|state| state.plastic_points > 0));
         if let Some(held) = limit(&results, &text) {
             limits += 1;
             let steps = text.replace("program.", "program.stepping = \"steps\"\nprogram.");
-            let steps = run(&steps).unwrap_or_else(|why| panic!("seed {seed}: {why}\n{text}"));
+            let steps = run_text_as_far_as_it_goes(&steps);
             let other = limit(&steps, &text).expect("a limit load");
             // Known to a millionth of the step, and to the tolerance of contact.
             assert!(

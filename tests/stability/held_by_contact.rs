@@ -2,10 +2,6 @@
 
 use crate::support::random::Random;
 use crate::support::{self, close, either, healthy, largest, parse, run_file, same_contact, state};
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
 use brinell::results::Status;
 use brinell::scene::Scene;
 use std::f64::consts::PI;
@@ -199,10 +195,7 @@ fn a_ball_is_held_by_whichever_pair_comes_first() {
                         &format!("contact.0.slave=\"{slave}\""),
                     ],
                 );
-                let model = Model::new(&scene).unwrap();
-                let mut analysis = Analysis::new(model, Backend::default()).unwrap();
-                let found = analysis.yield_load(&mut Silent).unwrap();
-                found.first_yield.unwrap().alpha
+                support::yield_load(&scene).first_yield.unwrap().alpha
             });
             let change = yields[0] / yields[1] - 1.0;
             assert!(change.abs() < 0.011, "{element} {resolution}: {yields:?}");

@@ -1,11 +1,8 @@
 //! Plastic flow that keeps its volume, in all element shapes.
 
-use crate::support::{either, load, run_file};
+use crate::support::{either, load, run_as_far_as_it_goes, run_file};
 use brinell::ErrorKind;
-use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
 use brinell::results::Status;
 
 /// Limit pressure of the tube over Hill's, and the warnings; `None` where no collapse was found up
@@ -16,11 +13,7 @@ fn limit(shape: &str, nu: f64) -> (Option<f64>, Vec<String>) {
         format!("materials.steel.poissons_ratio={nu}"),
     ];
     let scene = load("hard/nearly_incompressible", &[&set[0], &set[1]]);
-    let model = Model::new(&scene).unwrap();
-    let results = Analysis::new(model, Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
+    let results = run_as_far_as_it_goes(&scene, Backend::default());
     let exact = 2.0 * 240.0 / 3f64.sqrt() * 2f64.ln();
     let collapsed = results.ending().kind() == Some(ErrorKind::Collapse);
     let last = results.history.last().unwrap().alpha;
@@ -60,9 +53,8 @@ fn limit_loads_of_a_sphere() {
                 "program.targets=[{ load_factor = 300.0 }, { load_factor = 345.0 }]".to_string(),
             ];
             let set: Vec<&str> = set.iter().map(String::as_str).collect();
-            let model = Model::new(&load("thick_sphere", &set)).unwrap();
-            let mut analysis = Analysis::new(model, Backend::default()).unwrap();
-            let results = analysis.run(&mut Silent).unwrap();
+            let scene = load("thick_sphere", &set);
+            let results = run_as_far_as_it_goes(&scene, Backend::default());
             assert_eq!(
                 results.ending().kind(),
                 Some(ErrorKind::Collapse),

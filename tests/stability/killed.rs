@@ -1,6 +1,7 @@
 //! Killed at any moment: `kill -9` leaves no time to tidy up.
 #![cfg(unix)]
 
+use crate::support::program::{program, stderr, summary};
 use crate::support::tools::with_these_kernels;
 use crate::support::{SMALL_BALL, limit, scene_file};
 use std::path::Path;
@@ -19,7 +20,7 @@ const ROLLER: Case = ("roller_on_plate", &[]);
 const BALL: Case = ("ball_on_flat_3d", &SMALL_BALL);
 
 fn start((scene, sets): Case, out: &Path, more: &[&str]) -> Child {
-    with_these_kernels(&mut Command::new(env!("CARGO_BIN_EXE_brinell")))
+    with_these_kernels(&mut program())
         .arg("run")
         .arg(scene_file(scene))
         .args(["-q", "--no-report", "--no-estimate", "--threads", "1"])
@@ -35,9 +36,8 @@ fn start((scene, sets): Case, out: &Path, more: &[&str]) -> Child {
 
 /// Everything in `summary.json` but what a clock or the operating system says, and how often the
 /// run went on.
-fn summary(dir: &Path) -> serde_json::Value {
-    let text = std::fs::read_to_string(dir.join("summary.json")).unwrap();
-    let mut summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+fn lasting_summary(dir: &Path) -> serde_json::Value {
+    let mut summary = summary(dir);
     let object = summary.as_object_mut().unwrap();
     for key in ["timings", "peak_memory_bytes", "resumed"] {
         assert!(object.remove(key).is_some(), "{key}");
@@ -57,11 +57,7 @@ fn killed_again_and_again(case: Case) {
     let (plain, killed) = (folder.path().join("plain"), folder.path().join("killed"));
     let begin = Instant::now();
     let output = limit::finish(start(case, &plain, &[]));
-    assert!(
-        output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    assert!(output.status.success(), "{}", stderr(&output));
     let whole = begin.elapsed();
 
     let checkpoint = folder.path().join("killed.checkpoint/checkpoint");
@@ -158,7 +154,7 @@ fn a_solid_killed_again_and_again_has_the_results_of_one_that_was_not() {
 
 /// Every number of the summary and every byte of every other file.
 fn same_results(plain: &Path, other: &Path) {
-    assert_eq!(summary(plain), summary(other));
+    assert_eq!(lasting_summary(plain), lasting_summary(other));
     let mut compared = 0;
     for entry in std::fs::read_dir(plain).unwrap() {
         let name = entry.unwrap().file_name();
@@ -193,7 +189,7 @@ fn a_run_stopped_by_the_user_goes_on() {
             code => panic!("{code:?}"),
         }
     }
-    assert!(summary(&stopped)["incomplete"].is_string());
+    assert!(lasting_summary(&stopped)["incomplete"].is_string());
     assert!(checkpoint.is_file());
     assert!(limit::wait(&mut start(CYLINDER, &stopped, &["--resume"])).success());
     same_results(&plain, &stopped);

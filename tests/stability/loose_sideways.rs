@@ -5,12 +5,7 @@
 
 use crate::support::msh::{Body, Msh};
 use crate::support::random::Random;
-use crate::support::{either, parse};
-use brinell::Result;
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
+use crate::support::{either, run_text_as_far_as_it_goes};
 use brinell::results::Results;
 use std::path::Path;
 
@@ -151,10 +146,6 @@ program.targets = [{{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]
     }
 }
 
-fn run(text: &str) -> Result<Results> {
-    Analysis::new(Model::new(&parse(text))?, Backend::default())?.run(&mut Silent)
-}
-
 /// It touches where it stands: no pair of the other half of the block carries force, what it
 /// carries is the load, and where it is held besides, the pressure is the same but for what the
 /// sides of elements make of it. Whatever the order of the surfaces, whichever way it looks.
@@ -164,7 +155,7 @@ fn a_round_punch_stays_where_it_is() {
     for seed in 1..=either(20, 400) {
         let [loose, held] = [false, true].map(|held| {
             let punch = punch(seed, held, folder.path());
-            let results = run(&punch.text).unwrap_or_else(|why| panic!("{why}\n{}", punch.text));
+            let results = run_text_as_far_as_it_goes(&punch.text);
             let ending = results.ending();
             assert!(ending.kind().is_none(), "{ending:?}\n{}", punch.text);
             (punch, results)
@@ -236,7 +227,7 @@ load = [
 program.targets = [{ load_factor = 1.0 }]
 "#;
     for push in [1.0, 1e-2, 1e-4] {
-        let results = run(&text.replace("PUSH", &format!("{push:?}"))).expect("a wall stops it");
+        let results = run_text_as_far_as_it_goes(&text.replace("PUSH", &format!("{push:?}")));
         let ending = results.ending();
         assert!(ending.kind().is_none(), "{push}: {ending:?}");
         let pairs = results.states[0].pairs.iter();

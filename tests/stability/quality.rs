@@ -1,5 +1,6 @@
 //! Loss of accuracy is noticed: figures of quality mean something in every state.
 
+use crate::support::program::{program, stderr};
 use crate::support::{close, run_file, state};
 
 /// Relative to what little is left after unloading, round-off looks like an error of 100 %, and
@@ -101,7 +102,7 @@ fn lost_accuracy_has_a_warning_and_an_exit_code() {
     let folder = std::env::temp_dir().join(format!("brinell-inaccurate-{}", std::process::id()));
     let tight = [LOOSE[0], "analysis.tolerance=1e-9"];
     for (set, code) in [(tight, 0), (LOOSE, 7)] {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_brinell"));
+        let mut command = program();
         command
             .args(["run", "-q", "--json", "--no-estimate"])
             .args(["--set", set[0], "--set", set[1]])
@@ -115,7 +116,7 @@ fn lost_accuracy_has_a_warning_and_an_exit_code() {
         let warnings = summary["warnings"].as_array().unwrap();
         assert_eq!(inaccurate.is_empty(), code == 0, "{inaccurate:?}");
         assert!(inaccurate.iter().all(|i| warnings.contains(i)));
-        let told = String::from_utf8_lossy(&output.stderr).contains("equilibrium");
+        let told = stderr(&output).contains("equilibrium");
         assert_eq!(told, code != 0);
     }
     std::fs::remove_dir_all(folder).unwrap();
@@ -180,10 +181,7 @@ fn the_condition_is_estimated_where_it_matters() {
 fn a_yield_load_has_its_quality_too() {
     let quality = |overrides: &[&str]| {
         let scene = crate::support::load("hard/unload_reload", overrides);
-        let model = brinell::model::Model::new(&scene).unwrap();
-        let mut analysis =
-            brinell::analysis::Analysis::new(model, brinell::linalg::Backend::default()).unwrap();
-        let results = analysis.yield_load(&mut brinell::progress::Silent).unwrap();
+        let results = crate::support::yield_load(&scene);
         assert!(results.first_yield.is_some());
         (results.quality, results.inaccurate)
     };

@@ -1,6 +1,7 @@
 //! Whether refinement with a residual in twice the working precision would make a scene's
 //! displacements better.
 
+use crate::support::build::{Build, elastic};
 use crate::support::largest;
 use brinell::assembly::assemble;
 use brinell::linalg::{
@@ -8,7 +9,7 @@ use brinell::linalg::{
 };
 use brinell::mesh::Shape;
 use brinell::model::{Model, ModelBuilder};
-use brinell::scene::{Body, Direction, Kind, Load, Material, Support};
+use brinell::scene::{Body, Direction, Kind, Support};
 
 /// A rectangle of `elements` under pressure on its top. The lower half has `moduli[0]`, the upper
 /// `moduli[1]`.
@@ -52,11 +53,7 @@ impl Rectangle {
             builder.elements(Shape::Quad4, body, &corners).unwrap();
         }
         for (body, modulus) in ["lower", "upper"].into_iter().zip(self.moduli) {
-            let material = Material {
-                youngs_modulus: modulus,
-                poissons_ratio: self.nu,
-                ..Material::default()
-            };
+            let material = elastic(modulus, self.nu);
             builder.material(body, material).unwrap();
             let material = body.to_string();
             builder
@@ -86,11 +83,7 @@ impl Rectangle {
                 ..Support::default()
             });
         }
-        builder.load(Load {
-            on: "top".into(),
-            pressure: Some(10.0.into()),
-            ..Load::default()
-        });
+        builder.press("top", 10.0);
         builder.build().unwrap()
     }
 }

@@ -1,24 +1,12 @@
 //! Hard cases in three dimensions.
 
+use crate::support::build::{Build, elastic};
 use crate::support::grid::{Grid, Point};
-use crate::support::{close, healthy, largest, parse, run};
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
+use crate::support::{close, healthy, largest, parse, run, run_built};
 use brinell::mesh::Shape;
 use brinell::model::{ModelBuilder, NodePair};
-use brinell::progress::Silent;
-use brinell::results::{Results, Status};
-use brinell::scene::{
-    Body, Contact, Direction, Displacement, Kind, Load, Material, PlaneForce, Support, Target,
-};
-
-fn elastic(youngs_modulus: f64, poissons_ratio: f64) -> Material {
-    Material {
-        youngs_modulus,
-        poissons_ratio,
-        ..Material::default()
-    }
-}
+use brinell::results::Status;
+use brinell::scene::{Contact, Direction, Displacement, Kind, Load, Material, PlaneForce, Target};
 
 /// Quarter models of boxes one on top of the other, `[0, 1]^2` wide: name, material,
 /// height of the lower side.
@@ -36,25 +24,13 @@ fn stack(bodies: &[(&str, Material, f64)], shape: Shape, cells: [usize; 3]) -> M
         };
         grid.add(&mut builder);
         builder.material(name, material.clone()).unwrap();
-        let body = Body {
-            material: name.into(),
-            ..Body::default()
-        };
-        builder.body(name, body).unwrap();
+        builder.of(name, name);
         for (side, direction) in [("x0", Direction::X), ("y0", Direction::Y)] {
-            builder.support(Support {
-                on: format!("{name}.{side}"),
-                fix: vec![direction],
-                ..Support::default()
-            });
+            builder.hold(format!("{name}.{side}"), direction);
         }
     }
     let base = bodies[0].0;
-    builder.support(Support {
-        on: format!("{base}.z0"),
-        fix: vec![Direction::Z],
-        ..Support::default()
-    });
+    builder.hold(format!("{base}.z0"), Direction::Z);
     builder
 }
 
@@ -96,16 +72,6 @@ fn curved_off(builder: &mut ModelBuilder, first: &str, second: &str, radius: f64
     builder.contact_pairs(contact, &pairs).unwrap();
 }
 
-fn result(builder: &ModelBuilder) -> Results {
-    let model = builder.build().unwrap();
-    let results = Analysis::new(model, Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
-    results
-}
-
 /// A ball between two flats, held by nothing but contact on both sides, as soft as they are, and
 /// 1e8 times as stiff or soft: both contacts carry the whole force, and with like flats the same
 /// pressures.
@@ -123,7 +89,7 @@ fn a_floating_ball_between_two_flats() {
         // The compliance of the softest body decides how far the contact spreads.
         let force = 4.0 * f64::min(1.0, ratio);
         pressed(&mut builder, "lid.z1", force);
-        let results = result(&builder);
+        let results = run_built(&builder);
         healthy(&results);
         let state = &results.states[0];
         for contact in 0..2 {
@@ -168,12 +134,8 @@ fn flat_faces_pass_a_uniform_pressure() {
             second: "lower.z1".into(),
             ..Contact::default()
         });
-        builder.load(Load {
-            on: "upper.z1".into(),
-            pressure: Some(10.0.into()),
-            ..Load::default()
-        });
-        let results = result(&builder);
+        builder.press("upper.z1", 10.0);
+        let results = run_built(&builder);
         healthy(&results);
         for pair in &results.states[0].pairs {
             assert_eq!(pair.status, Status::Closed);
@@ -190,7 +152,7 @@ fn one_pair_carries_the_force() {
     for force in [1e-6, 1e-3] {
         let mut builder = ball_on_flat(0.0);
         pressed(&mut builder, "ball.z1", force);
-        let results = result(&builder);
+        let results = run_built(&builder);
         let state = &results.states[0];
         let closed = state.pairs.iter().filter(|p| p.status == Status::Closed);
         assert_eq!(closed.count(), 1, "{force}");
@@ -220,7 +182,7 @@ fn a_ball_grazes_without_force() {
             ..Target::default()
         });
     }
-    let results = result(&builder);
+    let results = run_built(&builder);
     healthy(&results);
     let [graze, away, again, pressed, back, start] = &results.states[..] else {
         panic!("{} states", results.states.len());
@@ -328,11 +290,7 @@ fn plastic_flow_near_incompressibility_passes_through_a_contact() {
         let bodies = [("lower", metal.clone(), 0.0), ("upper", metal, 1.0)];
         let mut builder = stack(&bodies, shape, cells);
         for body in ["lower", "upper"] {
-            builder.support(Support {
-                on: format!("{body}.y1"),
-                fix: vec![Direction::Y],
-                ..Support::default()
-            });
+            builder.hold(format!("{body}.y1"), Direction::Y);
         }
         builder.contact(Contact {
             first: "upper.z0".into(),
@@ -348,7 +306,7 @@ fn plastic_flow_near_incompressibility_passes_through_a_contact() {
             }),
             ..Load::default()
         });
-        let results = result(&builder);
+        let results = run_built(&builder);
         healthy(&results);
         let state = &results.states[0];
         assert!(state.plastic_points > 0);
@@ -371,7 +329,7 @@ fn pairs_on_planes_of_symmetry_carry_their_share() {
     let mut builder = stack(&bodies, Shape::Hex8, [6, 6, 3]);
     curved(&mut builder, "ball", "flat", 20.0);
     pressed(&mut builder, "ball.z1", 4.0);
-    let results = result(&builder);
+    let results = run_built(&builder);
     healthy(&results);
     let state = &results.states[0];
     // Pressures fall from the pole outward, whatever the share of a pair in its force.

@@ -8,7 +8,7 @@
 
 use crate::support::msh::{Body, Msh};
 use crate::support::random::Random;
-use crate::support::{close, either, parse, try_run};
+use crate::support::{close, either, parse, run_text, try_run};
 use brinell::linalg::Backend;
 use brinell::results::Results;
 use std::fmt::Write;
@@ -16,10 +16,6 @@ use std::path::Path;
 
 /// Yield stress of all models.
 const YIELD: f64 = 200.0;
-
-fn run(text: &str) -> Results {
-    try_run(&parse(text), Backend::default()).unwrap_or_else(|e| panic!("{e}\n{text}"))
-}
 
 /// A block sheared between a base and a top that hold it in planes: the middle is in simple shear,
 /// whose von Mises stress is `sqrt(3) G` times the angle.
@@ -60,7 +56,7 @@ load = [{{ on = "b.top", displacement = {{ x = {angle} }} }}]
 program.targets = [{{ load_factor = 1.0 }}]
 "#
         );
-        let results = run(&text);
+        let results = run_text(&text);
         let first = results.first_yield.expect("it yields");
         // The middle is in simple shear but for what the free ends, ten heights away, leave there;
         // beside them, where the base is held, the stress is higher, and grows with the mesh.
@@ -78,7 +74,7 @@ program.targets = [{{ load_factor = 1.0 }}]
 #[test]
 fn a_beam_one_element_wide_is_that_of_two() {
     let of_width = |n: usize, load: f64| {
-        run(&format!(
+        run_text(&format!(
             r#"kind = "solid"
 mesh.parts = [{{ body = "b", element = "hex8", brick = {{ x = [0, 10], y = [0, 1], z = [0, 1],
                elements = [40, {n}, 6] }} }}]
@@ -122,7 +118,7 @@ load = [{{ on = "b.right", traction = [0.0, 7.0] }}]
 program.targets = [{{ load_factor = 1.0 }}]
 "#
             );
-            let results = run(&text);
+            let results = run_text(&text);
             // Moment 70 at the end that is held, 33 at first yield, 50 fully plastic.
             assert!(results.states[0].plastic_points > 0, "{text}");
             let alpha = results.first_yield.unwrap().alpha;
@@ -154,7 +150,7 @@ load = [{{ on = "b.right", traction = [0.0, 0.0, {force}] }}]
 program.targets = [{{ load_factor = 1.0 }}]
 "#
             );
-            let results = run(&text);
+            let results = run_text(&text);
             let alpha = results.first_yield.expect("it yields").alpha;
             let moment = YIELD * thickness.powi(2) / 6.0 / (1.0f64 - 0.3 + 0.09).sqrt();
             let exact = moment / (force * thickness * 10.0);

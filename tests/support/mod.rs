@@ -1,12 +1,15 @@
 //! Running scenes in tests, and comparing what came out.
-#![allow(dead_code)] // examples and tests/mpi use a part of it
+#![allow(dead_code)] // benches, examples and tests/mpi use a part of it
 
+pub mod build;
+pub mod families;
 pub mod frd;
 pub mod grid;
 pub mod interpreter;
 pub mod limit;
 pub mod meshes;
 pub mod msh;
+pub mod program;
 pub mod random;
 pub mod scenes;
 pub mod svg;
@@ -16,7 +19,7 @@ use brinell::Result;
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
 use brinell::mesh::Mesh;
-use brinell::model::Model;
+use brinell::model::{Model, ModelBuilder};
 use brinell::progress::Silent;
 use brinell::results::{Results, State, Status};
 use brinell::scene::Scene;
@@ -31,11 +34,19 @@ pub fn either<T>(quick: T, thorough: T) -> T {
     }
 }
 
+/// The folder of the repository.
+pub fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
 /// A file under `data/scenes`.
 pub fn scene_file(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("data/scenes")
-        .join(format!("{name}.toml"))
+    root().join(format!("data/scenes/{name}.toml"))
+}
+
+/// A file under `data/scenes`, as an argument of the program.
+pub fn scene_path(name: &str) -> String {
+    scene_file(name).to_str().unwrap().to_string()
 }
 
 /// Overrides that make `ball_on_flat_3d` a matter of tenths of a second.
@@ -76,15 +87,6 @@ pub fn try_run(scene: &Scene, backend: Backend) -> Result<Results> {
     complete(Analysis::new(Model::new(scene)?, backend)?.run(&mut Silent)?)
 }
 
-/// Runs a scene on a given mesh.
-pub fn run_on(scene: &Scene, mesh: Mesh) -> Results {
-    let model = Model::from_mesh(scene, mesh).unwrap_or_else(|e| panic!("{}: {e}", scene.title));
-    Analysis::new(model, Backend::default())
-        .and_then(|mut a| a.run(&mut Silent))
-        .and_then(complete)
-        .unwrap_or_else(|e| panic!("{}: {e}", scene.title))
-}
-
 fn complete(results: Results) -> Result<Results> {
     match &results.incomplete {
         None => Ok(results),
@@ -93,13 +95,83 @@ fn complete(results: Results) -> Result<Results> {
 }
 
 /// Runs a scene that must succeed.
+#[track_caller]
 pub fn run(scene: &Scene) -> Results {
     try_run(scene, Backend::default()).unwrap_or_else(|e| panic!("{}: {e}", scene.title))
 }
 
+/// Runs a scene that must succeed; its model comes along.
+#[track_caller]
+pub fn run_with_model(scene: &Scene) -> (Model, Results) {
+    let mut analysis = analysis(scene);
+    let results = analysis.run(&mut Silent).and_then(complete);
+    let results = results.unwrap_or_else(|e| panic!("{}: {e}", scene.title));
+    (analysis.model().clone(), results)
+}
+
 /// Runs a scene of `data/scenes` that must succeed.
+#[track_caller]
 pub fn run_file(name: &str, overrides: &[&str]) -> Results {
     run(&load(name, overrides))
+}
+
+/// Runs a scene from its text that must succeed.
+#[track_caller]
+pub fn run_text(text: &str) -> Results {
+    try_run(&parse(text), Backend::default()).unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// Runs a scene on a given mesh.
+#[track_caller]
+pub fn run_on(scene: &Scene, mesh: Mesh) -> Results {
+    let model = Model::from_mesh(scene, mesh).unwrap_or_else(|e| panic!("{}: {e}", scene.title));
+    run_model(model, Backend::default())
+}
+
+/// Runs a model that must succeed.
+#[track_caller]
+pub fn run_model(model: Model, backend: Backend) -> Results {
+    let results = Analysis::new(model, backend).and_then(|mut a| a.run(&mut Silent));
+    results.and_then(complete).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Runs a model that was built by hand and must succeed.
+#[track_caller]
+pub fn run_built(builder: &ModelBuilder) -> Results {
+    let model = builder.build().unwrap_or_else(|e| panic!("{e}"));
+    run_model(model, Backend::default())
+}
+
+/// Runs a scene to its end or to its limit load.
+#[track_caller]
+pub fn run_as_far_as_it_goes(scene: &Scene, backend: Backend) -> Results {
+    let results = Model::new(scene)
+        .and_then(|model| Analysis::new(model, backend))
+        .and_then(|mut a| a.run(&mut Silent));
+    results.unwrap_or_else(|e| panic!("{}: {e}", scene.title))
+}
+
+/// Runs a scene from its text to its end or to its limit load.
+#[track_caller]
+pub fn run_text_as_far_as_it_goes(text: &str) -> Results {
+    let mut analysis = analysis(&parse(text));
+    let results = analysis.run(&mut Silent);
+    results.unwrap_or_else(|e| panic!("{e}\n{text}"))
+}
+
+/// What is ready to run a scene.
+#[track_caller]
+pub fn analysis(scene: &Scene) -> Analysis {
+    Model::new(scene)
+        .and_then(|model| Analysis::new(model, Backend::default()))
+        .unwrap_or_else(|e| panic!("{}: {e}", scene.title))
+}
+
+/// First yield alone.
+#[track_caller]
+pub fn yield_load(scene: &Scene) -> Results {
+    let found = analysis(scene).yield_load(&mut Silent);
+    found.unwrap_or_else(|e| panic!("{}: {e}", scene.title))
 }
 
 /// The state of a name.
@@ -153,6 +225,28 @@ pub fn same_contact(what: &str, a: &State, b: &State, tolerance: f64) {
         if p.gap > tolerance * gap || p.force > tolerance * force {
             assert_eq!(p.status, q.status, "{what}: status of pair {}", p.pair);
         }
+    }
+}
+
+/// Two states have the same figures to a share of those of the `largest` state; the second is of a
+/// part, so many `times` of which are the whole.
+#[track_caller]
+pub fn same_figures(a: &State, b: &State, times: f64, largest: &State, share: f64) {
+    let figures = |state: &State, times: f64| {
+        [
+            ("force", times * state.contact_force),
+            ("pressure", state.max_pressure),
+            ("approach", state.approach),
+            ("dent", state.residual_depth),
+            ("plastic strain", state.max_equivalent_plastic_strain),
+        ]
+    };
+    let mut scales = figures(largest, 1.0).map(|(_, scale)| scale);
+    // A dent is a part of the approach.
+    scales[3] = largest.approach;
+    for (((what, x), (_, y)), scale) in (figures(a, 1.0).iter()).zip(figures(b, times)).zip(scales)
+    {
+        assert!((x - y).abs() < share * scale, "{} {what}: {x} {y}", a.name);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-/// Their names: `NAME` and `hard/NAME`.
+/// Names of the scenes: `NAME` and `hard/NAME`.
 pub fn all() -> Vec<String> {
     let of_folder = |folder: &str| {
         let path = format!("{}/data/scenes/{folder}", env!("CARGO_MANIFEST_DIR"));

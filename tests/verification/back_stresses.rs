@@ -5,13 +5,12 @@
 //! exactly in one dimension; code_aster, test SSNP14 (V6.03.014), modelling A: a plate under
 //! traction and shear with linear kinematic hardening, values of astest/ssnp14a.comm.
 
-use crate::verification::run::{close, run};
-use brinell::analysis::Analysis;
+use crate::support::{run_model, run_text};
+use crate::verification::close;
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::ModelBuilder;
-use brinell::progress::Silent;
-use brinell::scene::{Kind, Scene};
+use brinell::scene::Kind;
 
 const E: f64 = 200_000.0;
 const Y: f64 = 200.0;
@@ -144,7 +143,7 @@ targets = [{}]
 "#,
                 targets(&strains)
             );
-            let results = run(&Scene::parse(&text, "bar").unwrap());
+            let results = run_text(&text);
             let mut bar = Bar::new(H, laws);
             for (state, strain) in results.states.iter().zip(strains) {
                 let exact = bar.strain_to(strain);
@@ -196,7 +195,7 @@ targets = [{}]
 "#,
             targets(&[high, low].repeat(6))
         );
-        let results = run(&Scene::parse(&text, "bar").unwrap());
+        let results = run_text(&text);
         let strain = |state: &brinell::results::State| {
             let u = &state.fields.as_ref().unwrap().displacement;
             u.iter().fold(f64::NEG_INFINITY, |m, u| m.max(*u))
@@ -279,12 +278,7 @@ targets = [{{ load_factor = 1.0 }}, {{ load_factor = 2.0 }}, {{ load_factor = 3.
 "#
     );
     builder.tables(&text).unwrap();
-    let model = builder.build().unwrap();
-    let results = Analysis::new(model, Backend::default())
-        .unwrap()
-        .run(&mut Silent)
-        .unwrap();
-    assert_eq!(results.incomplete, None);
+    let results = run_model(builder.build().unwrap(), Backend::default());
     let dimension = if solid { 3 } else { 2 };
     let strains = results.states.iter().map(|state| {
         let u = &state.fields.as_ref().unwrap().displacement;

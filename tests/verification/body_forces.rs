@@ -4,14 +4,12 @@
 //! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), sections 9 and 32
 //! (rotating disks).
 
-use crate::verification::run::{close, run, yield_load};
+use crate::support::{parse, run, run_as_far_as_it_goes, run_text, yield_load};
+use crate::verification::close;
+use brinell::linalg::Backend;
 use brinell::scene::Scene;
 
 const DENSITY: f64 = 7.85e-9;
-
-fn parse(text: &str) -> Scene {
-    Scene::parse(text, "test").unwrap()
-}
 
 /// A column that stands on its foot and carries its weight: `u(L) = rho g L^2/(2 E)`, exact in
 /// quadratic elements.
@@ -187,7 +185,7 @@ fn a_rotating_annulus_ends_at_its_limit_speed() {
     ));
     assert_eq!(held.incomplete, None);
     let beyond = annulus(8, &format!("[{{ load_factor = {} }}]", 1.01 * limit));
-    let ended = crate::verification::run::run_until_it_ends(&beyond);
+    let ended = run_as_far_as_it_goes(&beyond, Backend::default());
     assert!(ended.incomplete.is_some());
 }
 
@@ -229,7 +227,7 @@ fix = ["x"]
 [program]
 targets = [{ load_factor = 1.0 }, { load_factor = 0.5 }]
 "#;
-    let results = run(&parse(text));
+    let results = run_text(text);
     let weight = DENSITY * 9810.0 * 12.0;
     close(results.states[0].contact_force, weight, 1e-9);
     close(results.states[1].contact_force, 0.5 * weight, 1e-9);

@@ -1,7 +1,7 @@
 //! Pressures, tractions, displacements, gaps and interferences that depend on the position: by
 //! formula and by values at nodes, against closed forms that the elements can show exactly.
 
-use super::run::run;
+use crate::support::{parse, run};
 use brinell::analytical::HertzLine;
 use brinell::model::{LoadCase, Model};
 use brinell::results::Results;
@@ -18,7 +18,7 @@ fn parsed(kind: &str, text: &str) -> Scene {
          [bodies]\nb = {{ material = \"m\" }}\n\
          [program]\ntargets = [{{ load_factor = 1.0 }}]\n"
     );
-    Scene::parse(&text, "test").unwrap()
+    parse(&text)
 }
 
 fn displacement(results: &Results) -> &[f64] {
@@ -303,7 +303,7 @@ fn parsed_two(text: &str) -> Scene {
          [bodies]\nb = {{ material = \"m\" }}\nu = {{ material = \"m\" }}\n\
          [program]\ntargets = [{{ load_factor = 1.0 }}]\n"
     );
-    Scene::parse(&text, "test").unwrap()
+    parse(&text)
 }
 
 /// Hertz' pressure as a load: the difference of the stresses below it is that of the contact.
@@ -387,7 +387,7 @@ u = {{ material = "hard" }}
 targets = [{{ load_factor = 1.0 }}]
 "#
             );
-            let scene = Scene::parse(&text, "test").unwrap();
+            let scene = parse(&text);
             (Model::new(&scene).unwrap(), run(&scene))
         };
         let formula = "\"0.01 + 0.004*x^2 + 0.002*x*y\"";

@@ -6,7 +6,7 @@
 //! with k = Y/sqrt(3) round it, and a material that carries more everywhere has the larger limit
 //! load (R. Hill, The Mathematical Theory of Plasticity, chapter III): 2.845 Y <= p <= 3.285 Y.
 
-use crate::verification::run::{run, scene, state};
+use crate::support::{run_file, state};
 use brinell::analytical::CircularPunch;
 
 #[test]
@@ -25,7 +25,7 @@ fn limit_load_lies_between_those_of_tresca() {
             "reference=[]",
             elements.as_str(),
         ];
-        let results = run(&scene("flat_punch", &set));
+        let results = run_file("flat_punch", &set);
         // Collapsed: a tenth of the load's rise is left of the way from half the displacement to
         // the whole.
         let [half, whole] = ["alpha 0.5", "flow"].map(|name| state(&results, name).load);

@@ -4,15 +4,15 @@
 //! Source: equilibrium; R. L. Taylor and P. Papadopoulos, On a patch test for contact problems in
 //! two dimensions (1991).
 
-use crate::verification::run::{close, run, scene};
-
+use crate::support::run_file;
+use crate::verification::close;
 #[test]
 fn uniform_pressure_passes() {
     for shape in ["quad4", "quad8", "tri3", "tri6"] {
         let lower = format!("mesh.parts.0.element=\"{shape}\"");
         let upper = format!("mesh.parts.1.element=\"{shape}\"");
         for (name, pressure) in [("contact_patch", 10.0)] {
-            let results = run(&scene(name, &[&lower, &upper]));
+            let results = run_file(name, &[&lower, &upper]);
             for pair in &results.states[0].pairs {
                 close(pair.pressure, pressure, 1e-10);
                 assert!(pair.gap.abs() <= 1e-10 * pressure / 210000.0);
@@ -27,7 +27,7 @@ fn uniform_pressure_passes() {
 
 #[test]
 fn a_gmsh_mesh_passes_too() {
-    for pair in &run(&scene("gmsh_blocks", &[])).states[0].pairs {
+    for pair in &run_file("gmsh_blocks", &[]).states[0].pairs {
         close(pair.pressure, 10.0, 1e-10);
     }
 }

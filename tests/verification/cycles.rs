@@ -5,10 +5,10 @@
 //! wall under a constant stress `sigma_p` whose temperature changes linearly across it in each
 //! cycle, by elastic stresses of `+-sigma_t` at its faces; perfectly plastic, uniaxial.
 
-use crate::verification::run::{close, run, scene};
+use crate::support::{parse, run, run_file, run_text};
+use crate::verification::close;
 use crate::verification::start_from::run_into;
 use brinell::results::{CycleOutcome, Results};
-use brinell::scene::Scene;
 
 const E: f64 = 200_000.0;
 const Y: f64 = 200.0;
@@ -45,7 +45,7 @@ cycles = {cycles}
         primary * Y,
         thermal * Y / (E * alpha)
     );
-    run(&Scene::parse(&text, "wall").unwrap())
+    run_text(&text)
 }
 
 /// Bree's regions: elastic below X + Y = 1, shakedown, plastic cycling beyond Y = 2 where X Y < 1,
@@ -109,14 +109,14 @@ fn too_few_cycles_are_not_steady() {
 fn a_contact_shakes_down_and_is_what_the_cycles_written_out_give() {
     let coarse = "mesh.cylinder_on_half_plane.resolution=4";
     let pair = "{ load_factor = 1.6 }, { load_factor = 0.2 }";
-    let cycles = run(&scene(
+    let cycles = run_file(
         "hard/cyclic",
         &[
             coarse,
             "program.cycles=30",
             &format!("program.targets=[{pair}]"),
         ],
-    ));
+    );
     let found = cycles.cycles.as_ref().unwrap();
     assert_eq!(
         found.outcome,
@@ -127,10 +127,10 @@ fn a_contact_shakes_down_and_is_what_the_cycles_written_out_give() {
     let n = found.rows.len();
     assert!(n < 30, "{n}");
     let all = vec![pair; n].join(", ");
-    let written_out = run(&scene(
+    let written_out = run_file(
         "hard/cyclic",
         &[coarse, &format!("program.targets=[{all}]")],
-    ));
+    );
     assert_eq!(written_out.history, cycles.history);
     assert_eq!(written_out.counts, cycles.counts);
     for (cycle, other) in cycles.states.iter().zip(&written_out.states[2 * n - 2..]) {
@@ -180,12 +180,12 @@ fn cycles_after_an_earlier_run_do_not_count_what_that_left() {
         "load = [{ on = \"b.top\", displacement = { y = 0.3 } }]",
         "targets = [{ load_factor = 1.0 }, { load_factor = 0.99 }]",
     );
-    run_into(&Scene::parse(&pulled, "pulled").unwrap(), &dir);
+    run_into(&parse(&pulled), &dir);
     let cycled = text(
         "load = [{ on = \"b.top\", traction = [0.0, 1.0] }]",
         "cycles = 300\ntargets = [{ load_factor = 260.0 }, { load_factor = -255.0 }]",
     );
-    let virgin = Scene::parse(&cycled, "cycled").unwrap();
+    let virgin = parse(&cycled);
     let mut after = virgin.clone();
     after.start_from = Some(dir);
     let [virgin, after] = [virgin, after].map(|scene| run(&scene).cycles.unwrap());

@@ -4,8 +4,8 @@
 //! Source: the flow rule in one dimension; J. C. Simo and T. J. R. Hughes, Computational
 //! Inelasticity (1998), section 1.4.
 
-use crate::verification::run::{close, run};
-use brinell::scene::Scene;
+use crate::support::run_text;
+use crate::verification::close;
 
 /// Stress of a bar with isotropic hardening `Y + H eps` about the back stress `C eps_p` at each
 /// total strain of a history.
@@ -80,7 +80,7 @@ targets = [{}]
 "#,
                 targets.join(",")
             );
-            let results = run(&Scene::parse(&text, "bar").unwrap());
+            let results = run_text(&text);
             let axis = if kind == "solid" { 2 } else { 1 };
             for (state, exact) in results.states.iter().zip(bar(&strains, modulus)) {
                 let stress = &state.fields.as_ref().unwrap().stress;
@@ -132,6 +132,6 @@ material = "metal"
 targets = [{{load_factor=0.004}}, {{load_factor=-0.003}}, {{load_factor=0.005}}]
 "#
     );
-    let results = run(&Scene::parse(&text, "bar").unwrap());
+    let results = run_text(&text);
     close(results.states[2].plastic_work, work, 1e-6);
 }

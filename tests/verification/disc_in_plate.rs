@@ -3,7 +3,8 @@
 //! Source: N. Endahl, section 5.2; integral equation of the receding contact,
 //! `brinell::analytical::DiscInPlate`.
 
-use crate::verification::run::{close, run, scene};
+use crate::support::run_file;
+use crate::verification::close;
 use brinell::analytical::{DiscInPlate, Plane};
 use brinell::results::Results;
 
@@ -11,7 +12,7 @@ use brinell::results::Results;
 fn elastic(overrides: &[&str]) -> Results {
     let mut all = vec!["program.targets=[{load_factor=0.5},{yield=true}]"];
     all.extend(overrides);
-    run(&scene("disc_in_plate", &all))
+    run_file("disc_in_plate", &all)
 }
 
 fn half_angle(results: &Results, state: usize) -> f64 {
@@ -102,10 +103,7 @@ fn size_of_the_plate_matters_less_than_the_mesh() {
 
 #[test]
 fn disc_stays_elastic_and_the_surfaces_part_on_the_way_down() {
-    let results = run(&scene(
-        "disc_in_plate",
-        &["mesh.disc_in_plate.resolution=60"],
-    ));
+    let results = run_file("disc_in_plate", &["mesh.disc_in_plate.resolution=60"]);
     let top = &results.states[4];
     assert_eq!(top.alpha, 2.0);
     for state in &results.states {

@@ -2,13 +2,8 @@
 //! whatever lies between: that of the stresses at its nodes, and the one by which the same state is
 //! reached.
 
-use super::run::run;
-use crate::support::either;
 use crate::support::random::Random;
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
-use brinell::model::Model;
-use brinell::progress::Silent;
+use crate::support::{either, parse, run, run_text, run_with_model};
 use brinell::results::State;
 use brinell::scene::Scene;
 
@@ -43,7 +38,7 @@ impl Pressed {
              [program]\ntargets = {targets}\n",
             self.kind, self.text
         );
-        Scene::parse(&text, "pressed").unwrap_or_else(|e| panic!("{e}\n{text}"))
+        parse(&text)
     }
 
     fn displacement(&self, by: f64) -> String {
@@ -141,12 +136,10 @@ fn pressed(random: &mut Random) -> Pressed {
 
 /// Sum of the forces that the stresses exert on what is moved, along its displacement.
 fn of_stresses(scene: &Scene, on: &str) -> (State, f64) {
-    let mut analysis = Analysis::new(Model::new(scene).unwrap(), Backend::default()).unwrap();
-    let results = analysis.run(&mut Silent).unwrap();
-    assert_eq!(results.incomplete, None);
+    let (model, results) = run_with_model(scene);
+    let mesh = &model.mesh;
     let state = results.states.last().unwrap().clone();
     assert_eq!(state.load, results.history.last().unwrap().load);
-    let mesh = &analysis.model().mesh;
     let force = &state.fields.as_ref().unwrap().force;
     let d = mesh.dimension;
     let nodes = mesh.set_nodes(on).unwrap();
@@ -232,7 +225,7 @@ fn the_load_of_a_gap_is_the_force_of_its_contact() {
              [materials.metal]\nyoungs_modulus = 1000.0\npoissons_ratio = 0.0\n\
              [[load]]\non = \"b1.bottom\"\ngap = -0.03\n\
              [program]\ntargets = [{ load_factor = 1.0 }]\n";
-    let results = run(&Scene::parse(&text, "wedge").unwrap());
+    let results = run_text(&text);
     let state = &results.states[0];
     // Three blocks in a row of the length 3, shortened by the wedge: E * 0.03 / 3.
     assert!((state.load - 10.0).abs() < 1e-10, "{}", state.load);

@@ -1,10 +1,8 @@
 //! Linear equations between displacements: a lever, an inclined roller, a surface held plane.
 
-use crate::verification::run::close;
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
+use crate::support::run_with_model;
+use crate::verification::close;
 use brinell::model::Model;
-use brinell::progress::Silent;
 use brinell::results::Results;
 use brinell::scene::{Direction, Equation, EquationTerm, Scene};
 
@@ -13,14 +11,14 @@ const E: f64 = 200_000.0;
 /// Two bars along x in plane stress, 4 long and 2 wide, on rollers at their left ends. The
 /// equations hold the right ends plane and couple them by `lever`.
 fn bars(equations: &str, loads: &str) -> Scene {
-    parse(equations, loads).unwrap()
+    try_bars(equations, loads).unwrap()
 }
 
 fn model_of(equations: &str, loads: &str) -> brinell::Result<Model> {
-    Model::new(&parse(equations, loads)?)
+    Model::new(&try_bars(equations, loads)?)
 }
 
-fn parse(equations: &str, loads: &str) -> brinell::Result<Scene> {
+fn try_bars(equations: &str, loads: &str) -> brinell::Result<Scene> {
     let bar = |name: &str, y: f64| {
         format!(
             "{{ body = \"{name}\", element = \"quad4\", block = {{ x = [0.0, 4.0], y = [{y:?}, \
@@ -64,14 +62,6 @@ fn equation(terms: &[String]) -> String {
     format!("{{ terms = [{}] }}", terms.join(", "))
 }
 
-fn run_on_model(scene: &Scene) -> (Model, Results) {
-    let model = Model::new(scene).unwrap();
-    let mut analysis = Analysis::new(model.clone(), Backend::default()).unwrap();
-    let results = analysis.run(&mut Silent).unwrap();
-    assert_eq!(results.incomplete, None);
-    (model, results)
-}
-
 /// Displacement of the node at a place.
 fn at(model: &Model, results: &Results, x: [f64; 2]) -> [f64; 2] {
     let mesh = &model.mesh;
@@ -103,7 +93,7 @@ fn a_lever_couples_two_bars() {
     for order in [[0, 1, 2], [2, 1, 0]] {
         let all = [plane("a"), plane("b"), lever.clone()];
         let equations = order.map(|i| all[i].clone()).join(", ");
-        let (model, results) = run_on_model(&bars(&equations, loads));
+        let (model, results) = run_with_model(&bars(&equations, loads));
         for y in [0.0, 1.0, 2.0] {
             close(at(&model, &results, [4.0, y])[0], u, 1e-12);
             close(at(&model, &results, [4.0, 5.0 + y])[0], -0.5 * u, 1e-12);
@@ -132,7 +122,7 @@ fn a_prescribed_difference_of_two_bars() {
     let pull = r#"{ on = "b.right", traction = [10.0, 0.0] }"#;
     let equations = [plane("a"), plane("b")].join(", ");
     let scene = bars(&equations, &format!("{pull}, {apart}"));
-    let (model, results) = run_on_model(&scene);
+    let (model, results) = run_with_model(&scene);
     let k = |e: f64| e * 2.0 / 4.0;
     let [ka, kb] = [k(E), k(E / 4.0)];
     let ub = (20.0 - 2.0 * ka * d) / (4.0 * ka + kb);
@@ -183,7 +173,7 @@ fn a_node_is_moved_along_a_slope() {
     };
     let pull = r#"{ on = "a.top", traction = [3.0, -10.0] }"#;
     for d in [0.0, 2e-3] {
-        let (model, results) = run_on_model(&bars("", &format!("{pull}, {}", off(d))));
+        let (model, results) = run_with_model(&bars("", &format!("{pull}, {}", off(d))));
         let [x, y] = at(&model, &results, [4.0, 0.0]);
         let found = cos * y - sin * x;
         assert!((found - d).abs() < 1e-14, "{found} for {d}");
@@ -199,14 +189,14 @@ fn an_equation_at_one_node_is_a_roller_at_an_angle() {
         term("a.bottom_right", "y", cos),
         term("a.bottom_right", "x", -sin),
     ]);
-    let (model, by_equation) = run_on_model(&bars(&roller, loads));
+    let (model, by_equation) = run_with_model(&bars(&roller, loads));
     let mut scene = bars("", loads);
     scene.support.push(brinell::scene::Support {
         on: "a.bottom_right".into(),
         direction: Some([-sin, cos].into()),
         ..Default::default()
     });
-    let (_, by_support) = run_on_model(&scene);
+    let (_, by_support) = run_with_model(&scene);
     let fields = |results: &Results| results.states[0].fields.clone().unwrap();
     let (a, b) = (fields(&by_equation), fields(&by_support));
     let scale = |of: &[f64]| of.iter().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -237,7 +227,7 @@ fn opposite_sides_of_a_cell_move_alike() {
     steel.yield_stress = Some(200.0);
     steel.plastic_modulus = Some(E / 9.0);
     // Tangent modulus E / 10: 250 = 200 + 50.
-    let (model, results) = run_on_model(&scene);
+    let (model, results) = run_with_model(&scene);
     let strain = 200.0 / E + 50.0 / (E / 10.0);
     for y in [0.0, 1.0, 2.0] {
         close(at(&model, &results, [4.0, y])[0], 4.0 * strain, 1e-9);
@@ -324,7 +314,7 @@ fn what_equations_hold_is_held() {
             terms: terms.into(),
         });
     }
-    let (model, results) = run_on_model(&scene);
+    let (model, results) = run_with_model(&scene);
     // All of the force goes through `b`, at its corners.
     let ends = [5.0, 7.0].map(|y| at(&model, &results, [4.0, y])[0]);
     close(ends[1], ends[0], 1e-12);

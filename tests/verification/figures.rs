@@ -2,9 +2,9 @@
 //!
 //! Source: equilibrium and Hooke's law, plane stress without lateral restraint.
 
-use crate::verification::run::{close, run};
+use crate::support::{parse, run, run_text};
+use crate::verification::close;
 use brinell::model::Model;
-use brinell::scene::Scene;
 
 const E: f64 = 210_000.0;
 
@@ -54,10 +54,6 @@ fn program(load_factor: f64) -> String {
     format!("[program]\ntargets = [{{ name = \"end\", load_factor = {load_factor:?} }}]\n")
 }
 
-fn parse(text: &str) -> Scene {
-    Scene::parse(text, "figures.toml").unwrap_or_else(|e| panic!("{e}\n{text}"))
-}
-
 /// Half a model: the forces of state and history are those of the whole, 2 x 10 x 2.
 #[test]
 fn forces_of_history_and_state_are_those_of_the_whole() {
@@ -68,7 +64,7 @@ fn forces_of_history_and_state_are_those_of_the_whole() {
         press(0, 10.0),
         program(1.0)
     );
-    let results = run(&parse(&text));
+    let results = run_text(&text);
     close(results.states[0].contact_force, 40.0, 1e-10);
     close(results.history.last().unwrap().contact_force, 40.0, 1e-10);
 }
@@ -84,7 +80,7 @@ fn the_largest_patch_is_the_one_that_carries_most() {
         for (i, (_, _, pressure)) in order.into_iter().enumerate() {
             text += &(contact(i) + &press(i, pressure));
         }
-        let state = &run(&parse(&(text + &program(1.0)))).states[0];
+        let state = &run_text(&(text + &program(1.0))).states[0];
         // The left sides are held as planes of symmetry are: the width is half of the whole's.
         close(state.half_width, 4.0, 1e-10);
         close(state.pole_pressure, 10.0, 1e-10);
@@ -105,14 +101,14 @@ fn interference_comes_on_step_by_step() {
         contact(0),
         program(0.0)
     );
-    let results = run(&parse(&text));
+    let results = run_text(&text);
     let first = results.first_yield.expect("yields");
     // First yield is an event of the elastic path, found to `analysis.gamma` at worst.
     close(first.max_pressure, yield_stress, 1e-6);
     let end = (0.5 * interference + yield_stress / hardening) / (1.0 / E + 1.0 / hardening);
     close(results.states[0].max_pressure, end, 1e-6);
     // Both blocks flow, in both halves of what the model is the half of.
-    let doubled = run(&parse(&format!("symmetry = 2\n{text}")));
+    let doubled = run_text(&format!("symmetry = 2\n{text}"));
     close(doubled.states[0].plastic_zone_size, 2.0 * 2.0, 1e-12);
 }
 
@@ -131,14 +127,14 @@ fn the_size_of_a_load_has_no_sign() {
             "{block}[[load]]\non = \"b.top\"\npressure = 10.0\n{}",
             program(factor)
         );
-        close(run(&parse(&pressed)).states[0].load, 20.0, 1e-12);
+        close(run_text(&pressed).states[0].load, 20.0, 1e-12);
         // The reaction along the displacement: E d / h over the width, which pulls what it moves.
         let moved = format!(
             "{block}[[load]]\non = \"b.top\"\ndisplacement = {{ y = 0.001 }}\n{}",
             program(factor)
         );
         let force = E * (2.0 * 0.001) / 2.0 * 3.0;
-        close(run(&parse(&moved)).states[0].load, force, 1e-10);
+        close(run_text(&moved).states[0].load, force, 1e-10);
     }
 }
 

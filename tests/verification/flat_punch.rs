@@ -2,19 +2,18 @@
 //!
 //! Source: L. Prandtl (1920); R. Hill, The Mathematical Theory of Plasticity (1950), chapter IX.
 
-use crate::verification::run::{run, scene, state};
-
+use crate::support::{run_file, state};
 #[test]
 fn limit_load_converges_from_above() {
     for shape in ["quad4", "quad8"] {
         let load = |n: usize| {
-            let results = run(&scene(
+            let results = run_file(
                 "flat_punch",
                 &[
                     &format!("mesh.parts.0.element=\"{shape}\""),
                     &format!("mesh.parts.0.block.elements=[{n},{n}]"),
                 ],
-            ));
+            );
             state(&results, "flow").load / 296.85
         };
         let (coarse, fine) = (load(10), load(20));

@@ -1,7 +1,7 @@
 //! Gaps that change with the load factor: what an interference of the same size does, and contact
 //! that is off for a while.
 
-use super::run::{run, scene};
+use crate::support::{load, run, run_text};
 use brinell::model::Model;
 use brinell::results::{Results, State};
 use brinell::scene::Scene;
@@ -17,12 +17,12 @@ fn alike(a: &State, b: &State) {
     }
 }
 
-fn fitted(targets: &str, load: &str, interference: f64) -> Results {
-    let mut scene = scene(
+fn fitted(targets: &str, loads: &str, interference: f64) -> Results {
+    let mut scene = load(
         "shrink_fit",
         &[
             &format!("contact.0.interference={interference:?}"),
-            &format!("load={load}"),
+            &format!("load={loads}"),
             &format!("program.targets={targets}"),
         ],
     );
@@ -99,8 +99,8 @@ fn contact_that_is_off_for_a_while() {
 
 #[test]
 fn a_gap_on_a_surface_without_contact_is_refused() {
-    let load = ["load=[{ on = \"ring.start\", gap = 0.1 }]"];
-    let error = Model::new(&scene("shrink_fit", &load)).unwrap_err();
+    let nowhere = "load=[{ on = \"ring.start\", gap = 0.1 }]";
+    let error = Model::new(&load("shrink_fit", &[nowhere])).unwrap_err();
     for fragment in [
         "`ring.start`, which no contact has",
         "`shaft.outer`, `ring.inner`",
@@ -140,7 +140,7 @@ lower = {{ material = "m" }}
 targets = [{{ load_factor = 1.0 }}]
 "#
         );
-        let state = &run(&Scene::parse(&text, "test").unwrap()).states[0];
+        let state = &run_text(&text).states[0];
         let exact = f64::from(symmetry) * 1.5 * 1000.0 * 0.01 / 2.0;
         assert!(
             (state.load / exact - 1.0).abs() < 1e-9,

@@ -3,7 +3,8 @@
 //!
 //! Source: S. P. Timoshenko, J. N. Goodier, Theory of Elasticity, 3rd ed. (1970), section 150.
 
-use crate::verification::run::{close, run, scene, yield_load};
+use crate::support::{load, parse, run, run_file, run_text, yield_load};
+use crate::verification::close;
 use brinell::model::Model;
 use brinell::results::Results;
 use brinell::scene::{Field, Scene};
@@ -42,7 +43,7 @@ temperature = {temperature}
 targets = [{targets}]
 "#
     );
-    Scene::parse(&text, "test").unwrap()
+    parse(&text)
 }
 
 const SIDES: &str = r#"{ on = "bar.left", fix = ["x"] }, { on = "bar.bottom", fix = ["y"] }"#;
@@ -147,11 +148,8 @@ fn a_clamped_bar_yields_by_heat() {
 fn a_fit_by_heat_is_a_fit_by_interference() {
     let (gap, change, radius) = (0.01, 100.0, 50.0);
     let fitted = EXPANSION * change * radius - gap;
-    let by_interference = run(&scene(
-        "shrink_fit",
-        &[&format!("contact.0.interference={fitted}")],
-    ));
-    let mut heated = scene(
+    let by_interference = run_file("shrink_fit", &[&format!("contact.0.interference={fitted}")]);
+    let mut heated = load(
         "shrink_fit",
         &[
             "contact.0.interference=0.0",
@@ -211,7 +209,7 @@ temperature = "log({b:?}/r)"
 targets = [{{ yield = true }}]
 "#
         );
-        let found = yield_load(&Scene::parse(&text, "test").unwrap());
+        let found = yield_load(&parse(&text));
         (found.first_yield.unwrap().alpha / exact - 1.0).abs()
     });
     // A halved element has a quarter of the error; a third where the next order still counts.
@@ -305,7 +303,7 @@ targets = [{{ load_factor = 1.0 }}]
 "#,
         moduli[0], expansions[0], moduli[1], expansions[1]
     );
-    let scene = Scene::parse(&text, "strip").unwrap();
+    let scene = parse(&text);
     let mesh = Model::new(&scene).unwrap().continuum.mesh;
     let results = run(&scene);
     let u = &results.states[0].fields.as_ref().unwrap().displacement;
@@ -371,7 +369,7 @@ targets = [{{ load_factor = 0.4 }}, {{ load_factor = 1.0 }}]
         length + gap + 1.0,
         1e12 * E
     );
-    let results = run(&Scene::parse(&text, "bar").unwrap());
+    let results = run_text(&text);
     let closes = gap / (EXPANSION * change * length);
     assert!(closes > 0.4, "{closes}");
     assert_eq!(results.states[0].max_pressure, 0.0);

@@ -2,7 +2,8 @@
 //!
 //! Source: N. Endahl, section 5.1; K. L. Johnson, Contact Mechanics (1985), sections 4.2 and 6.1.
 
-use crate::verification::run::{close, run, scene, yield_load};
+use crate::support::{load, run_file, yield_load};
+use crate::verification::close;
 use brinell::results::YieldPoint;
 
 /// Ratios to the exact values: load, pressure, half width, depth.
@@ -23,7 +24,7 @@ fn at(resolution: usize, far_size: f64) -> YieldPoint {
         format!("mesh.cylinder_on_half_plane.far_size={far_size:.1}"),
     ];
     let overrides: Vec<&str> = overrides.iter().map(String::as_str).collect();
-    yield_load(&scene("cylinder_on_half_plane", &overrides))
+    yield_load(&load("cylinder_on_half_plane", &overrides))
         .first_yield
         .unwrap()
 }
@@ -67,10 +68,10 @@ fn size_of_the_bodies_matters_less_than_the_mesh() {
 
 #[test]
 fn pressure_and_width_grow_like_the_root_of_the_load() {
-    let results = run(&scene(
+    let results = run_file(
         "cylinder_on_half_plane",
         &["program.targets=[{load_factor=0.25},{load_factor=0.5},{yield=true}]"],
-    ));
+    );
     let at_yield = results.first_yield.unwrap();
     for (state, alpha) in results.states.iter().zip([0.25f64, 0.5, 1.0]) {
         // At 0.25 eight elements lie over the half width: pressure 0.2 % low there (Table I at 8),

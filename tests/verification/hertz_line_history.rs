@@ -2,14 +2,14 @@
 //!
 //! Source: N. Endahl, section 5.1; load factors from the legend of figure 5.3.
 
-use crate::verification::run::{close, run, scene, state};
-
+use crate::support::{run_file, state};
+use crate::verification::close;
 #[test]
 fn loading_to_one_and_a_half_widths_and_back() {
-    let results = run(&scene(
+    let results = run_file(
         "cylinder_on_half_plane",
         &["mesh.cylinder_on_half_plane.resolution=12"],
-    ));
+    );
     let loading = &results.states[..5];
     for pair in loading.windows(2) {
         assert!(pair[1].max_pressure > pair[0].max_pressure);

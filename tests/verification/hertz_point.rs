@@ -3,14 +3,13 @@
 //! Source: K. L. Johnson, Contact Mechanics (1985), sections 3.4 and 6.1; Code_Aster SSNV104 lies
 //! in the same theory.
 
-use crate::verification::run::{scene, yield_load};
-
+use crate::support::{load, yield_load};
 #[test]
 fn first_yield_converges_to_the_exact_values() {
     let (r, y, e) = (10.0, 500.0, 210000.0 / (2.0 * 0.91));
     let errors = |n: usize| {
         let resolution = format!("mesh.cylinder_on_half_plane.resolution={n}");
-        let point = yield_load(&scene("ball_on_half_space", &[&resolution]))
+        let point = yield_load(&load("ball_on_half_space", &[&resolution]))
             .first_yield
             .unwrap();
         let a = std::f64::consts::FRAC_PI_2 * 1.6128 * y * r / e;

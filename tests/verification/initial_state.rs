@@ -1,7 +1,8 @@
 //! Stresses and plastic strains that bodies bring along: bars and layers, whose answers are those
 //! of one dimension.
 
-use crate::verification::run::{close, run, yield_load};
+use crate::support::{parse, run, yield_load};
+use crate::verification::close;
 use brinell::model::Model;
 use brinell::results::Results;
 use brinell::scene::Scene;
@@ -42,7 +43,7 @@ material = "metal"
 targets = [{{ load_factor = 0.0 }}]
 "#
     );
-    Scene::parse(&text, "bar").unwrap()
+    parse(&text)
 }
 
 const KINDS: [(&str, &str); 6] = [

@@ -3,15 +3,15 @@
 //! Source: NAFEMS R0094, Advanced Finite Element Contact Benchmarks, CB1
 //! (`data/reference/nafems_r0094`).
 
-use crate::verification::run::{close, run, scene, state};
-
+use crate::support::{run_file, state};
+use crate::verification::close;
 /// Nodes on a circle of half width b meet a parabola's: Hertz's gap x^2/2R is off by a share of
 /// (b/2R)^2 = 0.4 %; the rest is the mesh's.
 #[test]
 fn half_width_and_pressure_are_those_of_the_benchmark() {
     let errors = |n: usize| {
         let resolution = format!("mesh.cylinder_on_half_plane.resolution={n}");
-        let results = run(&scene("nafems_cb1", &[&resolution]));
+        let results = run_file("nafems_cb1", &[&resolution]);
         let s = state(&results, "pressed");
         // Round-off times the condition of bodies a thousand half widths large.
         close(s.contact_force, 35e3, 1e-8);

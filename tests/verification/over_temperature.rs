@@ -1,9 +1,10 @@
 //! Materials at the temperature of a body: what they are there written out gives the same numbers,
 //! and a run that goes on at another temperature keeps what flowed.
 
-use crate::verification::run::{close, run, scene};
+use crate::support::{load, parse, run};
+use crate::verification::close;
 use crate::verification::start_from::{run_into, with_targets};
-use brinell::scene::{Material, MaterialRow, Scene};
+use brinell::scene::{Material, MaterialRow};
 
 fn row(temperature: f64, youngs_modulus: f64, yield_stress: f64) -> MaterialRow {
     MaterialRow {
@@ -17,7 +18,7 @@ fn row(temperature: f64, youngs_modulus: f64, yield_stress: f64) -> MaterialRow 
 /// One material, two bodies at two temperatures: the contact of two materials.
 #[test]
 fn bodies_at_two_temperatures_are_of_two_materials() {
-    let mut hot = scene(
+    let mut hot = load(
         "cylinder_on_half_plane",
         &["mesh.cylinder_on_half_plane.resolution=6", "reference=[]"],
     );
@@ -92,7 +93,7 @@ steps = 4
 fn a_bar_goes_on_at_another_temperature() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("cold");
-    let cold = Scene::parse(BAR, "bar").unwrap();
+    let cold = parse(BAR);
     run_into(&with_targets(&cold, &[1.0, 0.0], None), &dir);
     let kept: f64 = (200.0 - 150.0) / 10_000.0;
     for (temperature, modulus, yield_stress) in

@@ -3,7 +3,8 @@
 //! Source: B. G. A. Persson, On the stress distribution of cylindrical elastic bodies in contact
 //! (1964) (`data/reference/persson`).
 
-use crate::verification::run::{close, run, scene, state};
+use crate::support::{run_file, state};
+use crate::verification::close;
 use brinell::analytical::PinInHole;
 
 #[test]
@@ -19,7 +20,7 @@ fn contact_angle_and_pressure_are_perssons_at_any_load() {
     let errors = |n: usize| {
         let pin = format!("mesh.parts.0.disc.elements={n}");
         let plate = format!("mesh.parts.1.ring.elements=[40,{}]", 2 * n);
-        let results = run(&scene("pin_in_hole", &[&pin, &plate]));
+        let results = run_file("pin_in_hole", &[&pin, &plate]);
         let (pushed, hardly) = (state(&results, "pushed"), state(&results, "hardly"));
         // Receding contact is proportional; two solves of n pairs, each off by eps n times a
         // condition of n.

@@ -1,6 +1,6 @@
 //! Figures that others published, beside what is computed: the scenes of `data/validation`.
 
-use crate::verification::run::run;
+use crate::support::run;
 use brinell::model::Model;
 use brinell::reference;
 use brinell::results::ReferenceRow;

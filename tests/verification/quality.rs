@@ -4,20 +4,10 @@
 //! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms (2002), section 7.1
 //! (backward error).
 
-use crate::support::{either, load, scenes, sparse};
+use crate::support::{either, load, run_as_far_as_it_goes, scenes, sparse};
 use brinell::ErrorKind;
-use brinell::analysis::Analysis;
-use brinell::linalg::Backend;
-use brinell::model::Model;
 use brinell::output::{RunHeader, summary};
-use brinell::progress::Silent;
 use brinell::results::Results;
-
-fn run_with(name: &str, overrides: &[&str], solver: Backend) -> Results {
-    let model = Model::new(&load(name, overrides)).unwrap();
-    let mut analysis = Analysis::new(model, solver).unwrap();
-    analysis.run(&mut Silent).unwrap()
-}
 
 /// Two scenes are there for their limit load; all others run to their end.
 fn ends_as_it_should(name: &str, results: &Results) {
@@ -51,7 +41,7 @@ fn are_in_balance(chosen: impl Fn(&str) -> bool, at_least: usize) {
         let mut first = None;
         let solvers = if k % either(2, 1) == 0 { usize::MAX } else { 1 };
         for solver in sparse().into_iter().take(solvers) {
-            let results = run_with(&name, overrides, solver);
+            let results = run_as_far_as_it_goes(&load(&name, overrides), solver);
             ends_as_it_should(&name, &results);
             states += in_balance(&name, &results);
             let figures = summary(&RunHeader::default(), &results);

@@ -1,6 +1,7 @@
 //! Rigid surfaces on solids: parts of symmetric bodies, and slices that are plane strain.
 
-use super::rigid_surfaces::{along, ball, block, near, only, run, same};
+use super::rigid_surfaces::{along, ball, block, near, only, same};
+use crate::support::run_text;
 use brinell::analytical::HertzEllipse;
 use brinell::results::Results;
 
@@ -42,12 +43,12 @@ targets = [{{ load_factor = 1.0 }}]
     for (element, n) in [("hex8", 4), ("hex20", 2)] {
         let (depth, all) = ([-2.0, 0.0], [-2.0, 2.0]);
         let whole_text = solid(element, [all, all, depth], [2 * n, 2 * n, n], &sphere);
-        let whole = run(&whole_text);
+        let whole = run_text(&whole_text);
         let symmetric = format!("{sphere}{}{}", held("left", "x"), held("front", "y"));
         let part = [0.0, 2.0];
         let quarter = solid(element, [part, part, depth], [n, n, n], &symmetric);
         let quarter_text = format!("symmetry = 4\n{quarter}");
-        let quarter = run(&quarter_text);
+        let quarter = run_text(&quarter_text);
         near(
             along(&whole_text, only(&whole), [0.0, 0.0, 1.0]),
             8000.0,
@@ -72,7 +73,7 @@ targets = [{{ load_factor = 1.0 }}]
             "force = [0.0, 0.0, -8000.0]",
             &format!("displacement = {{ z = {} }}", -depth),
         );
-        let moved = run(&solid(
+        let moved = run_text(&solid(
             element,
             [all, all, [-2.0, 0.0]],
             [2 * n, 2 * n, n],
@@ -87,14 +88,14 @@ targets = [{{ load_factor = 1.0 }}]
         held("back", "y")
     );
     let slice = [[-4.0, 4.0], [0.0, 1.0], [-4.0, 0.0]];
-    let slice = run(&solid(
+    let slice = run_text(&solid(
         "hex8",
         slice,
         [16, 1, 8],
         &roller.replace("-8000.0", "-1500.0"),
     ));
     let plane = block("plane_strain", "quad4", 8, &ball("force = [0.0, -1500.0]"));
-    let plane = run(&plane.replace(", bias = [20.0, 0.05]", ""));
+    let plane = run_text(&plane.replace(", bias = [20.0, 0.05]", ""));
     near(only(&slice).max_pressure, only(&plane).max_pressure, 1e-8);
     near(only(&slice).approach, only(&plane).approach, 1e-8);
 }
@@ -108,7 +109,7 @@ targets = [{{ load_factor = 1.0 }}]
 fn a_torus_presses_as_the_ellipse_of_hertz() {
     let hertz = HertzEllipse::new([6.0, 12.0], 210e3 / (1.0 - 0.09)).unwrap();
     let load = 2500.0;
-    let results = run(&format!(
+    let results = run_text(&format!(
         r#"kind = "solid"
 symmetry = 4
 [[mesh.parts]]

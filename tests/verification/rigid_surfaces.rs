@@ -3,8 +3,7 @@
 //! Source: K. L. Johnson, Contact Mechanics (1985), sections 4.2 and 5.1: with one body rigid
 //! `1/E* = (1 - nu^2)/E` of the other.
 
-use crate::support::{parse, try_run};
-use brinell::linalg::Backend;
+use crate::support::{parse, run_text};
 use brinell::model::Model;
 use brinell::results::{Results, State};
 
@@ -53,11 +52,6 @@ on = "ball"
     )
 }
 
-pub fn run(text: &str) -> Results {
-    let scene = parse(text);
-    try_run(&scene, Backend::default()).unwrap_or_else(|e| panic!("{e}\n{text}"))
-}
-
 pub fn only(results: &Results) -> &State {
     results.states.last().unwrap()
 }
@@ -83,7 +77,7 @@ fn a_rigid_cylinder_and_a_rigid_sphere_press_as_hertz_says() {
         ),
     ] {
         let errors = [16, 32].map(|n| {
-            let results = run(&block(kind, "quad4", n, &ball("force = [0.0, -1500.0]")));
+            let results = run_text(&block(kind, "quad4", n, &ball("force = [0.0, -1500.0]")));
             let state = only(&results);
             near(state.load, load, 1e-12);
             [
@@ -111,7 +105,7 @@ pub fn same(a: &Results, b: &Results, share: f64) {
 #[test]
 fn the_approach_gives_the_force_and_the_force_the_approach() {
     for kind in ["plane_strain", "plane_stress", "axisymmetric"] {
-        let by = |push: &str| run(&block(kind, "quad8", 8, &ball(push)));
+        let by = |push: &str| run_text(&block(kind, "quad8", 8, &ball(push)));
         let pushed = by("force = [0.0, -1500.0]");
         let depth = only(&pushed).approach;
         assert!(depth > 0.0, "{kind}: {depth}");
@@ -130,7 +124,7 @@ fn either_side_of_a_contact_may_be_rigid() {
         "first = \"block.top\"\nsecond = \"ball\"",
     );
     assert_ne!(text, other);
-    same(&run(&text), &run(&other), 1e-13);
+    same(&run_text(&text), &run_text(&other), 1e-13);
 }
 
 /// Half of a block and all of it; the whole moved, turned by a right angle and mirrored.
@@ -176,7 +170,7 @@ targets = [{{ load_factor = 1.0 }}]
             span(1),
         )
     };
-    let upright = run(&whole(&|x| x, ["x", "top"]));
+    let upright = run_text(&whole(&|x| x, ["x", "top"]));
     for (turn, surface) in [
         (
             Box::new(|[x, y]: [f64; 2]| [x + 7.0, y - 3.0]) as Box<dyn Fn([f64; 2]) -> [f64; 2]>,
@@ -185,7 +179,7 @@ targets = [{{ load_factor = 1.0 }}]
         (Box::new(|[x, y]: [f64; 2]| [-y, x]), "left"),
         (Box::new(|[x, y]: [f64; 2]| [x, -y]), "bottom"),
     ] {
-        same(&run(&whole(&*turn, ["", surface])), &upright, 1e-9);
+        same(&run_text(&whole(&*turn, ["", surface])), &upright, 1e-9);
     }
     let text = whole(&|x| x, ["x", "top"]);
     let half = text
@@ -196,7 +190,7 @@ targets = [{{ load_factor = 1.0 }}]
             "[rigid",
             "[[support]]\non = \"block.left\"\nfix = [\"x\"]\n[rigid",
         );
-    let half = run(&half);
+    let half = run_text(&half);
     let [a, b] = [only(&half), only(&upright)];
     near(a.load, b.load, 1e-12);
     near(a.max_pressure, b.max_pressure, 1e-9);
@@ -235,7 +229,7 @@ fn what_pushes_a_rigid_surface_is_what_its_pairs_carry() {
         let text = text
             .replace("sphere = { center = [0.0, 10.0], radius = 10.0 }", cover)
             .replace("fix = [\"x\", \"y\"]", "fix = [\"y\"]");
-        let results = run(&format!(
+        let results = run_text(&format!(
             "{text}\n[[support]]\non = \"block.right\"\nfix = [\"x\"]\n"
         ));
         for pair in &only(&results).pairs {
@@ -272,12 +266,12 @@ fn what_pushes_a_rigid_surface_is_what_its_pairs_carry() {
         ),
     ] {
         let by_force = text_of(kind, form, "force = [0.0, -2000.0]");
-        let pushed = run(&by_force);
+        let pushed = run_text(&by_force);
         near(copies * along(&by_force, only(&pushed), UP), 2000.0, 1e-10);
         near(only(&pushed).load, 2000.0, 1e-12);
         let way = format!("displacement = {{ y = {} }}", -only(&pushed).approach);
         let by_way = text_of(kind, form, &way);
-        let moved = run(&by_way);
+        let moved = run_text(&by_way);
         same(&moved, &pushed, 1e-9);
         let force = copies * along(&by_way, only(&moved), UP);
         near(force, only(&moved).load, 1e-12);
@@ -301,7 +295,7 @@ pressure = 50.0
         "on = \"block.bottom\"\nfix = [\"x\", \"y\"]",
         "on = \"block.right\"\nfix = [\"x\"]",
     );
-    let results = run(&text);
+    let results = run_text(&text);
     for pair in &only(&results).pairs {
         near(pair.pressure, 50.0, 1e-9);
     }
@@ -312,7 +306,7 @@ pressure = 50.0
 fn a_rigid_surface_is_the_limit_of_stiff_ones() {
     let lines = ball("plane_force = { direction = \"y\", total = -1500.0 }");
     let text = block("plane_strain", "quad4", 16, &lines);
-    let rigid = run(&text);
+    let rigid = run_text(&text);
     let stiff = r#"[[mesh.parts]]
 body = "ball"
 disc = { center = [0.0, 10.0], radius = 10.0, angle = [270.0, 360.0], elements = 48 }
@@ -332,7 +326,7 @@ fix = ["x"]
         )
         .replace("[bodies]\n", "[bodies]\nball = { material = \"stiff\" }\n")
         .replace("on = \"ball\"\nplane", "on = \"ball.end\"\nplane");
-    let meshed = run(&meshed);
+    let meshed = run_text(&meshed);
     let [a, b] = [only(&rigid), only(&meshed)];
     // Weighted gaps of the mortar rows differ from those at nodes by the square of the element.
     near(a.load, b.load, 1e-9);
@@ -352,10 +346,10 @@ fn an_indentation_stays_when_the_ball_is_taken_off() {
             .replace("{ load_factor = 1.0 }]", back)
     };
     let by_force = by("force = [0.0, -3000.0]");
-    let pushed = run(&by_force);
+    let pushed = run_text(&by_force);
     let depth = pushed.states[0].approach;
     let by_way = by(&format!("displacement = {{ y = {} }}", -depth));
-    let moved = run(&by_way);
+    let moved = run_text(&by_way);
     // A hundred steps of first order each: between 60 and 200 of them the difference falls from 5 %
     // to half a percent.
     near(moved.states[0].load, 3000.0, 0.03);
@@ -386,7 +380,7 @@ fn units_are_the_users() {
         .replace("[-4.0, 0.0]", "[-0.004, 0.0]")
         .replace("210e3", "210e9")
         .replace("[0.0, 10.0], radius = 10.0", "[0.0, 0.01], radius = 0.01");
-    let [a, b] = [run(&text), run(&other)];
+    let [a, b] = [run_text(&text), run_text(&other)];
     let [a, b] = [only(&a), only(&b)];
     near(b.load, a.load, 1e-12);
     near(1e-6 * b.max_pressure, a.max_pressure, 1e-9);
@@ -408,7 +402,7 @@ fn heights_press_as_the_surface_that_they_are_of() {
         "sphere = { center = [0.0, 10.0], radius = 10.0 }",
         &format!("heights = {{ file = {:?} }}", path.to_str().unwrap()),
     );
-    same(&run(&heights), &run(&text), 1e-5);
+    same(&run_text(&heights), &run_text(&text), 1e-5);
 }
 
 /// Guided along a slope, a ball is carried by more than half of what pushes it: the wall of the
@@ -422,7 +416,7 @@ fn a_push_may_have_any_direction() {
         &ball("force = [1500.0, -1500.0]"),
     );
     let text = text.replace("symmetry = 2", "symmetry = 1");
-    let results = run(&text);
+    let results = run_text(&text);
     let slope = 0.5f64.sqrt();
     let state = only(&results);
     near(
@@ -434,7 +428,7 @@ fn a_push_may_have_any_direction() {
     let way = state.approach * slope;
     let push = format!("displacement = {{ x = {way}, y = {} }}", -way);
     let moved = text.replace("force = [1500.0, -1500.0]", &push);
-    same(&run(&moved), &results, 1e-8);
+    same(&run_text(&moved), &results, 1e-8);
 }
 
 /// A held plane that starts inside the block, and one that a soft layer lies on.
@@ -459,7 +453,7 @@ overlap = true
     let own = 210e3 * 0.7 / (1.3 * 0.4) / 4.0;
     let load = "[[load]]\non = \"wall\"\ngap = -0.002";
     for (contact, stiffness) in [("", own), ("stiffness = 1e4", own * 1e4 / (own + 1e4))] {
-        let results = run(&text(contact, load));
+        let results = run_text(&text(contact, load));
         for pair in &only(&results).pairs {
             near(pair.pressure, 0.006 * stiffness, 1e-9);
         }

@@ -5,16 +5,13 @@
 //! plane shakes down up to `p_0 = 4 k`, k the yield stress in shear. At a depth of 0.5 a the shear
 //! stress goes to and fro between `+-0.25 p_0`, and residual stresses can only take up the others.
 
-use crate::support::either;
-use brinell::analysis::Analysis;
+use crate::support::build::Build;
+use crate::support::{either, run_model};
 use brinell::linalg::Backend;
 use brinell::mesh::Shape;
 use brinell::model::{Model, ModelBuilder};
-use brinell::progress::Silent;
 use brinell::results::CycleOutcome;
-use brinell::scene::{
-    Body, Direction, History, Kind, Material, Program, Stepping, Support, Target,
-};
+use brinell::scene::{Direction, History, Kind, Material, Program, Stepping, Target};
 
 /// Half width of the contact.
 const A: f64 = 1.0;
@@ -108,11 +105,7 @@ fn row(h: f64, p0: f64) -> Model {
         ("bottom", bottom, Direction::Y),
     ] {
         builder.node_set(name, &nodes).unwrap();
-        builder.support(Support {
-            on: name.into(),
-            fix: vec![direction],
-            ..Support::default()
-        });
+        builder.hold(name, direction);
     }
     let metal = Material {
         youngs_modulus: 2e5,
@@ -121,11 +114,7 @@ fn row(h: f64, p0: f64) -> Model {
         ..Material::default()
     };
     builder.material("metal", metal).unwrap();
-    let body = Body {
-        material: "metal".into(),
-        ..Body::default()
-    };
-    builder.body("plane", body).unwrap();
+    builder.of("plane", "metal");
     for k in 0..PLACES {
         let centre = APART * k as f64 - half;
         let forces = hertz(&fx, centre, p0);
@@ -180,10 +169,7 @@ fn hertz(x: &[f64], centre: f64, p0: f64) -> Vec<f64> {
 /// What cycles of a row of five places, 0.87 a apart, come to, and what flows in the last of them
 /// over what flowed in the first.
 fn outcome(h: f64, factor: f64) -> (CycleOutcome, f64) {
-    let model = row(h * A, factor * K);
-    let mut analysis = Analysis::new(model, Backend::default()).unwrap();
-    let results = analysis.run(&mut Silent).unwrap();
-    assert_eq!(results.incomplete, None);
+    let results = run_model(row(h * A, factor * K), Backend::default());
     let cycles = results.cycles.unwrap();
     (cycles.outcome, cycles.last().flow / cycles.rows[0].flow)
 }

@@ -2,8 +2,7 @@
 //!
 //! Source: S. Timoshenko, Strength of Materials, part II (1956), art. 42; Lame.
 
-use crate::verification::run::{run, scene};
-
+use crate::support::run_file;
 #[test]
 fn pressure_converges_to_lame() {
     let error = |n: usize| {
@@ -11,7 +10,7 @@ fn pressure_converges_to_lame() {
             format!("mesh.parts.0.disc.elements={n}"),
             format!("mesh.parts.1.ring.elements=[{n},{n}]"),
         );
-        let results = run(&scene("shrink_fit", &[&shaft, &ring]));
+        let results = run_file("shrink_fit", &[&shaft, &ring]);
         let pairs = &results.states[0].pairs;
         let force: f64 = pairs.iter().map(|p| p.force).sum();
         let area: f64 = pairs.iter().map(|p| p.area).sum();

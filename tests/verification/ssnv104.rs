@@ -2,7 +2,8 @@
 //!
 //! Source: Code_Aster SSNV104 (`data/reference/code_aster_ssnv104`), after Hertz.
 
-use crate::verification::run::{close, run, scene, state};
+use crate::support::{run_file, state};
+use crate::verification::close;
 use brinell::analytical::{HertzPoint, contact_modulus};
 
 /// The force is Hertz's for a radius of contact of 10: P = 4/3 E* a^3/R. The sphere is a circle
@@ -30,7 +31,7 @@ fn centre_stress_and_contact_radius() {
             "reference=[]".to_string(),
         ];
         let set: Vec<&str> = set.iter().map(String::as_str).collect();
-        let results = run(&scene("ball_on_half_space", &set));
+        let results = run_file("ball_on_half_space", &set);
         let s = state(&results, "pressed");
         close(s.contact_force, force, 1e-9);
         [s.max_pressure / 2798.0 - 1.0, s.half_width / 10.0 - 1.0].map(f64::abs)

@@ -1,6 +1,8 @@
 //! A run that starts from what an earlier one left does what one run of both programs does.
 
-use crate::verification::run::{close, scene};
+use crate::support::{analysis, load, parse, run};
+use crate::verification::close;
+use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::checkpoint::Checkpoints;
 use brinell::linalg::Backend;
@@ -9,18 +11,7 @@ use brinell::output::{self, RunHeader};
 use brinell::progress::{Flow, Observer, Silent};
 use brinell::results::{HistoryRow, Results};
 use brinell::scene::{Kind, Scene, Stepping};
-use brinell::{ErrorKind, Result};
 use std::path::{Path, PathBuf};
-
-fn analysis(scene: &Scene) -> Result<Analysis> {
-    Analysis::new(Model::new(scene)?, Backend::default())
-}
-
-fn run(scene: &Scene) -> Results {
-    let results = analysis(scene).unwrap().run(&mut Silent).unwrap();
-    assert_eq!(results.incomplete, None);
-    results
-}
 
 /// Runs a scene and leaves its result directory.
 pub fn run_into(scene: &Scene, dir: &Path) -> Results {
@@ -73,7 +64,7 @@ targets = [{ load_factor = 1.0 }]
 fn a_sheet_goes_on_where_it_was_left() {
     let folder = tempfile::tempdir().unwrap();
     let dirs = ["one", "two"].map(|name| folder.path().join(name));
-    let sheet = Scene::parse(SHEET, "sheet").unwrap();
+    let sheet = parse(SHEET);
     let whole = run(&with_targets(&sheet, &[1.0, 0.0, -0.5, 0.0, 1.2], None));
     run_into(&with_targets(&sheet, &[1.0, 0.0], None), &dirs[0]);
     let start = Some(dirs[0].as_path());
@@ -108,7 +99,7 @@ fn a_sheet_goes_on_where_it_was_left() {
 fn an_autofrettaged_tube_stays_elastic_up_to_its_pressure() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("tube");
-    let tube = scene(
+    let tube = load(
         "thick_cylinder",
         &["mesh.parts.0.ring.elements=[8,8]", "reference=[]"],
     );
@@ -131,7 +122,7 @@ fn an_autofrettaged_tube_stays_elastic_up_to_its_pressure() {
 }
 
 fn rollers() -> Scene {
-    scene(
+    load(
         "cylinder_on_half_plane",
         &[
             "mesh.cylinder_on_half_plane.resolution=6",
@@ -147,7 +138,7 @@ fn a_dent_is_pressed_again() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("dent");
     let rollers = rollers();
-    let first = analysis(&rollers).unwrap().yield_load(&mut Silent);
+    let first = analysis(&rollers).yield_load(&mut Silent);
     let at_yield = first.unwrap().first_yield.unwrap().alpha;
     let [one, more] = [1.5 * at_yield, 1.8 * at_yield];
     let whole = run(&with_targets(&rollers, &[one, 0.0, more, 0.0], None));
@@ -187,20 +178,16 @@ fn such_a_run_goes_on_from_checkpoints_and_knows_its_start() {
     let dir = folder.path().join("dent");
     let kept = Checkpoints::new(folder.path().join("kept"));
     let rollers = rollers();
-    let first = analysis(&rollers).unwrap().yield_load(&mut Silent);
+    let first = analysis(&rollers).yield_load(&mut Silent);
     let at_yield = first.unwrap().first_yield.unwrap().alpha;
     run_into(&with_targets(&rollers, &[1.5 * at_yield, 0.0], None), &dir);
     let scene = with_targets(&rollers, &[1.6 * at_yield], Some(&dir));
     let whole = run(&scene);
     let stopped = analysis(&scene)
-        .unwrap()
         .run_with_checkpoints(&kept, &mut UpTo(3))
         .unwrap();
     assert!(stopped.incomplete.is_some());
-    let resumed = analysis(&scene)
-        .unwrap()
-        .resume(&kept, &mut Silent)
-        .unwrap();
+    let resumed = analysis(&scene).resume(&kept, &mut Silent).unwrap();
     assert_eq!(
         format!("{:?}", resumed.states),
         format!("{:?}", whole.states)
@@ -208,7 +195,7 @@ fn such_a_run_goes_on_from_checkpoints_and_knows_its_start() {
     assert_eq!(resumed.end_state, whole.end_state);
     // Another start: refused by name.
     run_into(&with_targets(&rollers, &[1.4 * at_yield, 0.0], None), &dir);
-    let error = analysis(&scene).unwrap().resume(&kept, &mut Silent);
+    let error = analysis(&scene).resume(&kept, &mut Silent);
     let error = error.unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Input);
     let text = error.to_string();
@@ -219,10 +206,11 @@ fn such_a_run_goes_on_from_checkpoints_and_knows_its_start() {
 fn what_cannot_be_started_from_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("sheet");
-    let sheet = Scene::parse(SHEET, "sheet").unwrap();
+    let sheet = parse(SHEET);
     let start = with_targets(&sheet, &[1.0], Some(&dir));
     let refused = |scene: &Scene, words: &str| {
-        let error = analysis(scene).map(drop).unwrap_err();
+        let refused = Model::new(scene).and_then(|model| Analysis::new(model, Backend::default()));
+        let error = refused.map(drop).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Input, "{error}");
         let text = error.to_string();
         assert!(
@@ -235,7 +223,7 @@ fn what_cannot_be_started_from_is_named() {
     refused(&start, "it holds no end_state.bin");
     std::fs::remove_dir(&dir).unwrap();
     run_into(&with_targets(&sheet, &[1.0, 0.0], None), &dir);
-    analysis(&start).unwrap();
+    analysis(&start);
     let mut other = start.clone();
     if let Some(part) = other
         .mesh
@@ -308,7 +296,7 @@ fn what_cannot_be_started_from_is_named() {
 fn a_run_in_which_nothing_yielded_leaves_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let dir = folder.path().join("sheet");
-    let sheet = Scene::parse(SHEET, "sheet").unwrap();
+    let sheet = parse(SHEET);
     run_into(&with_targets(&sheet, &[0.1, 0.0], None), &dir);
     let plain = run(&with_targets(&sheet, &[1.0], None));
     let after = run(&with_targets(&sheet, &[1.0], Some(&dir)));
@@ -358,7 +346,7 @@ yield_stress = 300
 plastic_modulus = 5000
 "#;
     for stepping in [Stepping::Events, Stepping::Steps] {
-        let mut scene = Scene::parse(text, "blocks").unwrap();
+        let mut scene = parse(text);
         scene.program.stepping = stepping;
         run_into(&scene, folder.path());
         let [with, without] = [&[0.0, 1.0][..], &[1.0]].map(|factors| {

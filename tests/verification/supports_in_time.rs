@@ -1,5 +1,6 @@
 //! Supports and prescribed displacements that begin or end within the program.
 
+use crate::support::build::Build;
 use crate::support::{close, load, run, same_contact, state};
 use brinell::analysis::Analysis;
 use brinell::linalg::Backend;
@@ -63,11 +64,7 @@ fn cube() -> ModelBuilder {
         ("y", Direction::Y),
         ("z", Direction::Z),
     ] {
-        builder.support(Support {
-            on: on.into(),
-            fix: vec![axis],
-            ..Support::default()
-        });
+        builder.hold(on, axis);
     }
     reach(&mut builder, &[1.0, 2.0, 3.0]);
     builder
@@ -76,11 +73,7 @@ fn cube() -> ModelBuilder {
 /// Adds targets at load factors.
 fn reach(builder: &mut ModelBuilder, factors: &[f64]) {
     for &factor in factors {
-        builder.target(Target {
-            load_factor: Some(factor),
-            fields: true,
-            ..Target::default()
-        });
+        builder.reach(factor);
     }
 }
 
@@ -287,11 +280,7 @@ fn a_roller_stays_pressed_where_it_is_fixed() {
 fn what_supports_leave_unheld_is_named() {
     let mut bar = cube();
     bar.load(force(&[[0.0, 0.0], [1.0, 5.0], [2.0, 5.0]]));
-    bar.support(Support {
-        on: "top".into(),
-        fix: vec![Direction::X],
-        ..Support::default()
-    });
+    bar.hold("top", Direction::X);
     let model: Model = bar.build().unwrap();
     let mut loose = model.scene.clone();
     loose.support[2].until = Some([1.0, 2.0]);
@@ -332,11 +321,7 @@ fn what_supports_leave_unheld_is_named() {
         )
         .unwrap();
     for name in ["low", "high"] {
-        let body = Body {
-            material: "m".into(),
-            ..Body::default()
-        };
-        touching.body(name, body).unwrap();
+        touching.of(name, "m");
     }
     touching
         .contact(Contact {

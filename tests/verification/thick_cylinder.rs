@@ -3,9 +3,8 @@
 //! Source: R. Hill, The Mathematical Theory of Plasticity (1950), chapter V (exact for nu = 1/2);
 //! Lame.
 
-use crate::verification::run::{
-    close, radial_displacement, run, run_until_it_ends, scene, yield_load,
-};
+use crate::support::{load, run_as_far_as_it_goes, run_file, run_with_model, yield_load};
+use crate::verification::{close, radial_displacement};
 use brinell::ErrorKind;
 use brinell::analysis::Analysis;
 use brinell::analytical::ElastoplasticCylinder;
@@ -17,7 +16,7 @@ use std::f64::consts::PI;
 #[test]
 fn yields_first_at_the_bore() {
     for (nu, exact) in [("0.3", 103.750), ("0.4999", 103.9230)] {
-        let results = yield_load(&scene(
+        let results = yield_load(&load(
             "thick_cylinder",
             &[&format!("materials.steel.poissons_ratio={nu}")],
         ));
@@ -30,7 +29,7 @@ fn yields_first_at_the_bore() {
 /// The tube cut into triangles, nodes inside the wall moved by up to a share of the shortest side
 /// there.
 fn triangles(n: usize, moved: f64) -> Model {
-    let scene = scene(
+    let scene = load(
         "thick_cylinder",
         &[
             "mesh.parts.0.element=tri3",
@@ -92,7 +91,7 @@ fn linear_triangles_find_first_yield_to_second_order() {
 fn nearly_incompressible_flow_converges_to_hill() {
     let exact = ElastoplasticCylinder::new(100.0, 200.0, 210e3, 240.0).unwrap();
     let error = |n: usize| {
-        let scene = scene(
+        let scene = load(
             "thick_cylinder",
             &[
                 "materials.steel.poissons_ratio=0.4999",
@@ -127,7 +126,7 @@ fn the_plastic_ring_and_the_work_in_it_converge_to_hill() {
     let factor = 2.0 * PI * (y * y / 3.0) / (young / 3.0);
     let work = factor * (front * front * (front / a).ln() - area / (2.0 * PI));
     for n in [8, 16, 32] {
-        let results = run(&scene(
+        let results = run_file(
             "thick_cylinder",
             &[
                 "symmetry=4",
@@ -136,7 +135,7 @@ fn the_plastic_ring_and_the_work_in_it_converge_to_hill() {
                 "mesh.parts.0.ring.bias=1.0",
                 &format!("program.targets=[{{load_factor={pressure}}}]"),
             ],
-        ));
+        );
         let state = &results.states[0];
         let h = 100.0 / f64::from(n);
         let off = (state.plastic_zone_size - area).abs();
@@ -158,14 +157,14 @@ fn the_plastic_ring_and_the_work_in_it_converge_to_hill() {
 
 #[test]
 fn collapse_is_bracketed_and_named() {
-    let scene = scene(
+    let scene = load(
         "thick_cylinder",
         &[
             "mesh.parts.0.ring.elements=[6,2]",
             "program.targets=[{load_factor=185.0},{load_factor=200.0}]",
         ],
     );
-    let results = run_until_it_ends(&scene);
+    let results = run_as_far_as_it_goes(&scene, Backend::default());
     assert_eq!(results.ending().kind(), Some(ErrorKind::Collapse));
     let held = results.history.last().unwrap().alpha;
     // 2k ln(b/a) = 192.09; finite elements of displacement type lie above the limit load: six
@@ -175,7 +174,7 @@ fn collapse_is_bracketed_and_named() {
 
 /// Largest error of the hoop stress at the nodes, over the pressure, by Lame.
 fn error_at_nodes(element: &str, n: usize) -> f64 {
-    let scene = scene(
+    let scene = load(
         "thick_cylinder",
         &[
             &format!("mesh.parts.0.element={element}"),
@@ -184,10 +183,9 @@ fn error_at_nodes(element: &str, n: usize) -> f64 {
             "reference=[]",
         ],
     );
-    let mut analysis = Analysis::new(Model::new(&scene).unwrap(), Backend::default()).unwrap();
-    let results = analysis.run(&mut Silent).unwrap();
+    let (model, results) = run_with_model(&scene);
+    let mesh = &model.mesh;
     let fields = results.states[0].fields.as_ref().unwrap();
-    let mesh = &analysis.model().mesh;
     let mut worst = 0.0f64;
     for (node, stress) in fields.nodal_stress.chunks(4).enumerate() {
         let [x, y] = mesh.in_plane(node);

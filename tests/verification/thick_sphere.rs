@@ -2,7 +2,8 @@
 //!
 //! Source: R. Hill, The Mathematical Theory of Plasticity (1950), chapter V.
 
-use crate::verification::run::{close, radial_displacement, scene, yield_load};
+use crate::support::{load, yield_load};
+use crate::verification::{close, radial_displacement};
 use brinell::analytical::ThickSphere;
 
 #[test]
@@ -13,7 +14,7 @@ fn expands_by_hill_and_converges() {
             .displacement(200.0, 287.123)
             .unwrap();
         let error = |n: usize| {
-            let scene = scene(
+            let scene = load(
                 "thick_sphere",
                 &[
                     &format!("materials.steel.poissons_ratio={nu}"),

@@ -3,7 +3,8 @@
 //!
 //! Source of the elastic stresses: K. L. Johnson, Contact Mechanics (1985), section 4.2.
 
-use crate::verification::run::{close, run, scene, yield_load};
+use crate::support::{load, parse, run, yield_load};
+use crate::verification::close;
 use brinell::ErrorKind;
 use brinell::analytical::{HertzLine, contact_modulus};
 use brinell::model::Model;
@@ -41,7 +42,7 @@ targets = [{}]
 "#,
         each.join(", ")
     );
-    Scene::parse(&text, "sheet").unwrap()
+    parse(&text)
 }
 
 #[test]
@@ -78,7 +79,7 @@ fn a_case_hardened_half_plane_yields_below_its_case() {
     let profile = format!("{rows:?}");
     let mut found = Vec::new();
     for resolution in [16, 32] {
-        let scene = scene(
+        let scene = load(
             "cylinder_on_half_plane",
             &[
                 &format!("mesh.cylinder_on_half_plane.resolution={resolution}"),
@@ -140,7 +141,7 @@ fn surfaces_that_are_not_there_are_named() {
         ),
     ] {
         let profile = "bodies.half_plane.yield_by_depth=[[0.0, 900.0], [1.0, 500.0]]";
-        let scene = scene("cylinder_on_half_plane", &[profile, change, "reference=[]"]);
+        let scene = load("cylinder_on_half_plane", &[profile, change, "reference=[]"]);
         let error = Model::new(&scene).map(|_| ()).unwrap_err();
         assert_eq!(error.kind(), ErrorKind::Input);
         assert!(error.message().contains(words), "{error}");

@@ -2,8 +2,8 @@
 //!
 //! Source: N. Endahl, section 3, equation 3.14.
 
-use crate::verification::run::{close, scene, yield_load};
-
+use crate::support::{load, yield_load};
+use crate::verification::close;
 #[test]
 fn secant_and_path_agree() {
     for (name, overrides) in [
@@ -18,10 +18,10 @@ fn secant_and_path_agree() {
         ),
         ("thick_cylinder", vec![]),
     ] {
-        let exact = yield_load(&scene(name, &overrides)).first_yield.unwrap();
+        let exact = yield_load(&load(name, &overrides)).first_yield.unwrap();
         let mut secant = overrides.clone();
         secant.push("analysis.yield_load=\"secant\"");
-        let secant = yield_load(&scene(name, &secant)).first_yield.unwrap();
+        let secant = yield_load(&load(name, &secant)).first_yield.unwrap();
         close(secant.alpha, exact.alpha, 1e-9);
         close(secant.load, exact.load, 1e-9);
     }

@@ -3,7 +3,6 @@
 //!
 //! The constants of `brinell::accuracy` were looked at on the families of `calibration` alone;
 //! these judge them.
-#![allow(dead_code)] // tests and the page each use a part of it
 
 use crate::support;
 use brinell::accuracy::{Effort, Extent, estimate, quantities};
@@ -69,7 +68,7 @@ impl Family {
                 .map(|(path, value)| (path.to_string(), *value))
                 .collect(),
             Truth::Finer(scene) => {
-                let results = run(scene, self.extent).unwrap();
+                let results = run_extent(scene, self.extent).unwrap();
                 let all = quantities(&results).into_iter();
                 all.map(|q| (q.path, q.value)).collect()
             }
@@ -80,7 +79,7 @@ impl Family {
     pub fn claims_beside(&self, truth: &BTreeMap<String, f64>) -> Vec<Claim> {
         let mut out = Vec::new();
         for (mesh, scene) in &self.meshes {
-            let Some(results) = run(scene, self.extent) else {
+            let Some(results) = run_extent(scene, self.extent) else {
                 println!("{} {mesh}: cannot be run", self.name);
                 continue;
             };
@@ -123,7 +122,7 @@ pub fn claims_of(families: &[Family]) -> Vec<Claim> {
 }
 
 /// A run to its end; `None` where it does not get there.
-pub fn run(scene: &Scene, extent: Extent) -> Option<Results> {
+pub fn run_extent(scene: &Scene, extent: Extent) -> Option<Results> {
     let mut analysis = Analysis::new(Model::new(scene).ok()?, Backend::default()).ok()?;
     let results = match extent {
         Extent::Yield => analysis.yield_load(&mut Silent),

@@ -1,7 +1,7 @@
 //! What finer grading of a generated mesh would buy: errors and operations over the elements at the
 //! contact and the growth away from it, data/accuracy/grading.md.
 
-use super::families::{on_flat, run};
+use super::support::families::{on_flat, run_extent};
 use brinell::accuracy::{Extent, quantities, work};
 use brinell::results::Results;
 use brinell::scene::Scene;
@@ -50,7 +50,7 @@ fn errors(results: &Results, truth: &Results) -> BTreeMap<String, f64> {
 
 /// The page.
 pub fn page() -> String {
-    let of = |n: usize, growth: f64| run(&scene(n, growth), Extent::Program).unwrap();
+    let of = |n: usize, growth: f64| run_extent(&scene(n, growth), Extent::Program).unwrap();
     let truth = of(REFERENCE.0, REFERENCE.1);
     let measured = |n: usize, growth: f64| {
         eprintln!("{n} elements, growth {growth}");

@@ -1,6 +1,6 @@
 //! What demands cost beside the cheapest uniform mesh that is as accurate, found by trial.
 
-use super::families::{Family, run};
+use super::support::families::{Family, run_extent};
 use brinell::accuracy::{Extent, Quantity, member, quantities, reach, work};
 use brinell::linalg::Backend;
 use brinell::progress::Silent;
@@ -37,7 +37,8 @@ const POINTWISE: [&str; 3] = [
 /// The rows of a family, of which these values are known.
 pub fn of(family: &Family, known: &BTreeMap<String, f64>) -> String {
     let scene = &family.meshes[family.meshes.len() / 2].1;
-    let has = run(scene, family.extent).map_or_else(Vec::new, |results| quantities(&results));
+    let has =
+        run_extent(scene, family.extent).map_or_else(Vec::new, |results| quantities(&results));
     let demanded = |q: &&Quantity| !q.is_of_part() && !POINTWISE.contains(&q.kind);
     let (mut asked, mut keys) = (BTreeMap::new(), BTreeSet::new());
     for quantity in has.iter().filter(demanded) {
@@ -104,7 +105,9 @@ fn meshes_by_trial(
         .filter_map(|ratio| member(scene, ratio).ok())
         .collect();
     levels.dedup_by(|a, b| a.ratio == b.ratio);
-    let ran = levels.iter().filter_map(|level| run(&level.scene, extent));
+    let ran = levels
+        .iter()
+        .filter_map(|level| run_extent(&level.scene, extent));
     ran.map(|results| (error(&results, asked), work(&results)))
         .collect()
 }

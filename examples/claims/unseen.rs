@@ -1,8 +1,8 @@
 //! Families of other physics, written when the procedure of `brinell::accuracy` was finished and
 //! run once: what its stated errors are worth on scenes that nobody has looked at.
 
-use super::families::{Family, Truth, from_file, named, on_flat, stepped};
 use super::support;
+use super::support::families::{Family, Truth, from_file, named, on_flat, stepped};
 use brinell::accuracy::Extent;
 use brinell::analytical::{HertzLine, HertzPoint, PinInHole, contact_modulus};
 use brinell::scene::Scene;

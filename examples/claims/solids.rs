@@ -1,8 +1,8 @@
 //! Families of solids, written when the procedure of `brinell::accuracy` for solids was finished
 //! and run once.
 
-use super::families::{Family, Truth, named};
 use super::support;
+use super::support::families::{Family, Truth, named};
 use brinell::accuracy::Extent;
 use brinell::scene::Scene;
 

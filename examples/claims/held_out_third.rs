@@ -1,8 +1,8 @@
 //! Scenes that judge what demands cost, and the default estimate once more: written when the way
 //! from mesh to mesh was finished, of kinds that no other family has, and run once.
 
-use super::families::{Family, Truth, from_file, named, stepped};
 use super::support;
+use super::support::families::{Family, Truth, from_file, named, stepped};
 use brinell::accuracy::Extent;
 use brinell::scene::Scene;
 use std::path::Path;

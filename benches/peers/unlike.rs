@@ -3,7 +3,7 @@
 
 use super::deck::{self, Settings};
 use super::frd::Frd;
-use super::meshes::joined;
+use super::support::meshes::joined;
 use super::{Failure, SCENE, hertz};
 use brinell::analysis::Analysis;
 use brinell::analytical::{HertzLine, contact_modulus};

@@ -4,8 +4,6 @@
 //! with `-- solids` claims_solids.md.
 
 mod calibration;
-#[path = "../accuracy/families.rs"]
-mod families;
 mod grading;
 mod held_out_first;
 mod held_out_second;
@@ -13,12 +11,12 @@ mod held_out_third;
 mod pressed_file;
 mod prices;
 mod solids;
-#[path = "../support/mod.rs"]
+#[path = "../../tests/support/mod.rs"]
 mod support;
 mod unseen;
 
-use families::{Claim, Family};
 use std::fmt::Write;
+use support::families::{self, Claim, Family};
 
 const HEAD: &str = "# Stated errors beside true ones\n\n`cargo run --release --example claims` \
                     writes this page. Each family of meshes is run from coarse to fine; every \

@@ -12,27 +12,21 @@
 //! The table and the plot go to `bench-results/peers.md`, `.svg`, `.json`. `-- quick` runs
 //! CalculiX's long ones once; `-- decks DIR` only writes its decks; `-- solid` takes the ball of
 //! `data/peers/ball_contact.toml` in three dimensions, loaded to five times first yield and back,
-//! and one elastic load (`peers/solid.rs`; `-- quadratic` in elements of 20 nodes, `-- tamaas`
+//! and one elastic load (`solid.rs`; `-- quadratic` in elements of 20 nodes, `-- tamaas`
 //! beside Tamaas, which it installs from PyPI into `target`); `-- hard DIR` runs three small cases
 //! on which contact codes fail silently (`data/peers/README.md`); `-- unlike` compares pressures
-//! where the meshes of the two bodies do not match (`peers/unlike.rs`).
+//! where the meshes of the two bodies do not match (`unlike.rs`).
 
-#[path = "peers/deck.rs"]
 mod deck;
-#[path = "peers/dent.rs"]
 mod dent;
-#[path = "peers/frd.rs"]
 mod frd;
-#[path = "peers/hard.rs"]
 mod hard;
-#[path = "../support/meshes.rs"]
-mod meshes;
-#[path = "peers/plot.rs"]
 mod plot;
+#[path = "../process/mod.rs"]
 mod process;
-#[path = "peers/solid.rs"]
 mod solid;
-#[path = "peers/unlike.rs"]
+#[path = "../../tests/support/mod.rs"]
+mod support;
 mod unlike;
 
 use brinell::analytical::{HertzLine, contact_modulus};

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 // Shared with the unit tests, which use more of it.
 #[allow(dead_code)]
-#[path = "../../src/linalg/tests/matrices.rs"]
+#[path = "../src/linalg/tests/matrices.rs"]
 mod matrices;
 use matrices::{Grid, Support};
 

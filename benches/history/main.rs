@@ -12,13 +12,12 @@
 //! `bench-results/history.json`. `-- perfect` the same without hardening. `-- unlike` runs a pin in
 //! a hole, where nodes face each other and where they do not ([`UNLIKE`]). `-- scaling` runs meshes
 //! from ten thousand to three million freedoms instead, on one thread and on two
-//! (`history/scaling.rs`). `--features faer` and `-- backends` put the sparse backends beside one
-//! another (`history/backends.rs`).
+//! (`scaling.rs`). `--features faer` and `-- backends` put the sparse backends beside one
+//! another (`backends.rs`).
 
-#[path = "history/backends.rs"]
 mod backends;
+#[path = "../process/mod.rs"]
 mod process;
-#[path = "history/scaling.rs"]
 mod scaling;
 
 use brinell::analysis::Analysis;

@@ -2,9 +2,9 @@
 //! once more: written when found loads and readings of plastic strains had their rules, of kinds
 //! that no other family has, and run once.
 
-use super::families::{Family, Truth, from_file, named, stepped};
 use super::pressed_file::PressedFile;
 use super::support;
+use super::support::families::{Family, Truth, from_file, named, stepped};
 use brinell::accuracy::Extent;
 use brinell::model::Model;
 use brinell::scene::Scene;

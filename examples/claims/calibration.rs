@@ -1,6 +1,6 @@
 //! The families that the constants of `brinell::accuracy` were looked at on.
 
-use super::families::{
+use super::support::families::{
     Family, HISTORY, SHAPES, TUBE_HISTORY, Truth, named, on_flat, stepped, tube,
 };
 use brinell::accuracy::Extent;

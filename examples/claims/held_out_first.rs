@@ -1,9 +1,9 @@
 //! Families that judge the default estimate, which takes no more than the run: written when it was
 //! finished, of kinds that no other family has, and run once.
 
-use super::families::{Family, Truth, from_file, named, stepped};
 use super::pressed_file::PressedFile;
 use super::support;
+use super::support::families::{Family, Truth, from_file, named, stepped};
 use brinell::accuracy::Extent;
 use brinell::scene::{Direction, Extrusion, Kind, Scene};
 use std::path::Path;

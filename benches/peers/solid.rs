@@ -320,7 +320,7 @@ pub fn spectral() -> Result<(), Failure> {
         )?;
     }
     for (name, arguments, exact) in rows {
-        let script = root.join("tests/benches/peers/spectral.py");
+        let script = root.join("benches/peers/spectral.py");
         let mut command = Command::new(&python);
         command
             .arg(script)
