@@ -25,8 +25,8 @@ pub const HEAD: &str = "\n## What a demand costs\n\nAll runs of a demand togethe
 const SOUGHT: [[f64; 2]; 2] = [[4.0, 0.4], [4.0, 0.7]];
 const STEP: f64 = 1.2;
 /// Seconds for a demand.
-const BUDGET: f64 = 60.0;
-const DEMANDS: [f64; 3] = [0.1, 0.03, 0.01];
+const BUDGET: f64 = 40.0;
+const DEMANDS: [f64; 2] = [0.1, 0.01];
 /// Values at a point or counted in Gauss points: a demand on all does not hold for them.
 const POINTWISE: [&str; 3] = [
     "pole_pressure",
