@@ -301,8 +301,9 @@ pub struct State {
     /// resolution of [`State::plastic_zone_size`].
     #[serde(default)]
     pub plastic_zone_layer: f64,
-    /// Work done on the plastic strains of the whole body, `sum_g w_g int_0^p sigma_y(p) dp` with
-    /// the equivalent plastic strain `p` of each Gauss point; in the plane per unit thickness.
+    /// Work of the stresses on the plastic strains of the whole body, in the plane per unit
+    /// thickness: `sum_g w_g int_0^p sigma_y(p) dp` with the equivalent plastic strain `p` of each
+    /// Gauss point, and the work that back stresses store and lose.
     #[serde(default)]
     pub plastic_work: f64,
     /// Largest distance of a Gauss point with plastic strain from a contact surface, along the

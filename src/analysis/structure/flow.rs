@@ -85,8 +85,9 @@ impl FlowOnset {
     }
 }
 
-/// Distance of the loads from zero load. An interference does not count: it stays the same
-/// throughout.
+/// Distance of the loads from zero load. An interference does not count, not even while it grows
+/// (`program.interference_until`): if flow begins under an interference alone, the range is zero,
+/// and only the leg counts until flow begins anew under loads.
 fn size(at: &LoadPoint) -> f64 {
     at.factors
         .iter()

@@ -314,7 +314,7 @@ impl Sides<'_> {
             false => (0.0, Vec::new()),
         };
         let met = self.meet(node, normal, &of_node.faced);
-        // On the axis of revolution a quadratic element has no weight: see `AxisPoint`.
+        // A quadratic element's node on the axis has zero weight: see `AxisPoint`.
         let largest = of_node.largest;
         let on_axis = self.entries.space.is_axisymmetric()
             && mesh.point(node)[0].abs() <= COVERED * largest
