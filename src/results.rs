@@ -90,8 +90,9 @@ pub struct Results {
     /// if the scene asks for it (`analysis.condition`), a state is inaccurate, or the lower bound
     /// is beyond 1e10, and takes about six full solves.
     pub condition_estimate: Option<f64>,
-    /// States whose quality misses its tolerance, with the figure: these results are not to be
-    /// trusted.
+    /// Reasons not to trust the results: states whose quality misses its tolerance, with the
+    /// figure; a contact that presses although a load has opened it by more than half the model;
+    /// displacements that are not small although a deck asks for large ones.
     pub inaccurate: Vec<String>,
     /// Predicted cost of the factorisation.
     pub factor: Prediction,

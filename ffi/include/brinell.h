@@ -36,8 +36,8 @@
 // The load passed the limit load.
 #define BRINELL_COLLAPSE 6
 
-// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene
-// demands was not reached.
+// The run is complete, but a state's quality misses its tolerance, an accuracy that the scene
+// demands was not reached, or the message names another reason not to trust the results.
 #define BRINELL_INACCURATE 7
 
 // Contact reached the end of its candidates although the bodies go on there.

@@ -28,8 +28,10 @@ Exit codes:
     5  the analysis failed: a solve did not converge, a target was not reached,
        or the memory did not suffice
     6  the load passed the limit load of the bodies
-    7  inaccurate: a state's quality misses its tolerance (do not trust it), or
-       a demanded accuracy was not reached; the results are written
+    7  inaccurate, the results are written: a state's quality misses its
+       tolerance (do not trust it), a contact presses that a load has opened
+       far, displacements are not small although NLGEOM asks for large ones,
+       or a demanded accuracy was not reached; or a selftest failed
     8  contact reached the end of its candidates although the bodies go on there;
        what was computed before is written
    70  internal error, please report
