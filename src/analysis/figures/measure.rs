@@ -293,7 +293,11 @@ impl Solver<'_> {
         match load.measures {
             Magnitude::Displacement => self.driving_force().unwrap_or(0.0),
             Magnitude::Gap => through(&|pair| load.gap(pair) != 0.0),
-            _ => self.at.factors[leading].abs() * load.magnitude,
+            Magnitude::Force
+            | Magnitude::Stress
+            | Magnitude::Temperature
+            | Magnitude::Strain
+            | Magnitude::Carried => self.at.factors[leading].abs() * load.magnitude,
         }
     }
 }

@@ -86,7 +86,14 @@ impl<'m> Run<'m, '_> {
         let is_known = model.scene.program.unit != Unit::Yield;
         let leading = model.leading_load();
         let measures = leading.map(|leading| model.loads[leading].measures);
-        let of_load = |of: Magnitude| !matches!(of, Magnitude::Displacement | Magnitude::Gap);
+        let of_load = |of: Magnitude| match of {
+            Magnitude::Displacement | Magnitude::Gap => false,
+            Magnitude::Force
+            | Magnitude::Stress
+            | Magnitude::Temperature
+            | Magnitude::Strain
+            | Magnitude::Carried => true,
+        };
         [
             is_known && measures.is_some_and(of_load),
             is_known && measures == Some(Magnitude::Displacement),

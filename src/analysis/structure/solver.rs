@@ -235,7 +235,10 @@ impl<'m> Solver<'m> {
                         condensed.load.iter().map(|f| f.abs()).sum()
                     }
                     Magnitude::Gap => condensed.forces.iter().map(|f| f.abs()).sum(),
-                    _ => loads().map(LoadCase::size).sum(),
+                    Magnitude::Force
+                    | Magnitude::Stress
+                    | Magnitude::Temperature
+                    | Magnitude::Strain => loads().map(LoadCase::size).sum(),
                 };
                 (to - from).abs() * size
             })
