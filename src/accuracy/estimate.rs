@@ -137,7 +137,7 @@ impl ErrorSources<'_> {
             _ if self.unresolved.hides(quantity) => OfMeshes::default(),
             EstimateMethod::CoarserMeshes => {
                 let degree = self.run.results.sizes.degree;
-                of_meshes(quantity, degree, algebraic, &self.others)
+                by_other_meshes(quantity, degree, algebraic, &self.others)
             }
             EstimateMethod::EnergyNorm => OfMeshes {
                 error: by_energy_norm(self.run, quantity),
@@ -299,7 +299,7 @@ struct OfMeshes {
 }
 
 /// The uncertainty that the meshes leave, with that of reading the quantity off this one.
-fn of_meshes(
+fn by_other_meshes(
     quantity: &Quantity,
     degree: usize,
     algebraic: f64,
