@@ -15,6 +15,7 @@
 //! ```
 //!
 //! A module imports only from modules declared above it; a test checks that.
+//! `data/guide/theory.md`, "Equations of the paper", says which function implements each equation.
 //!
 //! # Use
 //!
