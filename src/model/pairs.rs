@@ -3,7 +3,8 @@
 //!
 //! If nodes face each other, a slave has one master; otherwise it has several masters with weights
 //! ([`mortar`]). The gap of a pair is `g = delta - (u_slave - sum_k w_k u_k) . n >= 0` with `delta`
-//! the distance along `n`, the unit vector from the slave's body to the other.
+//! the initial distance along `n`, the unit vector from the slave's body to the other, less the
+//! interference.
 
 mod covered;
 mod held;
@@ -45,7 +46,8 @@ pub struct Pair {
     pub masters: Vec<(usize, f64)>,
     /// Unit vector from the slave's body to the other.
     pub normal: Vector,
-    /// Initial gap delta, from which the interference is not subtracted.
+    /// Initial gap before the interference is subtracted; with the interference subtracted it is
+    /// the gap `delta`.
     pub gap: f64,
     /// Interference: the overlap that contact has to push apart.
     pub interference: f64,

@@ -142,7 +142,7 @@ mod tests {
         LoadPoint {
             alpha,
             factors,
-            interference: 1.0,
+            interference_share: 1.0,
         }
     }
 

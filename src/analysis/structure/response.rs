@@ -45,7 +45,9 @@ impl Solver<'_> {
         }
     }
 
-    /// Force of each pair at a load point, with initial loads, if all pairs were tied without gap.
+    /// Force of each pair at a load point, with initial loads, if all pairs were tied without gap:
+    /// [`super::factored::Structure::closed_forces`] with the forces of the initial loads and of
+    /// the springs.
     pub fn forces_if_tied(&self, point: &LoadPoint, initial: &EliminatedLoad) -> Vec<f64> {
         let mut q = initial.forces.clone();
         let factors = self.structure.model.factors_of_alike(&point.factors);
@@ -56,7 +58,7 @@ impl Solver<'_> {
         }
         let [initial, by_interference] = &self.structure.gaps.forces;
         for (q, (constant, change)) in q.iter_mut().zip(initial.iter().zip(by_interference)) {
-            *q += point.interference * change - constant;
+            *q += point.interference_share * change - constant;
         }
         self.add_springs(&mut q);
         q

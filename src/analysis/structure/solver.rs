@@ -244,7 +244,7 @@ impl<'m> Solver<'m> {
             })
             .sum();
         !self.now.gap.is_empty()
-            && self.at.interference == end.interference
+            && self.at.interference_share == end.interference_share
             && left <= self.round_off_of_contact()
     }
 
