@@ -1,5 +1,5 @@
-//! Figures of the house: how long files and functions are, how far types are spread, which files
-//! use each other, which doc comments do not stand alone. CONTRIBUTING.md has them.
+//! Code metrics: how long files and functions are, how far types are spread, which files use each
+//! other, which doc comments do not stand alone. CONTRIBUTING.md has them.
 
 use super::imports::{Modules, circles, within};
 use super::{files, is_test, module, root};
