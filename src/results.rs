@@ -172,7 +172,7 @@ pub const LOADS_FOUND: &str = "loads found";
 /// A row of the effects ledger.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Effect {
-    /// `contact`, `plasticity`, `interference`, `floating bodies`, ...
+    /// Name, such as `contact`, `plasticity`, `floating bodies`.
     pub name: String,
     /// Whether the effect is simulated.
     pub on: bool,
@@ -221,7 +221,7 @@ pub struct EdgeReading {
 impl EdgeReading {
     /// Number of pairs at the edge, including the last closed one, whose pressures are not trusted
     /// one by one, only their total force: the share of each depends on where in the facet the
-    /// contact ends (on Hertz' line contact the last two put the edge off by 0.08 and -0.06
+    /// contact ends (on Hertz's line contact the last two put the edge off by 0.08 and -0.06
     /// elements, those before by 0.01).
     pub(crate) const AT_EDGE: usize = 2;
 
@@ -259,7 +259,7 @@ pub struct State {
     /// Maximum contact pressure.
     pub max_pressure: f64,
     /// Pressure at the first pair of the contact surface that lies on a symmetry plane, or at the
-    /// middle of the contact.
+    /// centre of the contact.
     pub pole_pressure: f64,
     /// Contact half width.
     pub half_width: f64,

@@ -84,7 +84,7 @@ pub(super) enum Command {
         after_help = "Example: brinell convert press.inp --out press.toml && brinell run press.toml"
     )]
     Convert(super::convert::ConvertArguments),
-    /// Run a deck in the place of CalculiX' program ccx, for FreeCAD, PrePoMax and others
+    /// Run a deck in the place of CalculiX's program ccx, for FreeCAD, PrePoMax and others
     ///
     /// Reads NAME.inp, leaves NAME.frd, NAME.dat, NAME.sta and NAME.cvg next to it, prints to
     /// standard output only. The exit code is 201 if there is an error, as with ccx.
@@ -195,7 +195,7 @@ pub(super) struct RunArguments {
     pub budget: Option<f64>,
     #[command(flatten)]
     pub estimate: EstimateArguments,
-    /// Write no report.html and no figures
+    /// Do not write report.html or figures
     #[arg(long)]
     pub no_report: bool,
     /// File for tables of displacements, forces and stresses of all sets, as CalculiX prints them

@@ -13,7 +13,7 @@ use std::collections::BTreeSet;
 /// Sine of the angle up to which directions count as equal, and share of a facet's length up to
 /// which positions do.
 const SAME: f64 = 1e-9;
-/// Share of a facet's length within which a pair counts as lying on a plane.
+/// Fraction of a facet's length within which a pair counts as lying on a plane.
 const ON_PLANE: f64 = 1e-6;
 
 /// Directions across the contact normal in which the node of a pair is held.
@@ -155,7 +155,7 @@ impl Mirror {
         length_of(cross(self.normal, other.normal)) < SAME
     }
 
-    /// Whether a point lies on the plane, up to a small share of the length of facets there.
+    /// Whether a point lies on the plane, up to a small fraction of the length of facets there.
     pub fn holds(&self, x: Vector, facet_length: f64) -> bool {
         self.beyond(x).abs() <= ON_PLANE * facet_length
     }

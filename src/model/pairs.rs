@@ -1,5 +1,5 @@
-//! Contact pairs: a node of one surface, the slave, with the nodes it faces on the other (paper
-//! 2.1).
+//! Contact pairs: a node of one surface, the slave, with the nodes it faces on the other (paper,
+//! sec. 2.1).
 //!
 //! If nodes face each other, a slave has one master; otherwise it has several masters with weights
 //! ([`mortar`]). The gap of a pair is `g = delta - (u_slave - sum_k w_k u_k) . n >= 0` with `delta`
@@ -162,8 +162,8 @@ pub struct AxisPoint {
     pub begins: bool,
 }
 
-/// Share of its neighbour's area below which a node on the axis carries no force. The share is 0
-/// for quadratic elements apart from curvature, and 1/6 for linear ones.
+/// Fraction of its neighbour's area below which a node on the axis carries no force. The fraction
+/// is 0 for quadratic elements apart from curvature, and 1/6 for linear ones.
 const NO_AREA: f64 = 0.02;
 
 /// Data from which a contact is resolved.

@@ -208,7 +208,7 @@ impl<'m> Run<'m, '_> {
     }
 
     /// Power of the load over which increments are spread evenly. If increments end at changes of
-    /// contact and the contact grows pair by pair, it is the power with which the width of Hertz'
+    /// contact and the contact grows pair by pair, it is the power with which the width of Hertz's
     /// contact grows.
     fn changes_by_load(&self) -> f64 {
         let model = self.model();

@@ -321,7 +321,7 @@ impl<'m> Structure<'m> {
     }
 
     /// The largest sum, over the pairs, of the absolute values of the terms of
-    /// [`Structure::closed_forces`]. Round-off of the forces is a share of it.
+    /// [`Structure::closed_forces`]. Round-off of the forces is a fraction of it.
     pub fn closed_forces_size(&self, point: &LoadPoint) -> f64 {
         (0..self.n_pairs())
             .map(|k| self.closed_force_terms(point, k).map(f64::abs).sum())

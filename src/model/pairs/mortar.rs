@@ -36,17 +36,17 @@ use face::MortarFace;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Share of a row's weight that must be covered for the row to be kept: rows below it would contain
-/// the inverse of round-off.
+/// Fraction of a row's weight that must be covered for the row to be kept: rows below it would
+/// contain the inverse of round-off.
 const COVERED: f64 = 1e-8;
-/// Largest distance of tied surfaces, as a share of a facet's length: more than the tolerances of a
-/// mesher, less than an element.
+/// Largest distance of tied surfaces, as a fraction of a facet's length: more than the tolerances
+/// of a mesher, less than an element.
 const NEAR: f64 = 0.05;
-/// Share of a facet's length by which facets of a flat surface may deviate from it.
+/// Fraction of a facet's length by which facets of a flat surface may deviate from it.
 const FLAT: f64 = 1e-6;
-/// Overlap of the meshes that counts as round-off, as a share of a facet's length.
+/// Overlap of the meshes that counts as round-off, as a fraction of a facet's length.
 const TOUCHING: f64 = 1e-9;
-/// Share of a facet's weight below which a master is dropped.
+/// Fraction of a facet's weight below which a master is dropped.
 const NOTHING: f64 = 1e-13;
 
 /// Facets of both surfaces with their true shapes.

@@ -16,7 +16,7 @@ pub(super) const BENT: f64 = 1e-8;
 /// otherwise the nodes form a polygon.
 const FEWEST: usize = 6;
 pub(super) const LARGEST_TURN: f64 = 30.0;
-/// Share of a facet by which a point on the border of two facets may lie outside either.
+/// Fraction of a facet by which a point on the border of two facets may lie outside either.
 const BORDER: f64 = 1e-6;
 
 /// Finds the circle on which the nodes of a plane surface lie; in a solid the sphere or cylinder.
