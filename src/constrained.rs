@@ -38,7 +38,7 @@ use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Share of the stiffness of a row's own freedoms below which a diagonal entry of `T` counts as
+/// Fraction of the stiffness of a row's own freedoms below which a diagonal entry of `T` counts as
 /// round-off.
 const CANCELLED: f64 = 1e-12;
 

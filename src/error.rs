@@ -22,10 +22,11 @@ pub enum ErrorKind {
     /// The analysis failed: a solve did not converge, a target was not reached, or the memory did
     /// not suffice. Exit code 5.
     Analysis,
-    /// The load passed the limit load; the message names the load held before. Exit code 6.
+    /// The load passed the limit load; the message names the load held previously. Exit code 6.
     Collapse,
-    /// The run ended, but a state's quality misses its tolerance, or a demanded accuracy was not
-    /// reached. Exit code 7.
+    /// The run ended, but a state's quality misses its tolerance, a contact presses that a load has
+    /// opened far, displacements are not small although the deck asks for large ones, or a demanded
+    /// accuracy was not reached; or a family of the selftest failed. Exit code 7.
     Inaccurate,
     /// Contact reached the end of its surfaces although the bodies go on there; earlier results are
     /// right. Exit code 8.

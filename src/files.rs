@@ -17,7 +17,7 @@ pub(crate) const LARGEST_SCENE: u64 = 64 << 20;
 pub(crate) fn read(what: &str, path: &Path, largest: Option<u64>) -> Result<Vec<u8>> {
     let failed = |cause| Error::io(what, path, cause);
     let refused = |why: String| Error::input(format!("cannot {what} {}: {why}", path.display()));
-    // Opening a pipe waits for its other end, so the kind is checked before.
+    // Opening a pipe waits for its other end, so the kind is checked first.
     let kind = std::fs::metadata(path).map_err(failed)?.file_type();
     if !kind.is_file() {
         let kind = if kind.is_dir() {

@@ -15,6 +15,7 @@
 //! ```
 //!
 //! A module imports only from modules declared above it; a test checks that.
+//! `data/guide/theory.md`, "Equations of the paper", says which function implements each equation.
 //!
 //! # Use
 //!
@@ -54,7 +55,7 @@
 //! - `cholmod` (default): condense with CHOLMOD of SuiteSparse, which must be installed with its
 //!   headers (and libclang, to read them). Its supernodal module is GPL-2.0-or-later, and so is any
 //!   program that is linked with it.
-//! - `faer`: condense with faer, in Rust alone, at full size without any system library
+//! - `faer`: condense with faer, in pure Rust, at full size without any system library
 //!   (`default-features = false, features = ["faer"]`), MIT or Apache-2.0.
 //! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with
 //!   it).

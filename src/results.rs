@@ -90,8 +90,9 @@ pub struct Results {
     /// if the scene asks for it (`analysis.condition`), a state is inaccurate, or the lower bound
     /// is beyond 1e10, and takes about six full solves.
     pub condition_estimate: Option<f64>,
-    /// States whose quality misses its tolerance, with the figure: these results are not to be
-    /// trusted.
+    /// Reasons not to trust the results: states whose quality misses its tolerance, with the
+    /// figure; a contact that presses although a load has opened it by more than half the model;
+    /// displacements that are not small although a deck asks for large ones.
     pub inaccurate: Vec<String>,
     /// Predicted cost of the factorisation.
     pub factor: Prediction,
@@ -171,7 +172,7 @@ pub const LOADS_FOUND: &str = "loads found";
 /// A row of the effects ledger.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Effect {
-    /// `contact`, `plasticity`, `interference`, `floating bodies`, ...
+    /// Name, such as `contact`, `plasticity`, `floating bodies`.
     pub name: String,
     /// Whether the effect is simulated.
     pub on: bool,
@@ -220,7 +221,7 @@ pub struct EdgeReading {
 impl EdgeReading {
     /// Number of pairs at the edge, including the last closed one, whose pressures are not trusted
     /// one by one, only their total force: the share of each depends on where in the facet the
-    /// contact ends (on Hertz' line contact the last two put the edge off by 0.08 and -0.06
+    /// contact ends (on Hertz's line contact the last two put the edge off by 0.08 and -0.06
     /// elements, those before by 0.01).
     pub(crate) const AT_EDGE: usize = 2;
 
@@ -258,7 +259,7 @@ pub struct State {
     /// Maximum contact pressure.
     pub max_pressure: f64,
     /// Pressure at the first pair of the contact surface that lies on a symmetry plane, or at the
-    /// middle of the contact.
+    /// centre of the contact.
     pub pole_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
@@ -301,8 +302,9 @@ pub struct State {
     /// resolution of [`State::plastic_zone_size`].
     #[serde(default)]
     pub plastic_zone_layer: f64,
-    /// Work done on the plastic strains of the whole body, `sum_g w_g int_0^p sigma_y(p) dp` with
-    /// the equivalent plastic strain `p` of each Gauss point; in the plane per unit thickness.
+    /// Work of the stresses on the plastic strains of the whole body, in the plane per unit
+    /// thickness: `sum_g w_g int_0^p sigma_y(p) dp` with the equivalent plastic strain `p` of each
+    /// Gauss point, and the work that back stresses store and lose.
     #[serde(default)]
     pub plastic_work: f64,
     /// Largest distance of a Gauss point with plastic strain from a contact surface, along the

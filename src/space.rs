@@ -130,7 +130,7 @@ impl Space {
         self == Space::Solid
     }
 
-    /// Names of the coordinates, in their order.
+    /// Names of the coordinates, in order.
     pub fn axes(self) -> &'static [&'static str] {
         match self {
             Space::PlaneStrain | Space::PlaneStress => &["x", "y"],
@@ -139,7 +139,7 @@ impl Space {
         }
     }
 
-    /// Names of the components of stress, in their order.
+    /// Names of the components of stress, in order.
     pub fn components(self) -> &'static [&'static str] {
         match self {
             Space::PlaneStrain | Space::PlaneStress => &["xx", "yy", "zz", "xy"],

@@ -7,8 +7,8 @@
 //!
 //! ```text
 //!     [ S_vv  S_vs ] [ v ]   [ f_1 + f_2 ]       S_vv = sum of the bodies'
-//!                                                condensed stiffness  (paper 3.8)
-//!     [ S_sv  S_ss ] [ s ] = [ f_2 - r   ]
+//!                                                condensed stiffness (paper, eq. 3.8) [ S_sv S_ss
+//!                                                ] [ s ] = [ f_2 - r ]
 //! ```
 //!
 //! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`,

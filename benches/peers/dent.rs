@@ -1,6 +1,6 @@
 //! The dent as both programs can be asked for it: the largest change of the gap once all loads are
 //! off, that of the outermost pair taken off. (brinell's own, `residual_depth`, takes off the rigid
-//! motion of each body's far boundary, which CalculiX' results do not have.)
+//! motion of each body's far boundary, which CalculiX's results do not have.)
 
 use super::process::Failure;
 use brinell::model::Model;

@@ -19,7 +19,7 @@ pub struct Increment {
 pub struct Frd {
     /// Places of the nodes.
     pub points: BTreeMap<u64, [f64; 3]>,
-    /// Increments in their order.
+    /// Increments, in order.
     pub increments: Vec<Increment>,
 }
 

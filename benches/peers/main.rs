@@ -6,7 +6,7 @@
 //! compared is processor seconds, medians, and errors:
 //!
 //! - of the largest pressure at 0.8 of the yield load, where all is elastic, against Hertz;
-//! - of the largest pressure at twice the yield load and of the dent that stays, against brinell's
+//! - of the largest pressure at twice the yield load and of the residual dent, against brinell's
 //!   values extrapolated from its two finest meshes, finer than any mesh compared.
 //!
 //! The table and the plot go to `bench-results/peers.md`, `.svg`, `.json`. `-- quick` runs
@@ -256,7 +256,7 @@ fn calculix(size: usize, dir: &Path, quick: bool) -> Result<Outcome, Failure> {
     })
 }
 
-/// The dent of CalculiX' results.
+/// The dent of CalculiX's results.
 fn dent_of(frd: &Frd, size: usize) -> Result<f64, Failure> {
     let unloaded = frd.at(2.0).ok_or("the unloading was not finished")?;
     let model = model(size)?;

@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/data/peers/ball_contact.toml");
-/// Elements over the contact radius at first yield, their shape, and CalculiX' solvers.
+/// Elements over the contact radius at first yield, their shape, and CalculiX's solvers.
 const CASES: [(usize, &str, &[&str]); 2] = [
     (4, "hex8", &["ITERATIVE CHOLESKY", "SPOOLES"]),
     (6, "hex8", &["ITERATIVE CHOLESKY"]),
@@ -181,7 +181,7 @@ fn extrapolated(coarse: f64, fine: f64) -> f64 {
     fine + (fine - coarse) / (ratio - 1.0)
 }
 
-/// brinell's values, extrapolated; Hertz' where nothing flows.
+/// brinell's values, extrapolated; Hertz's where nothing flows.
 fn reference(dir: &Path) -> Result<Outcome, Failure> {
     let [coarse, fine] = [
         brinell((FINEST[0], "hex8"), dir, false)?,

@@ -1,5 +1,5 @@
 //! Line contact where the two bodies are meshed with elements of different size, elastic: the
-//! largest pressure against Hertz' and the scatter of the pressures about his ellipse.
+//! largest pressure against Hertz's and the scatter of the pressures about his ellipse.
 
 use super::deck::{self, Settings};
 use super::frd::Frd;
@@ -22,7 +22,7 @@ const LOAD: f64 = 0.8;
 /// Share of the half width over which pressures are compared: beyond it the ellipse is steep.
 const INNER: f64 = 0.9;
 
-/// A pressure and its distance from the middle of the contact.
+/// A pressure and its distance from the centre of the contact.
 type Pressures = Vec<[f64; 2]>;
 
 /// The scene with slaves on the first body, which CalculiX is given as well, and its model.
@@ -92,7 +92,7 @@ fn theirs(model: &Model, cells: [usize; 2], dir: &Path) -> Result<Pressures, Fai
     Ok(slaves.iter().filter_map(of).collect())
 }
 
-/// Largest pressure less Hertz', and the root of the mean square deviation from his ellipse.
+/// Largest pressure less Hertz's, and the root of the mean square deviation from his ellipse.
 fn deviations(pressures: &Pressures) -> Result<[f64; 2], Failure> {
     let scene = Scene::load(SCENE)?;
     let force = LOAD * scene.load[0].plane_force.ok_or("another load")?.total.abs();

@@ -5,7 +5,7 @@ use super::support::families::{
 };
 use brinell::accuracy::Extent;
 
-/// The thick cylinder with all elements, and Hertz' line contact.
+/// The thick cylinder with all elements, and Hertz's line contact.
 pub fn families() -> Vec<Family> {
     let far = "mesh.cylinder_on_half_plane.far_size=20000.0";
     let line = |n: usize| on_flat("cylinder_on_half_plane", n, &[far, HISTORY]);

@@ -40,7 +40,7 @@ these outcomes (`tests/verification/shakedown.rs`; the finer mesh with `BRINELL_
 
 ## Differences beyond both errors
 
-- The approach of MOOSE's spheres is 0.3 % more than Hertz': Hertz' approach is that of half \
+- The approach of MOOSE's spheres is 0.3 % more than Hertz's: Hertz's approach is that of half \
 spaces, while here
   half a sphere is held at its middle.
 - The radius by Jackson and Green at 10 and 20 times the interference at first yield is 3.3 and \

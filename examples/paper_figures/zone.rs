@@ -33,7 +33,7 @@ pub fn draw(run: &Run) -> Outcome<()> {
     pressure_and_stress(run)
 }
 
-/// Deformed coordinates in multiples of b*, the middle of the contact at the origin.
+/// Deformed coordinates in multiples of b*, the centre of the contact at the origin.
 struct Shape<'a> {
     mesh: &'a Mesh,
     points: Vec<(f64, f64)>,

@@ -36,8 +36,8 @@
 // The load passed the limit load.
 #define BRINELL_COLLAPSE 6
 
-// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene
-// demands was not reached.
+// The run is complete, but a state's quality misses its tolerance, an accuracy that the scene
+// demands was not reached, or the message names another reason not to trust the results.
 #define BRINELL_INACCURATE 7
 
 // Contact reached the end of its candidates although the bodies go on there.
@@ -58,7 +58,7 @@
 // Dense, by the textbook: a reference for small models.
 #define BRINELL_BACKEND_DENSE 2
 
-// Sparse Cholesky in Rust alone (faer).
+// Sparse Cholesky in pure Rust (faer).
 #define BRINELL_BACKEND_FAER 3
 
 // No strain out of the plane; forces per unit thickness.
@@ -257,7 +257,7 @@ typedef struct brinell_state {
   double max_pressure;
   // Contact half width.
   double half_width;
-  // The dent that stays.
+  // The residual dent.
   double residual_depth;
   // Displacement of the loaded surface along the load.
   double approach;

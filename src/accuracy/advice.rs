@@ -6,7 +6,7 @@ use super::record::{StudyRun, is_own, path_correction, value};
 use crate::number::{duration, percent};
 use std::cmp::Ordering;
 
-/// A looser setting would do where its error is this small a share of the mesh's.
+/// A looser setting would do where its error is this small a fraction of the mesh's.
 const HIDDEN: f64 = 0.1;
 
 /// The sentences on a quantity.

@@ -192,8 +192,8 @@ impl<'s> MembersFound<'s> {
     }
 }
 
-/// What a run on another mesh takes, as a share of the run: on a coarser mesh the share of the
-/// elements, which is an upper bound, on a finer mesh that of the factorisation
+/// What a run on another mesh takes, as a fraction of the run: on a coarser mesh the fraction of
+/// the elements, which is an upper bound, on a finer mesh that of the factorisation
 /// ([`work_of_finer`]).
 fn share_of_run(scene: &Scene, ratio: f64) -> f64 {
     match ratio < 1.0 {

@@ -137,7 +137,7 @@ impl ErrorSources<'_> {
             _ if self.unresolved.hides(quantity) => OfMeshes::default(),
             EstimateMethod::CoarserMeshes => {
                 let degree = self.run.results.sizes.degree;
-                of_meshes(quantity, degree, algebraic, &self.others)
+                by_other_meshes(quantity, degree, algebraic, &self.others)
             }
             EstimateMethod::EnergyNorm => OfMeshes {
                 error: by_energy_norm(self.run, quantity),
@@ -166,7 +166,8 @@ impl ErrorSources<'_> {
 /// The error of a quantity where no other mesh was run: the energy norm of the stress error, of the
 /// whole for loads, displacements and work, of where bodies touch and yield for all else and for
 /// loads that the material or the contact decides. No bound, and none where a target asks for the
-/// quantity itself.
+/// quantity itself. What the reading leaves is added, [`Quantity::least`] too: the norm does not
+/// see how far the outermost points are from a surface, as a comparison of meshes does in part.
 fn by_energy_norm(run: &Judged, quantity: &Quantity) -> Option<f64> {
     let program = &run.scene.program;
     let labels = program.labels();
@@ -298,7 +299,7 @@ struct OfMeshes {
 }
 
 /// The uncertainty that the meshes leave, with that of reading the quantity off this one.
-fn of_meshes(
+fn by_other_meshes(
     quantity: &Quantity,
     degree: usize,
     algebraic: f64,

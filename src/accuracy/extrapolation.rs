@@ -253,7 +253,7 @@ fn best(values: &[(f64, f64)], orders: &[f64]) -> FittedLaw {
     of(root::maximum(deviation, all[before].order, after.order, 1).0)
 }
 
-/// Weighted least squares with a given order.
+/// Weighted fit of `limit + slope h^order`.
 fn fit(values: &[(f64, f64)], order: f64, weight: impl Fn(f64) -> f64) -> FittedLaw {
     let mean = |f: &dyn Fn(f64, f64) -> f64| -> f64 {
         values

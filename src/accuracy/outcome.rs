@@ -6,10 +6,10 @@ use crate::number::percent;
 use crate::results::{Accuracy, QuantityError, Results};
 use crate::scene::AccuracyDemand;
 
-/// The next mesh is aimed at this share of the demand, so that it is not missed by a little.
+/// The next mesh is aimed at this fraction of the demand, so that it is not missed by a little.
 const AIM: f64 = 0.8;
-/// Share of the demand from which on the path is made finer where it limits more than the mesh, and
-/// to which.
+/// Fraction of the demand from which on the path is made finer where it limits more than the mesh,
+/// and to which.
 pub(super) const PATH: [f64; 2] = [0.5, 0.25];
 
 /// A quantity beyond its demand.
@@ -30,7 +30,7 @@ pub(super) struct Outcome {
     pub unknown: Vec<String>,
     /// Quantities beyond their demand.
     pub missed: Vec<Missed>,
-    /// Largest share of the demand of the meshes, of the path and of the algebra.
+    /// Largest fraction of the demand of the meshes, of the path and of the algebra.
     pub mesh: f64,
     pub path: f64,
     pub algebra: f64,

@@ -26,7 +26,7 @@ use crate::results::{QuantityError, Results};
 use crate::scene::{Kind, LEAST_PATH_ERROR, Program, Scene, Stepping};
 use std::collections::BTreeMap;
 
-/// Increments from target to target with which a run is compared at least.
+/// Fewest increments per target in the finer of two compared runs.
 const FEWEST: usize = 8;
 /// Power of the length of increments with which the error of the path falls, as far as few of them
 /// show it.

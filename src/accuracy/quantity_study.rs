@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct StudyReference {
     /// The reference value.
     pub value: f64,
-    /// Uncertainty of the reference itself, absolute: 0 for a closed form.
+    /// Absolute uncertainty of the reference; 0 for a closed form.
     pub uncertainty: f64,
     /// The closed form's source, or how it was extrapolated.
     pub source: String,

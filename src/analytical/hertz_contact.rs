@@ -36,7 +36,7 @@ impl HertzContact {
         }
     }
 
-    /// Greatest pressure, at the middle of the contact.
+    /// Greatest pressure, at the centre of the contact.
     pub fn max_pressure(&self, load: f64) -> f64 {
         match self {
             HertzContact::Line(line) => line.max_pressure(load),
@@ -52,7 +52,7 @@ impl HertzContact {
         }
     }
 
-    /// Largest shear stress below the middle of the contact, in a body with Poisson's ratio
+    /// Largest shear stress below the centre of the contact, in a body with Poisson's ratio
     /// `poisson`.
     pub fn largest_shear(&self, load: f64, poisson: f64) -> Peak {
         match self {
@@ -61,7 +61,7 @@ impl HertzContact {
         }
     }
 
-    /// Largest von Mises stress below the middle of the contact, in a body with Poisson's ratio
+    /// Largest von Mises stress below the centre of the contact, in a body with Poisson's ratio
     /// `poisson`.
     pub fn largest_von_mises(&self, load: f64, poisson: f64) -> Peak {
         match self {

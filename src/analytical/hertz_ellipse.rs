@@ -144,7 +144,7 @@ impl HertzEllipse {
         self.max_pressure(load) * inside.max(0.0).sqrt()
     }
 
-    /// Principal stresses `[s_xx, s_yy, s_zz]` at the depth `z >= 0` below the middle of the
+    /// Principal stresses `[s_xx, s_yy, s_zz]` at the depth `z >= 0` below the centre of the
     /// contact, in a body with Poisson's ratio `poisson`.
     ///
     /// With `A^2 = a^2 + z^2`, `B^2 = b^2 + z^2` and, after Carlson,
@@ -175,7 +175,7 @@ impl HertzEllipse {
     }
 
     /// Shear stress `s_xz` at `y = 0`, or `s_yz` at `x = 0`, in either body: `axis` is 0 or 1, `at`
-    /// the distance from the middle along this axis, `z >= 0` the depth.
+    /// the distance from the centre along this axis, `z >= 0` the depth.
     ///
     /// With `lambda >= 0` (l for short) the root of `x^2/(a^2 + lambda) + z^2/lambda =
     /// 1`, the shear stress is `-p0 a b x z^2/((a^2 + l)^(3/2) (b^2 + l)^(1/2) l^(3/2) S)`, `S =
@@ -202,7 +202,7 @@ impl HertzEllipse {
         -self.max_pressure(load) * size
     }
 
-    /// Largest shear stress below the middle of the contact under `load >= 0`: half the largest
+    /// Largest shear stress below the centre of the contact under `load >= 0`: half the largest
     /// difference of principal stresses.
     ///
     /// # Source
@@ -211,7 +211,7 @@ impl HertzEllipse {
         self.scaled(load, self.peak(greatest_shear, poisson))
     }
 
-    /// Largest von Mises stress below the middle of the contact under `load >= 0`.
+    /// Largest von Mises stress below the centre of the contact under `load >= 0`.
     pub fn largest_von_mises(&self, load: f64, poisson: f64) -> Peak {
         self.scaled(
             load,
@@ -221,7 +221,7 @@ impl HertzEllipse {
 
     /// Amplitude of the shear stress parallel to the surface, along x (0) or y (1), by which a
     /// contact rolling along this axis fatigues the material. The stress reaches this size, with
-    /// opposite signs, before and behind the middle of the contact.
+    /// opposite signs, before and behind the centre of the contact.
     ///
     /// With `t` the root of `(s/o)^2 = (t^2 - 1)(2 t - 1)`, where s is the half axis along the
     /// direction of rolling and o the other one, the amplitude is `p0 (2 t - 1)^(1/2)/(2 t (t +
@@ -247,7 +247,7 @@ impl HertzEllipse {
     }
 
     /// Pressure `p0` at which a body with Poisson's ratio `poisson` and tensile yield stress
-    /// `yield_stress` first yields according to von Mises, at the point below the middle of the
+    /// `yield_stress` first yields according to von Mises, at the point below the centre of the
     /// contact where the stress is largest. For ellipses with `b/a` from 0.1 and `nu` from 0.2 to
     /// 0.5 the stress is no larger at any other point (tested).
     pub fn yield_pressure(&self, poisson: f64, yield_stress: f64) -> f64 {
@@ -259,7 +259,7 @@ impl HertzEllipse {
         self.load_for_max_pressure(self.yield_pressure(poisson, yield_stress))
     }
 
-    /// Depth below the middle at which yield begins.
+    /// Depth below the centre at which yield begins.
     pub fn yield_depth(&self, poisson: f64, yield_stress: f64) -> f64 {
         let [x, y] = self.semi_axes(self.yield_load(poisson, yield_stress));
         self.yield_peak(poisson).depth * x.min(y)
@@ -269,8 +269,8 @@ impl HertzEllipse {
         self.peak(|stresses| von_mises(stresses, 0.0), poisson)
     }
 
-    /// The largest value below the middle of a function of the principal stresses, for
-    /// `p0 = b = 1`.
+    /// The largest value below the centre of a function of the principal stresses, for `p0 = b =
+    /// 1`.
     fn peak(&self, figure: impl Fn([f64; 3]) -> f64, poisson: f64) -> Peak {
         let at = |depth: f64| figure(axis_stress(1.0 / self.ratio, depth, poisson));
         // At a depth of three half axes the stresses are below a third of p0, and so less than any
@@ -288,8 +288,8 @@ impl HertzEllipse {
     }
 }
 
-/// Stresses at the depth `z` below the middle, along the half axes `a` and 1 and downwards, for
-/// `p0 = 1`.
+/// Stresses at the depth `z` below the centre, along the half axes `a` and 1 and downwards, for `p0
+/// = 1`.
 fn axis_stress(a: f64, z: f64, poisson: f64) -> [f64; 3] {
     let squares = [z * z, a * a + z * z, 1.0 + z * z];
     let [za, zb] = match z > 0.0 {

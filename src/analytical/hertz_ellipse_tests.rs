@@ -298,8 +298,8 @@ fn stress_below_the_middle() {
 }
 
 /// Long ellipses approach a line contact with the load per length at their middle, `p0 pi b/2`:
-/// half widths and shears across differ by the order of `(b/a)^2` and its logarithm, stresses along
-/// the contact by the order of `b/a`.
+/// half widths and shears across differ by order `(b/a)^2` and its logarithm, stresses along the
+/// contact by order `b/a`.
 #[test]
 fn long_ellipses_approach_the_line() {
     for ratio in [1e-2, 1e-4] {

@@ -53,7 +53,7 @@ impl HertzLine {
         (4.0 * load * self.radius / (PI * self.contact_modulus)).sqrt()
     }
 
-    /// Greatest pressure `p0`, at the middle of the contact, under `load >= 0` per length.
+    /// Greatest pressure `p0`, at the centre of the contact, under `load >= 0` per length.
     pub fn max_pressure(&self, load: f64) -> f64 {
         (load * self.contact_modulus / (PI * self.radius)).sqrt()
     }
@@ -125,7 +125,7 @@ impl HertzLine {
             * (2.0 * logarithm - poisson / (1.0 - poisson))
     }
 
-    /// Largest shear stress below the middle of the contact under `load >= 0` per length, half the
+    /// Largest shear stress below the centre of the contact under `load >= 0` per length, half the
     /// largest difference of principal stresses: `0.300 p0` at `0.786 b` for `nu` from 0.19 on.
     ///
     /// # Source
@@ -134,7 +134,7 @@ impl HertzLine {
         self.scaled(load, peak(greatest_shear, poisson))
     }
 
-    /// Largest von Mises stress below the middle of the contact under `load >= 0` per length.
+    /// Largest von Mises stress below the centre of the contact under `load >= 0` per length.
     pub fn largest_von_mises(&self, load: f64, poisson: f64) -> Peak {
         self.scaled(load, peak(|stresses| von_mises(stresses, 0.0), poisson))
     }
@@ -221,7 +221,7 @@ fn peak_von_mises(poisson: f64) -> Peak {
     peak(|stresses| von_mises(stresses, 0.0), poisson)
 }
 
-/// The largest value below the middle of a function of the principal stresses, for `b = p0 = 1`.
+/// The largest value below the centre of a function of the principal stresses, for `b = p0 = 1`.
 fn peak(figure: impl Fn([f64; 3]) -> f64, poisson: f64) -> Peak {
     let at = |depth: f64| {
         let [sxx, syy, szz, _] = unit_stress(0.0, depth, poisson);

@@ -133,8 +133,8 @@ impl ThickSphere {
         (1.0 - ratio) * (1.0 + ratio + ratio * ratio)
     }
 
-    /// The strength `Y c^3` of the elastic part; below first yield scaled by the ratio of the
-    /// pressure to the yield pressure.
+    /// Coefficient `Y c^3` of the elastic field; below first yield it is scaled by pressure over
+    /// yield pressure.
     fn strength(&self, pressure: f64, front: f64) -> f64 {
         let scale = if front <= self.inner_radius {
             pressure / self.yield_pressure()

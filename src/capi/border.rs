@@ -18,8 +18,8 @@ pub const BRINELL_UNHELD: i32 = 4;
 pub const BRINELL_ANALYSIS: i32 = 5;
 /// The load passed the limit load.
 pub const BRINELL_COLLAPSE: i32 = 6;
-/// The run is complete, but a state's quality misses its tolerance, or an accuracy that the scene
-/// demands was not reached.
+/// The run is complete, but a state's quality misses its tolerance, an accuracy that the scene
+/// demands was not reached, or the message names another reason not to trust the results.
 pub const BRINELL_INACCURATE: i32 = 7;
 /// Contact reached the end of its candidates although the bodies go on there.
 pub const BRINELL_OUTGROWN: i32 = 8;

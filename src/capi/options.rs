@@ -10,7 +10,7 @@ pub const BRINELL_BACKEND_DEFAULT: i32 = 0;
 pub const BRINELL_BACKEND_CHOLMOD: i32 = 1;
 /// Dense, by the textbook: a reference for small models.
 pub const BRINELL_BACKEND_DENSE: i32 = 2;
-/// Sparse Cholesky in Rust alone (faer).
+/// Sparse Cholesky in pure Rust (faer).
 pub const BRINELL_BACKEND_FAER: i32 = 3;
 
 /// How to compute. NULL stands for the defaults, which are all zeros.

@@ -108,7 +108,7 @@ pub struct brinell_state {
     pub max_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
-    /// The dent that stays.
+    /// The residual dent.
     pub residual_depth: f64,
     /// Displacement of the loaded surface along the load.
     pub approach: f64,

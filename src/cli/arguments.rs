@@ -27,8 +27,10 @@ Exit codes:
     5  the analysis failed: a solve did not converge, a target was not reached,
        or the memory did not suffice
     6  the load passed the limit load of the bodies
-    7  inaccurate: a state's quality misses its tolerance (do not trust it), or
-       a demanded accuracy was not reached; the results are written
+    7  inaccurate, the results are written: a state's quality misses its
+       tolerance (do not trust it), a contact presses that a load has opened
+       far, displacements are not small although NLGEOM asks for large ones,
+       or a demanded accuracy was not reached; or a selftest failed
     8  contact reached the end of its candidates although the bodies go on there;
        what was computed before is written
    70  internal error, please report
@@ -81,7 +83,7 @@ pub(super) enum Command {
         after_help = "Example: brinell convert press.inp --out press.toml && brinell run press.toml"
     )]
     Convert(super::convert::ConvertArguments),
-    /// Run a deck in the place of CalculiX' program ccx, for FreeCAD, PrePoMax and others
+    /// Run a deck in the place of CalculiX's program ccx, for FreeCAD, PrePoMax and others
     ///
     /// Reads NAME.inp, leaves NAME.frd, NAME.dat, NAME.sta and NAME.cvg next to it, prints to
     /// standard output only. The exit code is 201 if there is an error, as with ccx.

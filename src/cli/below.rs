@@ -1,4 +1,4 @@
-//! `brinell view DIR --below FILE`: the stresses below the middle of a contact as a table.
+//! `brinell view DIR --below FILE`: the stresses below the centre of a contact as a table.
 
 use super::fresh;
 use super::streams::print;

@@ -1,4 +1,4 @@
-//! `brinell ccx`: a replacement of CalculiX' program `ccx` for programs that start it.
+//! `brinell ccx`: a replacement of CalculiX's program `ccx` for programs that start it.
 //!
 //! The command takes the arguments of ccx, leaves the files of ccx next to the deck, prints to
 //! standard output only, and ends with the exit codes of ccx: 0, or 201 if there is an error, which

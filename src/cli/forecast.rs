@@ -18,7 +18,7 @@ const FACTORISATION: [f64; 3] = [2.5e-6, 7.75e-9, 1.2e-10];
 /// Seconds of the increments per square of the pairs: each pair that closes or opens costs solves,
 /// and the zone of these solves grows with the number of pairs.
 const INCREMENTS: f64 = 2e-4;
-/// Share of the run's own time that the estimate of its errors takes, in several phases of about
+/// Fraction of the run's own time that the estimate of its errors takes, in several phases of about
 /// the same length.
 const ESTIMATE: f64 = 0.4;
 /// The shortest time that is predicted, which is the resolution of the display.

@@ -19,7 +19,7 @@ use std::path::PathBuf;
 /// # Source
 /// D. Tabor, The Hardness of Metals (1951), chapter 5.
 pub(super) const SMALL: f64 = 0.2;
-/// Share of the largest force below which a state counts as unloaded: round-off.
+/// Fraction of the largest force below which a state counts as unloaded: round-off.
 const UNLOADED: f64 = 1e-9;
 /// Number of significant digits printed: more than a mesh gives.
 const DIGITS: usize = 5;
@@ -206,7 +206,7 @@ impl HardnessSheet {
                 &none(),
                 "> 1 piles up, < 1 sinks in",
             ),
-            ("dent that stays", self.residual_depth, &length, ""),
+            ("residual dent", self.residual_depth, &length, ""),
             ("rim beside it", self.rim_height, &length, ""),
             (
                 "unloading stiffness S",
@@ -260,7 +260,7 @@ impl HardnessSheet {
     fn notes(&self) -> Vec<&'static str> {
         let mut notes = vec![
             "HBW takes the diameter of the contact under the load; the standard measures that of \
-             the indent that stays.",
+             the residual indent.",
         ];
         if self.hbw.is_none() {
             notes.push("HBW needs the scene's units, as `units = { stress = \"MPa\", ... }`.");

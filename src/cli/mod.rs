@@ -69,7 +69,7 @@ pub fn program_within(itself: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
 }
 
 fn program(mut words: Vec<OsString>) -> u8 {
-    // Under the name of CalculiX' program this program behaves like it.
+    // Under the name of CalculiX's program this program behaves like it.
     if words.first().is_some_and(|name| ccx::is_its_name(name)) {
         words.insert(1, "ccx".into());
     }

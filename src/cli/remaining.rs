@@ -7,8 +7,8 @@
 
 /// Share of a load program whose weight a prediction has.
 const WEIGHT: f64 = 0.05;
-/// Share of an estimate below which it counts down more slowly than one second per second: no phase
-/// is shown as complete before its end.
+/// Fraction of an estimate below which it counts down more slowly than one second per second: no
+/// phase is shown as complete before its end.
 const LAST: f64 = 0.1;
 
 /// The remaining time of a phase. All times are in seconds since the start of the phase.
@@ -64,8 +64,8 @@ impl Remaining {
 mod tests {
     use super::*;
 
-    /// Returns the times shown every tenth of a second for a program whose share at a time is
-    /// given, with an increment every `pause` seconds.
+    /// Returns `[time, remaining time shown]` every 0.1 s for a run that has done `share` of its
+    /// program, an increment every `pause` seconds.
     fn shown(predicted: f64, takes: f64, pause: f64, share: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
         let mut remaining = Remaining::new(predicted);
         let mut next = pause;

@@ -31,7 +31,7 @@ pub(super) struct RunArguments {
     pub budget: Option<f64>,
     #[command(flatten)]
     pub estimate: EstimateArguments,
-    /// Write no report.html and no figures
+    /// Do not write report.html or figures
     #[arg(long)]
     pub no_report: bool,
     /// File for tables of displacements, forces and stresses of all sets, as CalculiX prints them

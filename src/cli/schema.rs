@@ -27,7 +27,8 @@ pub(super) struct SchemaArguments {
 
 const ABOUT_SCENES: &str = "\
 Every key of a scene file, made from the types that read it by `brinell schema --markdown`. A key
-that is not here is an error with a suggestion. Units are the scene's own, any consistent ones.";
+that is not here causes an error with a suggestion. Units are the scene's own, any consistent
+ones.";
 const ABOUT_SUMMARIES: &str = "\
 Every key of `summary.json`, made from its schema by `brinell schema --summary --markdown`. Numbers
 are in the scene's units; one that is not finite is null. Keys keep their names once published.";

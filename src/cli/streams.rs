@@ -11,8 +11,8 @@ pub(super) fn warn(text: &str) {
     let _ = writeln!(io::stderr(), "warning: {}", text::shown(text));
 }
 
-/// Writes text to standard output, with control characters written out. A reader that closes the
-/// pipe early (`| head`) is not an error.
+/// Writes text to standard output, control characters escaped. A reader that closes the pipe early
+/// (`| head`) is not an error.
 pub(super) fn print(text: &str) -> Result<()> {
     let text = text::shown(text);
     let mut stdout = io::stdout().lock();

@@ -27,7 +27,7 @@ pub(super) struct ViewArguments {
     /// Print the main plots instead; writes no files
     #[arg(long)]
     pub terminal: bool,
-    /// Write the stresses below the middle of the contact to a CSV file instead: a row for each
+    /// Write the stresses below the centre of the contact to a CSV file instead: a row for each
     /// state with fields and each node on the line x = 0 (in solids x = y = 0)
     #[arg(long, value_name = "FILE", conflicts_with = "terminal")]
     pub below: Option<PathBuf>,

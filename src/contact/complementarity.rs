@@ -34,8 +34,9 @@ pub struct Unbounded {
     pub pair: usize,
 }
 
-/// Share of the largest violation above which another violation counts as equally large. Of equally
-/// large violations the first is taken, since round-off decides which of them is the largest.
+/// Fraction of the largest violation above which another violation counts as equally large. Of
+/// equally large violations the first is taken, since round-off decides which of them is the
+/// largest.
 const ALIKE: f64 = 1.0 - 1e-9;
 /// Number of rounds without progress after which block pivoting is given up.
 const PATIENCE: usize = 8;

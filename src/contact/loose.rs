@@ -22,7 +22,7 @@ use super::Unbounded;
 use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
-/// Share of the terms of a sum below which the sum counts as round-off.
+/// Fraction of the terms of a sum below which the sum counts as round-off.
 const ROUND_OFF: f64 = 1e-11;
 /// Moves the pairs of a group by rigid motions, whose displacements are the columns of `slips`
 /// (orthonormal), to where the load rate `q`, a sum of `terms`, takes them. A motion that the load

@@ -14,9 +14,10 @@
 //!
 //! * [`Tableau`]: the matrix with a set of pairs opened, updated by principal pivots in O(n^2),
 //!   where n is the number of pairs of the group;
-//! * [`solve`]: statuses for a given `q` (paper 3.7 to 3.10), finite for every semidefinite `T`;
-//! * [`Path`]: statuses for `q` moving along a line, from one change of contact to the next (paper
-//!   4.10 to 4.23);
+//! * [`solve`]: statuses for a given `q` (paper, eqs. 3.7 to 3.10), finite for every semidefinite
+//!   `T`;
+//! * [`Path`]: statuses for `q` moving along a line, from one change of contact to the next (paper,
+//!   eqs. 4.10 to 4.22, exact without plastic flow);
 //! * `loose`: positions to which the first bit of load moves bodies that nothing holds yet;
 //! * `springs`: weak springs that hold bodies in the directions that no load drives.
 

@@ -35,10 +35,10 @@ pub enum PathEnd {
     Event(Vec<Change>),
 }
 
-/// Share of the largest gap below which a gap counts as zero, and of the largest force below which
-/// a force does, when pairs that change status at once are collected.
+/// Fraction of the largest gap below which a gap counts as zero, and of the largest force below
+/// which a force does, when pairs that change status at once are collected.
 const TIE: f64 = 1e-10;
-/// Share of the terms of a force's rate that is round-off: eps times the number of pairs and the
+/// Fraction of the terms of a force's rate that is round-off: eps times the number of pairs and the
 /// condition of the tied structure from which the terms come.
 const ROUND_OFF: f64 = 1e-11;
 /// Least number of events over which gaps, forces and their rates are carried along, each event for
@@ -49,11 +49,11 @@ const CARRIED: usize = 16;
 const PAIRS_PER_CARRIED: usize = 32;
 /// Value of [`Path`]'s event counter before any rates are known.
 const NEVER: usize = usize::MAX;
-/// Share of the tolerance of a tie by which a pair may violate its condition at the end of a piece:
-/// the round-off of an event that is due there.
+/// Fraction of the tolerance of a tie by which a pair may violate its condition at the end of a
+/// piece: the round-off of an event that is due there.
 const AT_END: f64 = 1e-2;
-/// Share of its force at the start by which a pair may be in tension at the end of a piece if it is
-/// among the last pairs that hold a body.
+/// Fraction of its force at the start by which a pair may be in tension at the end of a piece if it
+/// is among the last pairs that hold a body.
 const LAST: f64 = 1e-7;
 
 /// Gaps and forces along one piece of the load path.

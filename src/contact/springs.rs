@@ -12,8 +12,8 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Stiffness of a spring as a share of the stiffness of the pairs that move with it. Round-off of
-/// 1e-13 of the load then moves the body by only 1e-5 of the deformation. Even where contact
+/// Stiffness of a spring as a fraction of the stiffness of the pairs that move with it. Round-off
+/// of 1e-13 of the load then moves the body by only 1e-5 of the deformation. Even where contact
 /// resists a motion with only 1e-5 of the stiffness, as round surfaces of few elements do, the
 /// spring is negligible.
 const WEAK: f64 = 1e-8;

@@ -5,10 +5,10 @@ use super::swept::Swept;
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
-/// Share of the original diagonal entry below which a pivot counts as zero: opening the pair would
-/// free a rigid motion.
+/// Fraction of the original diagonal entry below which a pivot counts as zero: opening the pair
+/// would free a rigid motion.
 const SINGULAR: f64 = 1e-11;
-/// Share of the original diagonal entry above which a pivot certainly frees no rigid motion.
+/// Fraction of the original diagonal entry above which a pivot certainly frees no rigid motion.
 const NOT_SINGULAR: f64 = 1e-4;
 /// Multiple of the expected round-off beyond which a solution has lost its digits.
 const LOST: f64 = 1e3;

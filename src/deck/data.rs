@@ -213,7 +213,7 @@ pub(super) struct TiedPair {
     pub(super) place: LinePlace,
 }
 
-/// The distance of two surfaces, regardless of the positions of their nodes.
+/// The distance between two surfaces, wherever their nodes are.
 #[derive(Debug, Clone)]
 pub(super) struct Clearance {
     pub(super) slave: String,
@@ -253,8 +253,8 @@ pub(super) struct LinearEquation {
 #[derive(Debug, Clone)]
 pub(super) struct Rigid {
     pub(super) nodes: RigidNodes,
-    /// The node whose displacement is the body's displacement at this point, and whose degrees of
-    /// freedom from 4 on are the body's rotations.
+    /// The reference node: its displacement is the body's there, its degrees of freedom from 4 on
+    /// are the body's rotations.
     pub(super) reference: EntitySelection,
     /// The node whose displacement is the body's rotation.
     pub(super) rotation: Option<EntitySelection>,

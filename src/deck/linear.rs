@@ -9,10 +9,10 @@ use super::history::Key;
 use super::source::LinePlace;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Share of the largest coefficient of a column below which a coefficient counts as round-off.
+/// Fraction of the largest coefficient of a column below which a coefficient counts as round-off.
 const ROUND_OFF: f64 = 1e-11;
-/// Share of the largest coefficient of a row from which on the row's first term is chosen to follow
-/// the others, as the deck writes it.
+/// Fraction of the largest coefficient of a row from which on the row's first term is chosen to
+/// follow the others, as the deck writes it.
 const LARGE_ENOUGH: f64 = 0.1;
 
 /// Coefficients of displacements, by node and axis.

@@ -69,7 +69,7 @@ impl Deck {
             {
                 return Ok(());
             }
-            // An undefined number within a set has been reported before.
+            // An undefined number within a set has been reported already.
             EntitySelection::Label(label) if !seen.is_empty() && index.get(*label).is_none() => {
                 return Ok(());
             }

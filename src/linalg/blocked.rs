@@ -13,8 +13,8 @@ use rayon::prelude::*;
 const BLOCK: usize = 96;
 /// Number of entries that a thread takes at a time.
 const ENTRIES: usize = 1 << 14;
-/// Share of nonzero entries of a block from which its product is faster as that of a full matrix.
-/// Measured with 300, 1000 and 2000 rows: both take the same at 0.25, 0.2 and 0.1.
+/// Fraction of nonzero entries of a block from which its product is faster as that of a full
+/// matrix. Measured with 300, 1000 and 2000 rows: both take the same at 0.25, 0.2 and 0.1.
 const FULL: f64 = 0.2;
 
 /// Number of columns of the given length that a thread takes at a time: fewer cost less than waking

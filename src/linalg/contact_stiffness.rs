@@ -83,7 +83,7 @@ impl ContactStiffness {
         part
     }
 
-    /// Adds the submatrix of the given rows and columns to `sum`, in their order.
+    /// Adds the submatrix of the given rows and columns to `sum`, in order.
     pub(crate) fn add_part(&self, rows: &[usize], columns: &[usize], sum: &mut DMatrix<f64>) {
         let mut row_of = vec![None; self.n_contact()];
         for (i, &freedom) in rows.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Dense backend: static condensation by the textbook formulas, in Rust alone.
+//! Dense backend: static condensation by the textbook formulas, in pure Rust.
 //!
 //! ```text
 //!     S   = K_tt - K_ti K_ii^-1 K_it          t = zone and contact, i = interior

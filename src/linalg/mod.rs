@@ -15,7 +15,7 @@
 //! | backend | how | for |
 //! |---|---|---|
 //! | `cholmod` | one sparse Cholesky factor whose trailing block *is* the factor of `S` | everything |
-//! | `faer` | the same, in Rust alone | everything, without libraries of the system |
+//! | `faer` | the same, in pure Rust | everything, without libraries of the system |
 //! | `mumps` | the interior by MUMPS over MPI, the rest by CHOLMOD | factors on several machines |
 //! | [`dense`] | the formulas above, term by term | reference, small models |
 

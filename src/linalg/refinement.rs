@@ -23,8 +23,8 @@ use crate::error::Result;
 
 /// Largest number of steps, for a condition at which each step gains only one digit.
 const MOST: usize = 20;
-/// Share of the previous correction below which the next one must be for the refinement to go on;
-/// otherwise the factor gains nothing more.
+/// Fraction of the previous correction below which the next one must be for the refinement to go
+/// on; otherwise the factor gains nothing more.
 const PROGRESS: f64 = 0.5;
 
 /// Record of a refinement.

@@ -76,7 +76,7 @@ pub struct Softening<const S: usize = 4> {
     pub isotropic: Lame,
     /// Factor of the dyad `n n'` of `normal`.
     pub along: f64,
-    /// Stress vector `n` along the flow.
+    /// Flow direction `n` as a stress.
     pub normal: [f64; S],
 }
 

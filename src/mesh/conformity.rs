@@ -152,7 +152,7 @@ fn described(mesh: &Mesh, facet: Facet) -> String {
     }
 }
 
-/// Distance from an edge, as a share of the edge's length, within which a corner of the boundary
+/// Distance from an edge, as a fraction of the edge's length, within which a corner of the boundary
 /// counts as lying on the edge.
 const ON_EDGE: f64 = 1e-8;
 

@@ -49,7 +49,7 @@ pub enum Curve {
         /// True if the body's outward normal points away from the axis (a shaft).
         outward: bool,
     },
-    /// A part of a torus: all points at the distance `radius` from a ring.
+    /// A part of a torus: all points at distance `radius` from a circle.
     Torus {
         /// Centre of the ring.
         center: Vector,

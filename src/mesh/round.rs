@@ -6,7 +6,7 @@ use crate::scene::MeshSource;
 use crate::space::{Vector, along, difference, dot, in_words};
 use crate::{Error, Result};
 
-/// Largest distance of a node from its surface, as a share of the radius: files are written with
+/// Largest distance of a node from its surface, as a fraction of the radius: files are written with
 /// about six digits.
 const OFF: f64 = 1e-5;
 

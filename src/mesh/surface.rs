@@ -5,7 +5,7 @@ use crate::space::{Vector, cross, difference, direction, dot, length};
 use crate::{Error, Result};
 use std::collections::BTreeMap;
 
-/// Largest distance of two paired nodes across the normal, as a share of a facet's length.
+/// Largest distance of two paired nodes across the normal, as a fraction of a facet's length.
 pub const PAIRING: f64 = 1e-5;
 /// Angle in degrees between two facets from which their common edge is an edge of the body: the
 /// usual feature angle for telling such edges from those within a curved surface.

@@ -10,8 +10,8 @@ use super::{Curve, Facet, Mesh, Shape, Surface};
 use crate::scene::{Extrusion, Revolution};
 use crate::{Error, Result};
 
-/// Distance from the axis, as a share of the section's size, up to which a node counts as lying on
-/// the axis.
+/// Distance from the axis, as a fraction of the section's size, up to which a node counts as lying
+/// on the axis.
 const ON_AXIS: f64 = 1e-12;
 
 /// Extrudes a plane mesh along z, from z = 0 to `depth`.

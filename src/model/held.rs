@@ -1,7 +1,7 @@
 //! Floating bodies: whether supports, contact alone or nothing holds each body.
 //!
 //! Rigid motions of all bodies together are tested against the supports and, bilaterally, the
-//! contact pairs. A motion that both leave free is an error that names the body and the motion,
+//! contact pairs. A motion that both leave free causes an error that names the body and the motion,
 //! unless no load does work on it: then one freedom is pinned, which affects only the free motion.
 
 use super::far_boundary::{FarBoundary, StoppedMotion};

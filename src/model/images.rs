@@ -31,7 +31,7 @@ pub struct Image {
     planes: u64,
 }
 
-/// All images of a model, beginning with the model in place.
+/// All images of a model, the model itself first.
 #[derive(Debug, Clone)]
 pub struct Images(Vec<Image>);
 

@@ -127,7 +127,7 @@ impl Model {
         Ok(())
     }
 
-    /// Builds the model of a later leg, with the same contact pairs and no other pins.
+    /// Builds the model of a later leg; fails if contact nodes differ or pins are new.
     fn of_leg(&self, given: Given, at: f64) -> Result<Model> {
         let made = resolve::model(&self.scene, self.mesh.clone(), Origin::Arrays(given));
         let mut next = made.map_err(|error| words::of_deck(&self.scene, error))?;

@@ -5,7 +5,7 @@ use crate::space::{Vector, along, cross, dot, length};
 /// Sine of the angle up to which directions count as equal, and share of a facet's length up to
 /// which positions do.
 pub(super) const SAME: f64 = 1e-9;
-/// Share of a facet's length within which a pair counts as lying on a plane.
+/// Fraction of a facet's length within which a pair counts as lying on a plane.
 pub(super) const ON_PLANE: f64 = 1e-6;
 
 /// A plane `normal . x = offset`; the body lies where `normal . x` is smaller.
@@ -37,7 +37,7 @@ impl Mirror {
         length(cross(self.normal, other.normal)) < SAME
     }
 
-    /// Whether a point lies on the plane, up to a small share of the length of facets there.
+    /// Whether a point lies on the plane, up to a small fraction of the length of facets there.
     pub fn holds(&self, x: Vector, facet_length: f64) -> bool {
         self.beyond(x).abs() <= ON_PLANE * facet_length
     }

@@ -99,8 +99,8 @@ pub struct Model {
     pub alike: Vec<Vec<usize>>,
     /// Bodies that contact alone holds, and their rigid motions.
     pub floating: FloatingBodies,
-    /// Number of copies of the model that make the whole. Loads, and results named `load`, are
-    /// those of the whole.
+    /// Number of copies of the model in the whole. Loads, and results named `load`, are those of
+    /// the whole.
     pub symmetry: f64,
     /// Warnings for the user, found while the model was made.
     pub warnings: Vec<String>,

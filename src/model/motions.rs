@@ -9,9 +9,9 @@ use crate::space::{self, RigidMotion, Space, Vector, unit};
 use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Singular values below this share of the largest belong to free motions.
+/// Singular values below this fraction of the largest belong to free motions.
 pub(super) const FREE: f64 = 1e-7;
-/// Share of the largest entry by which a block of the motions must be definite to have no free
+/// Fraction of the largest entry by which a block of the motions must be definite to have no free
 /// motion: well above the square of [`FREE`] and the round-off of a factorisation of some thousand
 /// rows.
 const HELD: f64 = 1e-11;

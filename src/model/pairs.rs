@@ -1,9 +1,10 @@
-//! Contact pairs: a node of one surface, the slave, with the nodes it faces on the other (paper
-//! 2.1).
+//! Contact pairs: a node of one surface, the slave, with the nodes it faces on the other (paper,
+//! sec. 2.1).
 //!
 //! If nodes face each other, a slave has one master; otherwise it has several masters with weights
 //! ([`mortar`]). The gap of a pair is `g = delta - (u_slave - sum_k w_k u_k) . n >= 0` with `delta`
-//! the distance along `n`, the unit vector from the slave's body to the other.
+//! the initial distance along `n`, the unit vector from the slave's body to the other, less the
+//! interference.
 
 mod contact_input;
 mod covered;
@@ -43,7 +44,8 @@ pub struct Pair {
     pub masters: Vec<(usize, f64)>,
     /// Unit vector from the slave's body to the other.
     pub normal: Vector,
-    /// Initial gap delta, from which the interference is not subtracted.
+    /// Initial gap before the interference is subtracted; with the interference subtracted it is
+    /// the gap `delta`.
     pub gap: f64,
     /// Interference: the overlap that contact has to push apart.
     pub interference: f64,
@@ -158,8 +160,8 @@ pub struct AxisPoint {
     pub begins: bool,
 }
 
-/// Share of its neighbour's area below which a node on the axis carries no force. The share is 0
-/// for quadratic elements apart from curvature, and 1/6 for linear ones.
+/// Fraction of its neighbour's area below which a node on the axis carries no force. The fraction
+/// is 0 for quadratic elements apart from curvature, and 1/6 for linear ones.
 const NO_AREA: f64 = 0.02;
 
 /// Lists the numbers of some nodes in words.

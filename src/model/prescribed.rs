@@ -1,5 +1,5 @@
-//! Displacements that loads prescribe, and places at which supports that begin within the program
-//! hold their nodes.
+//! Displacements prescribed by loads, and positions at which supports that begin during the program
+//! hold nodes.
 
 use super::carried::Carried;
 use super::frame::ALIGNED;

@@ -19,7 +19,7 @@ use std::ops::Range;
 
 /// Cosine of the angle up to which directions count as equal.
 const ALIKE: f64 = 1.0 - 1e-12;
-/// Half the side of an element, as a share of the size of the mesh: small enough to be
+/// Half the side of an element, as a fraction of the size of the mesh: small enough to be
 /// distinguished from the bodies in a picture, large enough to be seen.
 const SIDE: f64 = 0.02;
 

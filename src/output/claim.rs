@@ -111,7 +111,7 @@ pub fn stale(dir: &Path) -> Option<String> {
 }
 
 /// Marks the results in `dir`, if there are any. An error of writing is ignored: that the directory
-/// can be written was checked before.
+/// can be written was checked already.
 fn mark(dir: &Path, why: &str) -> bool {
     let there = is_result(dir);
     if there {

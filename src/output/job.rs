@@ -1,4 +1,4 @@
-//! The files that CalculiX' program leaves beside a deck NAME.inp.
+//! The files that CalculiX's program leaves beside a deck NAME.inp.
 //!
 //! | file | what |
 //! |---|---|

@@ -5,7 +5,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::marker::PhantomData;
 
-/// Entries by name, in their order.
+/// Entries by name, in order.
 #[derive(Debug)]
 pub(super) struct NamedEntries<T>(pub Vec<(String, T)>);
 

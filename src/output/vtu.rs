@@ -324,7 +324,7 @@ fn close<W: Write>(xml: &mut Writer<W>, name: &str) -> io::Result<()> {
     xml.write_event(Event::End(BytesEnd::new(name)))
 }
 
-/// Returns the attribute of a section that names its array of numbers in the whole mesh.
+/// Returns the attribute that names a section's array of global numbers, if any.
 fn ids_of(arrays: &[DataArray<'_>]) -> Vec<(&'static str, String)> {
     let is_ids = |array: &&DataArray| [NODE_IDS, ELEMENT_IDS].contains(&array.name);
     let ids = arrays.iter().filter(is_ids);

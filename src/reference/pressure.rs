@@ -1,4 +1,4 @@
-//! Hertz' pressure over a contact, if the scene names it as a reference.
+//! Hertz's pressure over a contact, if the scene names it as a reference.
 
 use super::moduli;
 use crate::analytical::{HertzLine, HertzPoint};

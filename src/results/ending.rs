@@ -6,13 +6,13 @@ use crate::error::ErrorKind;
 /// The ending of a run, with the requirements that it did not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ending<'r> {
-    /// The program is complete, every state is within its tolerances, and the demanded accuracy is
-    /// reached.
+    /// The program is complete, nothing speaks against its states ([`Results::inaccurate`]), and
+    /// the demanded accuracy is reached.
     Complete,
-    /// The program is complete, but a state misses its tolerances or the demanded accuracy is not
-    /// reached.
+    /// The program is complete, but there are reasons not to trust it ([`Results::inaccurate`]), or
+    /// the demanded accuracy is not reached.
     Inaccurate {
-        /// States whose quality misses its tolerance, with the figure.
+        /// Reasons not to trust the results: see [`Results::inaccurate`].
         states: &'r [String],
         /// A demanded accuracy that was not reached.
         demand: Option<&'r Demand>,

@@ -39,7 +39,7 @@ pub enum Scope {
 }
 
 impl Scope {
-    /// All scopes, in their order.
+    /// All scopes, in order.
     pub const ALL: [Scope; 4] = [
         Scope::Always,
         Scope::Contact,

@@ -45,12 +45,12 @@ pub struct Contact {
     #[serde(default)]
     pub interference: Field,
     /// Whether the surfaces may overlap in the mesh. If so, the overlap of each contact pair is the
-    /// pair's interference. By default an overlap is an error.
+    /// pair's interference. By default an overlap is rejected.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub overlap: bool,
     /// Whether supports may hold nodes of the surfaces along the contact normal. A held slave node
     /// touches nothing: its support bears whatever presses there. A held master node is an
-    /// obstacle. By default a held node is an error.
+    /// obstacle. By default a held node is rejected.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub held: bool,
 }
@@ -269,7 +269,7 @@ pub struct Displacement {
     pub x: Option<Field>,
     /// Displacement along y (z in an axisymmetric model).
     pub y: Option<Field>,
-    /// Displacement along z, of solids only.
+    /// Displacement along z, in solids only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub z: Option<Field>,
 }
@@ -301,7 +301,7 @@ pub struct Rotation {
     /// A point of the axis; by default the origin. Axisymmetric models turn about their own axis.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center: Option<Components>,
-    /// Direction of the axis, of solids only.
+    /// Direction of the axis, in solids only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 3]>,
 }

@@ -11,7 +11,7 @@ pub enum Direction {
     X,
     /// Direction y; z in an axisymmetric model.
     Y,
-    /// Direction z, of solids only.
+    /// Direction z, in solids only.
     Z,
 }
 

@@ -11,10 +11,10 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshSource {
-    /// Curved indenter on a block (paper 5.1): a cylinder on a half plane, or a ball on a half
-    /// space in an axisymmetric model.
+    /// Curved indenter on a block (paper, sec. 5.1): a cylinder on a half plane, or a ball on a
+    /// half space in an axisymmetric model.
     pub cylinder_on_half_plane: Option<CylinderOnHalfPlane>,
-    /// Quarter of a disc in the hole of a plate (paper 5.2).
+    /// Quarter of a disc in the hole of a plate (paper, sec. 5.2).
     pub disc_in_plate: Option<DiscInPlate>,
     /// Two bodies of any curvature (solid), modelled as half spaces that differ from flat near the
     /// contact only.
@@ -130,8 +130,7 @@ pub struct SurfaceCylinder {
     pub radius: f64,
 }
 
-/// The torus on which a surface of a mesh file lies: all points at the distance `radius` from a
-/// ring.
+/// The torus on which a surface of a mesh file lies: all points at distance `radius` from a circle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceTorus {
@@ -209,8 +208,8 @@ pub struct CylinderOnHalfPlane {
     pub fine_depth: f64,
     /// Size of each body, in half widths; by default 20,000, and 2,000 for a ball. The bodies stand
     /// for infinite ones. For a half width b, a finite size W changes the stress under the contact
-    /// by the order of b/W; under a ball it changes the stress by (b/W)^2 and the approach by b/W.
-    /// Elements that grow with the distance make a large size cheap.
+    /// by order b/W; under a ball the stress by order (b/W)^2, the approach by b/W. Elements that
+    /// grow with the distance make a large size cheap.
     pub far_size: Option<f64>,
     /// Ratio of neighbouring element sizes outside the evenly meshed region.
     #[serde(default = "super::defaults::growth")]
@@ -332,7 +331,7 @@ impl CurvedBodies {
         }
     }
 
-    /// Number of copies of the model that make the whole.
+    /// Number of copies of the model in the whole.
     pub fn copies(&self) -> usize {
         1 << self.halved().iter().filter(|halved| **halved).count()
     }

@@ -95,8 +95,8 @@ pub struct Scene {
     pub kind: Space,
     /// Names of the scene's units, for reports: no number of the scene is converted.
     pub units: Option<Units>,
-    /// Number of copies of the model that make the whole: 1 (the default) if all of it is meshed, 2
-    /// for a half model, 4 for a quarter model, 8 for an eighth of a solid. Total forces (`force`,
+    /// Number of copies of the model in the whole: 1 (the default) if all of it is meshed, 2 for a
+    /// half model, 4 for a quarter model, 8 for an eighth of a solid. Total forces (`force`,
     /// `plane_force`) in the scene, and loads and contact forces in the results, are those of the
     /// whole; the model carries its share of them.
     #[serde(default = "defaults::single")]

@@ -33,8 +33,8 @@ pub struct Program {
         skip_serializing_if = "is_usual_most"
     )]
     pub max_increments: usize,
-    /// Relative tolerance with which events are located: a change of contact (paper 4.18, 4.23),
-    /// and the maximum of the stress at first yield.
+    /// Relative tolerance with which events are located: a change of contact (paper, eqs. 4.18,
+    /// 4.23), and the maximum of the stress at first yield.
     #[serde(default = "super::defaults::gamma")]
     pub gamma: f64,
     /// Load factor up to which the interference of contacts grows in proportion to it, from none at
@@ -55,8 +55,8 @@ pub struct Program {
     #[serde(default = "super::defaults::cycles", skip_serializing_if = "is_one")]
     pub cycles: usize,
     /// Criterion for the end of `cycles`: all cycles to come together would change the plastic
-    /// strains, compared with repeating the last cycle, by less than this share of the plastic flow
-    /// in the first cycle.
+    /// strains, compared with repeating the last cycle, by less than this fraction of the plastic
+    /// flow in the first cycle.
     #[serde(default = "super::defaults::steady", skip_serializing_if = "is_steady")]
     pub steady: f64,
 }
@@ -97,10 +97,10 @@ impl Default for Program {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Unit {
-    /// A load factor of 1 means the loads as given in the scene.
+    /// A factor of 1 means the loads as given in the scene.
     #[default]
     Load,
-    /// A load factor of 1 means the yield load: alpha = P/P* (paper 5.1, 5.3).
+    /// A factor of 1 is the yield load: alpha = P/P* (paper, sec. 5.1, 5.3).
     Yield,
 }
 
@@ -112,7 +112,7 @@ pub enum Stepping {
     /// flow are as long as `path_error` allows. In plane stress the same as `events`.
     #[default]
     Auto,
-    /// Event by event: each increment ends at the next change of contact (paper 4.10 to 4.23).
+    /// Each increment ends at the next change of contact (paper, eqs. 4.10 to 4.23).
     Events,
     /// A fixed number of increments per target, with contact solved at the end of each increment.
     Steps,

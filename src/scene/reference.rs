@@ -9,13 +9,14 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reference {
-    /// Hertz line contact at first yield (paper 5.1, Table I), with the radius of the cylinder.
+    /// Hertz line contact at first yield (paper, sec. 5.1, Table I), with the radius of the
+    /// cylinder.
     pub hertz_line: Option<RadiusOnly>,
     /// Hertz point contact at first yield, with the radius of the ball.
     pub hertz_point: Option<RadiusOnly>,
     /// Hertz's elliptical contact at first yield, with the principal radii of the two bodies.
     pub hertz_ellipse: Option<TwoBodies>,
-    /// Disc in a plate with a hole (paper 5.2, Table II).
+    /// Disc in a plate with a hole (paper, sec. 5.2, Table II).
     pub disc_in_plate: Option<NoParameters>,
     /// Quantity of the single value: a path in `summary.json`, such as `yield.load` or
     /// `states.NAME.max_pressure`. With `at` it may also be a quantity at a point: `states.NAME.`
@@ -29,7 +30,7 @@ pub struct Reference {
     /// Body whose nodes are considered in the search for the nearest node; by default all bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// The reference value itself, with `quantity`.
+    /// The reference value of `quantity`.
     pub value: Option<f64>,
     /// Source of the reference value.
     pub source: Option<String>,

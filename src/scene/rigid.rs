@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// A rigid surface that meshed bodies may touch; exactly one of the kinds below. A `force` or a
+/// A rigid surface that meshed bodies may touch: give exactly one kind below. A `force` or a
 /// `displacement` load on its name moves it, in the direction of that load only. Without such a
 /// load the surface is fixed.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -17,7 +17,7 @@ pub struct RigidSurface {
     /// A cylinder, convex or hollow.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cylinder: Option<RigidCylinder>,
-    /// A torus: all points at a distance from a ring.
+    /// A torus: all points at a distance from a circle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub torus: Option<RigidTorus>,
     /// A cone with a rounded tip; in plane models a wedge.
@@ -64,7 +64,7 @@ pub struct RigidCylinder {
     pub hollow: bool,
 }
 
-/// A rigid torus: all points at the distance `radius` from a ring.
+/// A rigid torus: all points at distance `radius` from a circle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RigidTorus {

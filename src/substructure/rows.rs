@@ -20,7 +20,7 @@ pub(crate) type RowEntries = Vec<(usize, f64)>;
 /// Factor by which a slave must be stiffer than its masters to lead. For bodies of similar
 /// stiffness the paper's choice stands: the slave follows.
 const STIFFER: f64 = 4.0;
-/// Share of a row that elimination leaves at most if the row depends on the others.
+/// Fraction of a row that elimination leaves at most if the row depends on the others.
 const DEPENDENT: f64 = 1e-10;
 
 /// Contact rows with their leaders and followers.

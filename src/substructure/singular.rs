@@ -15,7 +15,7 @@ pub(super) fn name_freedom(error: Error, model: &Model) -> Error {
         Some(freedom) => {
             let place = model.freedoms.describe(&model.mesh, freedom);
             let cause = match shape_with_zero_energy_modes(model, freedom) {
-                // Rigid motions have been checked before, and are held.
+                // Rigid motions have been checked already, and are held.
                 Some(shape) => format!(
                     "elements of the shape {} have ways to deform that their Gauss points do not \
                      see, and nothing here holds them; give the body `integration = \"full\"`, two \

@@ -23,8 +23,8 @@
 //!                                             exactly where r is a rigid motion of that body
 //! ```
 //!
-//! Cholesky's method is insensitive to the scaling of rows: its error in each entry is a share of
-//! the geometric mean of the two diagonal entries.
+//! Cholesky's method is insensitive to the scaling of rows: its error in each entry is a fraction
+//! of the geometric mean of the two diagonal entries.
 //!
 //! # Source
 //! C. Farhat, F.-X. Roux (1991), doi:10.1002/nme.1620320604 (floating subdomains and their rigid
@@ -58,7 +58,7 @@ pub(super) struct SplitSlip {
     pub motions: DVector<f64>,
 }
 
-/// Share of a motion below which the remainder after orthogonalisation counts as round-off.
+/// Fraction of a motion below which the remainder after orthogonalisation counts as round-off.
 const ROUND_OFF: f64 = 1e-11;
 
 /// The tied structure, factored: all contact rows closed.

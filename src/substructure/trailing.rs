@@ -1,9 +1,9 @@
-//! Vectors on zone and contact freedoms.
+//! Vectors on the trailing freedoms: zone and contact, the last in the order of elimination.
 
 use crate::linalg;
 
-/// A load or displacement on zone and contact freedoms. The contact freedoms are in the order of
-/// [`crate::model::ContactRows::freedoms`].
+/// A load or displacement on the trailing freedoms, those of zone and contact, which are eliminated
+/// last. The contact freedoms are in the order of [`crate::model::ContactRows::freedoms`].
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 pub struct Trailing {
     /// Values on the zone freedoms.

@@ -205,7 +205,7 @@ fn the_program_is_installed(prefix: &Path) {
     let program = prefix.join("bin/brinell");
     let version = done(Command::new(&program).arg("--version"));
     assert_eq!(words(&version), ["brinell", env!("CARGO_PKG_VERSION")]);
-    // In the place of CalculiX' program.
+    // In the place of CalculiX's program.
     let version = done(Command::new(prefix.join("bin/brinell-ccx")).arg("-v"));
     assert_eq!(words(&version)[..3], ["This", "is", "Version"]);
     for (file, arguments) in [

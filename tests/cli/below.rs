@@ -1,4 +1,4 @@
-//! `brinell view --below`: stresses below the middle of a contact as a table.
+//! `brinell view --below`: stresses below the centre of a contact as a table.
 
 use super::{brinell, stdout};
 use serde_json::Value;

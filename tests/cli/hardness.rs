@@ -73,7 +73,7 @@ fn a_ball_by_load() {
         "p_m/Y",
         "unloading stiffness S",
         "N/mm",
-        "the standard measures that of the indent that stays",
+        "the standard measures that of the residual indent",
     ] {
         let text = text.replace('\n', " ");
         assert!(text.contains(part), "{part:?} is not in {text}");

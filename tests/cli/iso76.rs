@@ -39,7 +39,7 @@ fn hertz(first: [f64; 2], second: [f64; 2]) -> HertzContact {
     HertzContact::new(relative, modulus).unwrap()
 }
 
-/// The dent that stays after unloading is 1e-4 of the diameter, and first yield is Hertz'.
+/// The residual dent is 1e-4 of the diameter, and first yield is Hertz's.
 #[test]
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 fn a_ball_on_a_flat_keeps_a_ten_thousandth_of_its_diameter() {

@@ -30,8 +30,8 @@ fn made(points: &[Value]) -> Vec<u64> {
     points.iter().map(of_point).collect()
 }
 
-/// Figures are those of a run by itself, the points stand in their order, and only the one that
-/// yields furthest, which is run first, is factored for.
+/// Figures are those of a run by itself, the points stand in order, and only the one that yields
+/// furthest, which is run first, is factored for.
 #[test]
 #[cfg(any(feature = "cholmod", feature = "faer"))]
 fn yield_stresses_and_loads_share_a_factorisation() {

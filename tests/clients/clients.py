@@ -33,9 +33,9 @@ EXAMPLES = [
     ("ccx_cantilever_ele_tetra4", "linear tetrahedra"),
     ("ccx_cantilever_ele_hexa20", "C3D20"),
     ("boxanalysis_static", "pressure, forces"),
-    ("constraint_contact_solid_solid", "contact", "ccx' contact is a spring, here it is hard "
+    ("constraint_contact_solid_solid", "contact", "ccx's contact is a spring, here it is hard "
      "up to the slope of the deck; nodes at the edge are held"),
-    ("press_fit", "press fit", "ccx' contact is a spring"),
+    ("press_fit", "press fit", "ccx's contact is a spring"),
     ("constraint_tie", "tie", "three nodes in a line are fixed, about which it turns freely: "
      "the displacements are anybody's, the stresses count; the tie holds in the mean"),
     ("constraint_section_print", "section print"),

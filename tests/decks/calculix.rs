@@ -65,7 +65,7 @@ const CASES: [Case; 45] = [
     case("springback", &[], 2e-4),
     case("held_middles", &[], PRINTED),
     case("adjusted", FULL, PRINTED),
-    // What presses on held nodes goes into their supports; CalculiX' springs give way there.
+    // What presses on held nodes goes into their supports; CalculiX's springs give way there.
     case("held_edge", FULL, 1e-5),
     // Other nodes are the slaves.
     case("two_pairs", FULL, 1e-3),

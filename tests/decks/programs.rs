@@ -38,7 +38,7 @@ const CASES: [Case; 10] = [
     case("freecad_two_materials", PRINTED),
     case("prepomax_contact", PRINTED),
     case("prepomax_tie", PRINTED),
-    // CPS6: CalculiX' thickness follows shape functions, so that the stress across it vanishes in
+    // CPS6: CalculiX's thickness follows shape functions, so that the stress across it vanishes in
     // the mean, here at each point.
     Case {
         without: &["T3D3"],

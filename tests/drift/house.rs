@@ -1,5 +1,5 @@
-//! Figures of the house: how long files and functions are, how far types are spread, which files
-//! use each other, which doc comments do not stand alone. CONTRIBUTING.md has them.
+//! Code metrics: how long files and functions are, how far types are spread, which files use each
+//! other, which doc comments do not stand alone. CONTRIBUTING.md has them.
 
 use super::imports::{Modules, circles, within};
 use super::{files, is_test, module, root};
@@ -17,7 +17,7 @@ const OPENERS: [&str; 5] = ["Those", "That of", "Its", "Their", "The same"];
 /// Doc comments shorter than [`SHORTEST`] that are left, most of them lines of `brinell help`.
 const MOST_SHORT: usize = 6;
 /// Names that more than one type has: a number that only falls.
-const MOST_SHARED: usize = 72;
+const MOST_SHARED: usize = 9;
 
 /// A file with its name below the root of its tree.
 struct Text {

@@ -1,4 +1,4 @@
-//! Hertz' contact on meshes of different size, against meshes that match.
+//! Hertz's contact on meshes of different size, against meshes that match.
 
 use crate::support::meshes::joined;
 use crate::support::{either, load, run_on};

@@ -1,4 +1,4 @@
-//! Hertz' contact of solids on meshes of different size, against meshes that match.
+//! Hertz's contact of solids on meshes of different size, against meshes that match.
 
 use crate::mortar::hertz::at_ratio;
 use crate::support::either;

@@ -151,8 +151,8 @@ fn figures_that_follow_the_load_are_met_in_unloading_too() {
     assert_eq!(found.states[2].name, "contact force 200 of contact 1");
 }
 
-/// Hertz' ball: pressure, area and force of its load. Errors are those of the mesh: 5 elements over
-/// the radius at yield.
+/// Hertz's ball: pressure, area and force of its load. Errors are those of the mesh: 5 elements
+/// over the radius at yield.
 #[test]
 fn elastic_figures_are_those_of_hertz() {
     let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);

@@ -1,4 +1,4 @@
-//! The generator of two curved bodies against Hertz' theory, against its own halves, and against
+//! The generator of two curved bodies against Hertz's theory, against its own halves, and against
 //! the axisymmetric model.
 
 use crate::support::{either, load, run, run_file, same_figures};

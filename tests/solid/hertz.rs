@@ -1,4 +1,4 @@
-//! Hertz' contact of balls on quarter models.
+//! Hertz's contact of balls on quarter models.
 
 use crate::support::build::{Build, elastic};
 use crate::support::grid::{Grid, Point};

@@ -7,7 +7,7 @@ use brinell::model::Model;
 use brinell::results::{State, Status};
 use std::f64::consts::PI;
 
-/// Hertz' pressure `p0 sqrt(1 - (x/a)^2 - (y/b)^2)` carries `P = 2/3 p0 A`: the area of an elastic
+/// Hertz's pressure `p0 sqrt(1 - (x/a)^2 - (y/b)^2)` carries `P = 2/3 p0 A`: the area of an elastic
 /// patch follows from load and largest pressure of the same run. It is read to order h^2, with four
 /// elements over the smaller half axis to 1/16 (thorough: six, 1/36), whether faces are as oblong
 /// as the patch (half axes 2:1) or less so (9:1, faces 4:1).

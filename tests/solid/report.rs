@@ -107,7 +107,7 @@ fn a_solid_has_maps_of_pressure_sections_and_its_scene() {
         "in the section along y",
         "The whole model",
         "Near the contact",
-        "Stress below the middle of the contact",
+        "Stress below the centre of the contact",
         "Load against approach",
     ] {
         assert!(page.contains(words), "{words}");

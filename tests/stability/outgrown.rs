@@ -53,7 +53,7 @@ fn a_ball_at_fifty_times_first_yield_is_right() {
     close("dent", dent, 0.00952, 0.00952, second_order);
 }
 
-/// The elastic line contact at ten times the load of first yield: its half width is Hertz' one.
+/// The elastic line contact at ten times the load of first yield: its half width is Hertz's one.
 #[test]
 fn an_elastic_contact_at_ten_times_first_yield_is_that_of_hertz() {
     let modulus = contact_modulus(210e3, 0.3, 210e3, 0.3);

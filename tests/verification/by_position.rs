@@ -259,7 +259,7 @@ fn half(body: &str, y: [f64; 2], bias: f64) -> String {
     )
 }
 
-/// Two flat blocks whose gap is stated as `x^2/(2 R)` are Hertz' line contact: half width and
+/// Two flat blocks whose gap is stated as `x^2/(2 R)` are Hertz's line contact: half width and
 /// pressure to what this mesh shows (five elements in the half width).
 #[test]
 fn a_gap_by_formula_is_a_line_contact() {
@@ -306,7 +306,7 @@ fn parsed_two(text: &str) -> Scene {
     parse(&text)
 }
 
-/// Hertz' pressure as a load: the difference of the stresses below it is that of the contact.
+/// Hertz's pressure as a load: the difference of the stresses below it is that of the contact.
 #[test]
 fn a_pressure_by_formula_is_that_of_a_contact() {
     let line = HertzLine::new(1.0, 1.0).unwrap();

@@ -100,7 +100,7 @@ targets = [{{ load_factor = 1.0 }}]
     near(only(&slice).approach, only(&plane).approach, 1e-8);
 }
 
-/// A barrel, a torus about an axis across, on a quarter of a brick: Hertz' ellipse of the two
+/// A barrel, a torus about an axis across, on a quarter of a brick: Hertz's ellipse of the two
 /// radii, along the axis that of the tube, across it tube and ring together.
 ///
 /// Source: K. L. Johnson, Contact Mechanics (1985), section 4.2. The brick is five half axes large

@@ -419,7 +419,14 @@ fn interference(model: &Model) -> Effect {
 
 fn preload(model: &Model) -> Effect {
     let acts = |load: &LoadCase| {
-        let is_own = !matches!(load.measures, Magnitude::Strain | Magnitude::Carried);
+        let is_own = match load.measures {
+            Magnitude::Strain | Magnitude::Carried => false,
+            Magnitude::Force
+            | Magnitude::Stress
+            | Magnitude::Displacement
+            | Magnitude::Temperature
+            | Magnitude::Gap => true,
+        };
         is_own && load.acts() && load.factor(0.0, 1.0) != 0.0
     };
     let (on, why) = match model.loads.iter().any(acts) {

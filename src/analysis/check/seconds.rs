@@ -33,8 +33,8 @@ const PATH: f64 = 1.5e-9;
 /// Seconds of a trailing solve with its share of the plastic iteration: a constant, and a time per
 /// entry of the factor's trailing columns.
 const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
-/// Share of the pairs that change their status in an increment of their own while the load moves in
-/// one direction: first if gaps differ (the contact grows pair by pair), then if all gaps are
+/// Fraction of the pairs that change their status in an increment of their own while the load moves
+/// in one direction: first if gaps differ (the contact grows pair by pair), then if all gaps are
 /// alike.
 const CHANGES: [f64; 2] = [0.7, 0.17];
 /// Trailing solves of an elastoplastic increment: if the material hardens; if it has almost no

@@ -113,9 +113,8 @@ pub fn decline(model: &Model, share: f64) -> f64 {
     }
 }
 
-/// The zone up to a load that is `share` of the load to which `ratios` belong, joined with the
-/// `old` zone; all loads are proportional to this load. Stress is assumed to fall with the load no
-/// more slowly than contact pressure.
+/// The zone for `share` times the load of `ratios`, joined with the `old` zone. All loads grow in
+/// proportion; stress is assumed to fall at least as fast as contact pressure.
 pub fn stage(model: &Model, ratios: &[f64], share: f64, old: &Choice) -> Choice {
     let limit = PREDICTED / decline(model, share);
     let hot: Vec<bool> = ratios

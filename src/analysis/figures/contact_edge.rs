@@ -1,16 +1,17 @@
 //! The edge of a plane contact, located to a hundredth of an element.
 //!
 //! Near the edge of a smooth contact the squared pressure is `(e^2 - s^2) (c0 + c1 s^2)`, with `s`
-//! the distance from the middle and `e` the distance of the edge. In Hertz' contact this is exact,
+//! the distance from the middle and `e` the distance of the edge. In Hertz's contact this is exact,
 //! with `c1 = 0`. The pressures of the last two pairs depend on where in its facet the contact ends
-//! (on Hertz' line contact they alone would put the edge off by -0.06 and 0.08 elements, those
+//! (on Hertz's line contact they alone would put the edge off by -0.06 and 0.08 elements, those
 //! before by 0.01). Their total force does not, since equilibrium passes it on as a whole. For any
 //! `e` the constants follow by least squares from the pairs before the last two. The edge is the
 //! `e` for which the pressure over the last pairs has their force.
 //!
-//! Measured with 4 to 24 elements over the contact: off by 0.003 to 0.01 elements on Hertz' contact
-//! of a line and of a point, by 0.02 to 0.1 on the disc in a plate. A line through the squared
-//! pressures, extrapolated to zero without the force, is off by 0.015 to 0.4 and by 0.08 to 0.2.
+//! Measured with 4 to 24 elements over the contact: off by 0.003 to 0.01 elements on Hertz's
+//! contact of a line and of a point, by 0.02 to 0.1 on the disc in a plate. A line through the
+//! squared pressures, extrapolated to zero without the force, is off by 0.015 to 0.4 and by 0.08 to
+//! 0.2.
 
 use crate::root;
 
@@ -21,13 +22,13 @@ const GAUSS: [(f64, f64); 4] = [
     (0.669_990_521_792_428_1, 0.326_072_577_431_273_07),
     (0.930_568_155_797_026_3, 0.173_927_422_568_726_93),
 ];
-/// A determinant is round-off if it is below this share of the product of its factors.
+/// A determinant is round-off if it is below this fraction of the product of its factors.
 const SINGULAR: f64 = 1e-12;
 
 /// A pair inside the last ones of a contact.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct EdgePoint {
-    /// Squared distance from the middle of the contact.
+    /// Squared distance from the centre of the contact.
     pub squared: f64,
     /// Squared pressure.
     pub pressure_squared: f64,
@@ -40,7 +41,7 @@ pub(super) struct EdgePoint {
 pub(super) struct Tail<'a> {
     /// The pairs before the last ones.
     pub points: &'a [EdgePoint],
-    /// Distance of the first of the last pairs from the middle of the contact.
+    /// Distance of the first of the last pairs from the centre of the contact.
     pub from: f64,
     /// Distance from the middle, and width of the surface, at the first and at the last of the last
     /// pairs.

@@ -29,7 +29,7 @@ struct EdgeTail {
     /// Place of the last closed pair; `way` is the direction from there in which the contact ends.
     last: usize,
     way: isize,
-    /// Arc length of the middle of the contact.
+    /// Arc length of the centre of the contact.
     middle: f64,
     /// Distance from the last closed pair to the first open one.
     spacing: f64,

@@ -12,7 +12,7 @@ pub(in crate::analysis) struct Dent {
     /// Depth of both surfaces together at the deepest place; negative if they have moved towards
     /// each other everywhere.
     pub depth: f64,
-    /// Largest depth in the surfaces of each body.
+    /// Each body's share at the deepest place of a contact; of several contacts the largest.
     pub by_body: Vec<f64>,
     /// Largest height to which a surface rises above its undeformed shape.
     pub rim: f64,

@@ -7,11 +7,11 @@ use crate::analysis::structure::solver::Solver;
 use crate::model::{AxisPoint, ContactSurface, Magnitude, Model, Pair};
 use crate::results::{ContactPatch, EdgeReading, PairState, Status};
 
-/// Pairs with forces below this share of the largest are about to open or have just closed: at a
+/// Pairs with forces below this fraction of the largest are about to open or have just closed: at a
 /// change of contact the force is zero up to round-off or gamma, and the extent of the contact must
 /// not depend on that remainder.
 const VANISHING: f64 = 1e-7;
-/// Forces below this share of the run's largest force are round-off of an unloaded contact.
+/// A force below this fraction of the run's largest is round-off in an unloaded contact.
 const ROUND_OFF: f64 = 1e-13;
 /// Patches whose forces differ by no more than this share belong to bodies in a row, which pass on
 /// the same force; the figures are those of the first such contact, on any mesh. Pressures add up
@@ -293,7 +293,11 @@ impl Solver<'_> {
         match load.measures {
             Magnitude::Displacement => self.driving_force().unwrap_or(0.0),
             Magnitude::Gap => through(&|pair| load.gap(pair) != 0.0),
-            _ => self.at.factors[leading].abs() * load.magnitude,
+            Magnitude::Force
+            | Magnitude::Stress
+            | Magnitude::Temperature
+            | Magnitude::Strain
+            | Magnitude::Carried => self.at.factors[leading].abs() * load.magnitude,
         }
     }
 }

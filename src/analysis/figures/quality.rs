@@ -17,8 +17,8 @@ use crate::linalg::largest;
 use crate::model::Model;
 use crate::results::{Quality, Tolerances};
 
-/// Share of the largest force or displacement by which an elastic state may be off: round-off times
-/// any condition number at which a state is still of use.
+/// Fraction of the largest force or displacement by which an elastic state may be off: round-off
+/// times any condition number at which a state is still of use.
 const ROUND_OFF: f64 = 1e-8;
 
 /// The bounds on the quality of a state of this model: the tolerances that the scene asks for, with

@@ -37,7 +37,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Settings;
 use crate::substructure::Trailing;
 
-/// Share of the elastic stiffness below which a structure counts as collapsed: to take up the
+/// Fraction of the elastic stiffness below which a structure counts as collapsed: to take up the
 /// smallest increment of the load, it would have to move as far as it moves elastically under the
 /// whole piece of the load path.
 pub(super) const LOST: f64 = SMALLEST_CUT;
@@ -47,7 +47,7 @@ pub(super) const LOST: f64 = SMALLEST_CUT;
 /// stiffness.
 const MOST_ANSWERS: usize = 8;
 
-/// Share of the driving force that must still be out of balance for the structure to flow away.
+/// Fraction of the driving force that must still be out of balance for the structure to flow away.
 const DRIVEN: f64 = 0.5;
 
 /// Bound on the accuracy of any iteration: the round-off of the zone elements' forces that follow
@@ -160,7 +160,7 @@ pub(super) fn not_found(
     ))
 }
 
-/// Share of the elastic stiffness that the tangent at a state has, in the direction in which the
+/// Fraction of the elastic stiffness that the tangent at a state has, in the direction in which the
 /// structure moves from its last state in equilibrium to this state; NaN if the iterate has
 /// overflowed. The response to the forces that softening takes off the direction is found `answers`
 /// times. Each time, the parts of the direction that still have stiffness weigh less (power

@@ -12,7 +12,7 @@ use crate::root::{self, RootTolerance};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Springs bear this share of the largest force once their body has moved by ten times the
+/// Springs bear this fraction of the largest force once their body has moved by ten times the
 /// deformation.
 const MOVES_FAR: f64 = 1e-7;
 

@@ -27,10 +27,10 @@ use crate::substructure::Trailing;
 const FORCING: f64 = 0.05;
 /// The plain and the Anderson iteration may take this many times Newton's limit of iterations.
 const CHEAP_ITERATIONS: usize = 100;
-/// Share of the largest gap or force by which a gap or force at the border may be negative.
+/// Fraction of the largest gap or force by which a gap or force at the border may be negative.
 const BORDER: f64 = 1e-8;
-/// Share of the increment below which its length counts as zero, so that equilibrium is sought at
-/// the start.
+/// Fraction of the increment below which its length counts as zero, so that equilibrium is sought
+/// at the start.
 const AT_START: f64 = 1e-9;
 /// Largest factor by which a change of state may be stretched over a run of increments that end at
 /// the end of their piece. If they are of equal length in the root of the load, the last is some

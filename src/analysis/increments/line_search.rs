@@ -7,8 +7,8 @@ use crate::substructure::Trailing;
 
 /// Most cuts of the length in a line search.
 const BACKTRACKS: usize = 12;
-/// Share of the slope at the start that the slope beyond a minimum may have, so that the minimum is
-/// nearly reached.
+/// Fraction of the slope at the start that the slope beyond a minimum may have, so that the minimum
+/// is nearly reached.
 const OVERSHOOT: f64 = 0.1;
 
 /// Finds the step length along a Newton direction. The energy of the increment is convex, and its

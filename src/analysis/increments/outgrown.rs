@@ -6,7 +6,7 @@ use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Kind;
 
-/// Share of the largest contact force below which a pair counts as about to open or just closed.
+/// Fraction of the largest contact force below which a pair counts as about to open or just closed.
 const VANISHING: f64 = 1e-7;
 
 /// Completes the step for an accepted increment; the increment before it ended at load factor

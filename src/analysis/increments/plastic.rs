@@ -13,8 +13,8 @@ use crate::scene::Stepping;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 
-/// Share of a piece of the load path below which the rest of the piece is round-off. When a body is
-/// unloaded to zero, the last pair's force consists of the load and of the imbalance of the
+/// Fraction of a piece of the load path below which the rest of the piece is round-off. When a body
+/// is unloaded to zero, the last pair's force consists of the load and of the imbalance of the
 /// iteration; the place where it vanishes then has no meaning.
 const ARRIVED: f64 = 1e-9;
 

@@ -15,7 +15,7 @@ const PREDICTION: f64 = 0.02;
 pub(super) const AT_END: f64 = 1e-9;
 /// A pair changes at once if the share of the increment up to its change is below this.
 pub(super) const AT_ONCE: f64 = 1e-12;
-/// Share of the largest rate below which the rate of a violated condition is round-off.
+/// Fraction of the largest rate below which the rate of a violated condition is round-off.
 const BEYOND: f64 = 1e-9;
 
 /// Changes of the state over the whole piece, at the rates that hold at its start.

@@ -1,6 +1,6 @@
 //! The ways to search for an increment: equilibrium and length at once, or one after the other.
 
-/// Progress means that the residual falls below this share of the best one so far.
+/// Progress means that the residual falls below this fraction of the best one so far.
 pub const PROGRESS: f64 = 0.7;
 
 /// The way in which equilibrium and the length of an increment that ends at a change of contact are

@@ -6,7 +6,7 @@ use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
 use crate::contact;
 
-/// Share of the largest gap or force by which a negative gap or force violates the contact
+/// Fraction of the largest gap or force by which a negative gap or force violates the contact
 /// condition.
 const WRONG: f64 = 1e-9;
 /// Number of rounds of status changes without progress after which pairs change one by one.

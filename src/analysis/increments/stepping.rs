@@ -17,7 +17,7 @@ use std::collections::HashSet;
 
 /// Factor by which an increment that did not converge is shortened.
 const CUT: f64 = 0.25;
-/// Share of an increment below which equilibrium and length are no longer searched together. If
+/// Fraction of an increment below which equilibrium and length are no longer searched together. If
 /// cutting helps, three cuts cost less than a separate search; if they do not help, further cuts do
 /// not either.
 const CUT_TOGETHER: f64 = 0.02;

@@ -29,7 +29,7 @@ use std::collections::VecDeque;
 /// Most iterations of a solve: enough for perfect plasticity near collapse. A solve that needs more
 /// has no useful direction.
 pub(super) const MOST: usize = 400;
-/// Share of a direction's elastic stiffness that is round-off.
+/// Fraction of a direction's elastic stiffness that is round-off.
 pub(super) const SINGULAR: f64 = 1e-14;
 /// Number of conjugate gradient steps that cost as much as a direction found with a factor of the
 /// tangent: such a direction takes two or three steps, each with two products, and the elastic

@@ -28,7 +28,7 @@ use crate::contact::springs::with_springs;
 use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 
-/// Share of the elastic stiffness that stays in the factored tangent where flow takes off all of
+/// Fraction of the elastic stiffness that stays in the factored tangent where flow takes off all of
 /// it. It must exceed the share that counts as lost in a collapse ([`super::collapse`]), so that a
 /// mechanism is far softer than all else, and be less than the root of that share, so that stiff
 /// motions do not hide the mechanism: it is the geometric mean of the two.

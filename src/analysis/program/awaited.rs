@@ -10,7 +10,7 @@ use crate::scene::{Target, TargetFigure};
 use std::cell::Cell;
 use std::rc::Rc;
 
-/// Share of the wanted dent by which the dent of the present plastic strains may differ before
+/// Fraction of the wanted dent by which the dent of the present plastic strains may differ before
 /// unloading is computed. Yielding on unloading changes a dent by far less than this.
 const NEAR: f64 = 0.25;
 

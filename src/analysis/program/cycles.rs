@@ -2,10 +2,10 @@
 //! same.
 //!
 //! The change of the plastic strains over a cycle is compared, point by point, with the change over
-//! the cycle before. If the differences `r_k` fall like a geometric series, the cycles to come
+//! the previous cycle. If the differences `r_k` fall like a geometric series, the cycles to come
 //! alter the change by `r_k q/(1 - q)`, `q = r_k/r_(k-1)`. A cycle is steady once both values are a
-//! small share of the flow of the first cycle. The flow that remains in the end is that of the last
-//! cycle minus the alteration by the cycles to come. If none remains, plastic flow dies out,
+//! small fraction of the flow of the first cycle. The flow that remains in the end is that of the
+//! last cycle minus the alteration by the cycles to come. If none remains, plastic flow dies out,
 //! however slowly; otherwise it goes on in every cycle, however small it is. The same holds for
 //! growth. A cycle in which nothing flows is steady at once. The states reported for a program come
 //! from one more cycle.

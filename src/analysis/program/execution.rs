@@ -365,8 +365,8 @@ impl<'m, 'o> Run<'m, 'o> {
     /// Applies constant loads and interference before the load factor leaves zero.
     fn begin_preload(&mut self) {
         let end = self.solver.structure.point(0.0);
-        let has_interference =
-            self.model().pairs.iter().any(|p| p.interference != 0.0) && end.interference > 0.0;
+        let has_interference = self.model().pairs.iter().any(|p| p.interference != 0.0)
+            && end.interference_share > 0.0;
         let loads = self.model().loads.iter();
         let mut factors = loads.zip(self.solver.at.factors.iter().zip(&end.factors));
         let is_loaded = factors.any(|(load, (here, there))| load.acts() && here != there);

@@ -42,7 +42,7 @@ impl Run<'_, '_> {
             self.tell(&mut results, text.clone());
             results.inaccurate.push(text);
         }
-        self.tell_of_inaccuracy(&mut results, &judged, &tolerances);
+        self.judge_quality(&mut results, &judged, &tolerances);
         if model.scene.analysis.condition
             || !results.inaccurate.is_empty()
             || results.condition > DOUBTFUL
@@ -151,7 +151,7 @@ impl Run<'_, '_> {
     }
 
     /// Warns of states whose figures of quality miss their tolerances.
-    fn tell_of_inaccuracy(
+    fn judge_quality(
         &mut self,
         results: &mut Results,
         judged: &JudgedStates,

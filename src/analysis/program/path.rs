@@ -17,7 +17,7 @@ pub(super) struct PathSampler {
     forces: Vec<f64>,
 }
 
-/// Share of a figure within which its path counts as straight.
+/// Fraction of a figure within which its path counts as straight.
 const STRAIGHT: f64 = 1e-3;
 /// Number of times that a quarter of the way may be halved.
 const HALVINGS: usize = 3;

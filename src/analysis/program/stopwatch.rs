@@ -78,7 +78,7 @@ impl Stopwatch {
         Stopwatch { since, ..self }
     }
 
-    /// Switches to another row and returns the row that was running before.
+    /// Switches to another row and returns the row that was running previously.
     pub(super) fn switch(&mut self, to: TimeRow) -> TimeRow {
         let now = Instant::now();
         self.seconds[self.row as usize] += now.duration_since(self.since).as_secs_f64();

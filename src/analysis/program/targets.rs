@@ -86,7 +86,14 @@ impl<'m> Run<'m, '_> {
         let is_known = model.scene.program.unit != Unit::Yield;
         let leading = model.leading_load();
         let measures = leading.map(|leading| model.loads[leading].measures);
-        let of_load = |of: Magnitude| !matches!(of, Magnitude::Displacement | Magnitude::Gap);
+        let of_load = |of: Magnitude| match of {
+            Magnitude::Displacement | Magnitude::Gap => false,
+            Magnitude::Force
+            | Magnitude::Stress
+            | Magnitude::Temperature
+            | Magnitude::Strain
+            | Magnitude::Carried => true,
+        };
         [
             is_known && measures.is_some_and(of_load),
             is_known && measures == Some(Magnitude::Displacement),
@@ -201,7 +208,7 @@ impl<'m> Run<'m, '_> {
     }
 
     /// Power of the load over which increments are spread evenly. If increments end at changes of
-    /// contact and the contact grows pair by pair, it is the power with which the width of Hertz'
+    /// contact and the contact grows pair by pair, it is the power with which the width of Hertz's
     /// contact grows.
     fn changes_by_load(&self) -> f64 {
         let model = self.model();

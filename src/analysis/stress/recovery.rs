@@ -37,7 +37,8 @@ use rayon::prelude::*;
 use sampled::{Sampled, in_space};
 use std::collections::BTreeMap;
 
-/// Share of the largest sampled ratio above which an element is searched for the recovered maximum.
+/// Fraction of the largest sampled ratio above which an element is searched for the recovered
+/// maximum.
 const CANDIDATE: f64 = 0.93;
 /// Ratio of the largest sample to the yield stress below which no recovered maximum is searched.
 const FAR_BELOW: f64 = 0.85;
@@ -48,13 +49,13 @@ const TIE: f64 = 1e-9;
 /// search at that spacing at most this share times the fourth power is missed. The search ends when
 /// that is no more than `gamma`: first yield is an event like changes of contact.
 const CURVATURE: f64 = 0.1;
-/// Largest amount that a search at a spacing misses, as a share of the stress.
+/// Largest amount that a search at a spacing misses, as a fraction of the stress.
 fn left_after(spacing: f64) -> f64 {
     CURVATURE * spacing.powi(4)
 }
 
-/// Bound on how far the maximum found with a `gamma` may lie below the true one, as a share of the
-/// maximum.
+/// Bound on how far the maximum found with a `gamma` may lie below the true one, as a fraction of
+/// the maximum.
 pub fn left_of_search(gamma: f64) -> f64 {
     let last = SPACINGS.iter().find(|s| left_after(**s) <= gamma);
     left_after(*last.unwrap_or(&SPACINGS[SPACINGS.len() - 1]))

@@ -36,7 +36,7 @@ impl EliminatedLoad {
         }
     }
 
-    /// Whether both loads are of structures with the same freedoms and pairs.
+    /// Whether both loads have equal numbers of freedoms and pairs.
     pub fn is_like(&self, other: &EliminatedLoad) -> bool {
         let mut parts = self.parts().into_iter().zip(other.parts());
         parts.all(|(own, other)| own.len() == other.len())

@@ -263,7 +263,7 @@ impl<'m> Structure<'m> {
         LoadPoint {
             alpha,
             factors: loads.map(|l| l.factor(alpha, self.unit)).collect(),
-            interference: self.model.interference_at(alpha),
+            interference_share: self.model.interference_at(alpha),
         }
     }
 
@@ -287,7 +287,7 @@ impl<'m> Structure<'m> {
     pub fn gap_unmoved(&self, pair: &Pair, point: &LoadPoint) -> f64 {
         let loads = self.model.loads.iter().zip(&point.factors);
         let opened: f64 = loads.map(|(load, factor)| factor * load.gap(pair)).sum();
-        pair.gap - point.interference * pair.interference + opened
+        pair.gap - point.interference_share * pair.interference + opened
     }
 
     /// Values of [`Structure::gap_unmoved`] for all pairs.
@@ -307,12 +307,13 @@ impl<'m> Structure<'m> {
         let loads = self.loads.forces.iter().zip(factors);
         let of_gaps = [
             -self.gaps.forces[0][k],
-            point.interference * self.gaps.forces[1][k],
+            point.interference_share * self.gaps.forces[1][k],
         ];
         loads.map(move |(t, factor)| factor * t[k]).chain(of_gaps)
     }
 
-    /// The forces `q = t - T delta` of the contact problem at a load point without initial loads.
+    /// The forces `q = t - T delta` of the contact problem at a load point without initial loads;
+    /// with them: [`super::solver::Solver::forces_if_tied`].
     pub fn closed_forces(&self, point: &LoadPoint) -> Vec<f64> {
         (0..self.n_pairs())
             .map(|k| self.closed_force_terms(point, k).sum())
@@ -320,7 +321,7 @@ impl<'m> Structure<'m> {
     }
 
     /// The largest sum, over the pairs, of the absolute values of the terms of
-    /// [`Structure::closed_forces`]. Round-off of the forces is a share of it.
+    /// [`Structure::closed_forces`]. Round-off of the forces is a fraction of it.
     pub fn closed_forces_size(&self, point: &LoadPoint) -> f64 {
         (0..self.n_pairs())
             .map(|k| self.closed_force_terms(point, k).map(f64::abs).sum())

@@ -18,7 +18,7 @@ pub struct FactoredTangent {
     pub(in crate::analysis) is_refused: bool,
     /// Whether the factor is of the tangent at the last evaluated state.
     pub(in crate::analysis) is_fresh: bool,
-    /// Share of the softening that is subtracted in the factored stiffness.
+    /// Fraction of the softening that is subtracted in the factored stiffness.
     pub(in crate::analysis) share: f64,
     /// Number of conjugate gradient steps since the tangent was factored, beyond the steps that a
     /// new factor takes.

@@ -16,12 +16,12 @@ use serde::{Deserialize, Serialize};
 /// `data/speed.md` at ten times its load at first yield; the other scenes of that page judge it.
 const STEP: f64 = 0.07;
 const AT_STEP: f64 = 1e-3;
-/// Root of the load since flow began, divided by the root of the elastic range before, for the leg
-/// on which [`STEP`] was found: from once to ten times the load at first yield.
+/// Root of the load since flow began, divided by the root of the preceding elastic range, for the
+/// leg on which [`STEP`] was found: from once to ten times the load at first yield.
 const MODERATE: f64 = 3.0;
-/// Root of the load since flow began, divided by the root of the elastic range before, at which the
-/// contact of a ball is fully plastic, taken at `E* a/(Y R) = 30`. That is 2.5 at first yield, and
-/// the mean pressure grows from 1.1 Y to nearly 3 Y: some 400 times the load (after Johnson,
+/// Root of the load since flow began, divided by the root of the preceding elastic range, at which
+/// the contact of a ball is fully plastic, taken at `E* a/(Y R) = 30`. That is 2.5 at first yield,
+/// and the mean pressure grows from 1.1 Y to nearly 3 Y: some 400 times the load (after Johnson,
 /// *Contact Mechanics*, 1985, chapter 6).
 const DEEP: f64 = 20.0;
 /// Ratio of the load to the load at first yield beyond which the leg alone counts: by the same
@@ -85,8 +85,9 @@ impl FlowOnset {
     }
 }
 
-/// Distance of the loads from zero load. An interference does not count: it stays the same
-/// throughout.
+/// Distance of the loads from zero load. An interference does not count, not even while it grows
+/// (`program.interference_until`): if flow begins under an interference alone, the range is zero,
+/// and only the leg counts until flow begins anew under loads.
 fn size(at: &LoadPoint) -> f64 {
     at.factors
         .iter()
@@ -141,7 +142,7 @@ mod tests {
         LoadPoint {
             alpha,
             factors,
-            interference: 1.0,
+            interference_share: 1.0,
         }
     }
 
@@ -180,7 +181,7 @@ mod tests {
         assert!(half.abs_diff(2 * each) <= 1, "{half}");
     }
 
-    /// Up to the largest load before, a second leg is like any other; beyond that load, flow is
+    /// Up to the previous largest load, a second leg is like any other; beyond that load, flow is
     /// deep again. Without an elastic range only the leg counts.
     #[test]
     fn only_load_beyond_all_that_was_before_is_deep() {

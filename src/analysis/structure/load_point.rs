@@ -11,7 +11,8 @@ pub struct LoadPoint {
     /// Factor of each load.
     pub factors: Vec<f64>,
     /// Share of the interference that is applied, 0 to 1.
-    pub interference: f64,
+    #[serde(rename = "interference")]
+    pub interference_share: f64,
 }
 
 impl LoadPoint {
@@ -20,7 +21,7 @@ impl LoadPoint {
         LoadPoint {
             alpha: 0.0,
             factors: vec![0.0; n_loads],
-            interference: 0.0,
+            interference_share: 0.0,
         }
     }
 
@@ -31,7 +32,7 @@ impl LoadPoint {
         LoadPoint {
             alpha: mix(self.alpha, end.alpha),
             factors: factors.map(|(a, b)| mix(*a, *b)).collect(),
-            interference: mix(self.interference, end.interference),
+            interference_share: mix(self.interference_share, end.interference_share),
         }
     }
 
@@ -39,7 +40,7 @@ impl LoadPoint {
     pub fn step_to(&self, end: &LoadPoint) -> Vec<f64> {
         let factors = end.factors.iter().zip(&self.factors);
         let mut step: Vec<f64> = factors.map(|(b, a)| b - a).collect();
-        step.push(end.interference - self.interference);
+        step.push(end.interference_share - self.interference_share);
         step
     }
 
@@ -53,7 +54,8 @@ impl LoadPoint {
         if end.alpha != self.alpha {
             (between.alpha - self.alpha) / (end.alpha - self.alpha)
         } else {
-            (between.interference - self.interference) / (end.interference - self.interference)
+            (between.interference_share - self.interference_share)
+                / (end.interference_share - self.interference_share)
         }
     }
 }

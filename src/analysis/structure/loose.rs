@@ -8,14 +8,14 @@ use crate::error::Result;
 use nalgebra::DVector;
 use std::sync::Arc;
 
-/// Springs that bear more than this share of the largest force are released along the load path.
+/// Springs that bear more than this fraction of the largest force are released along the load path.
 const MOVES: f64 = 1e-9;
-/// Springs that bear more than this share of the largest force are released in a state to be read:
-/// round-off.
+/// Springs that bear more than this fraction of the largest force are released in a state to be
+/// read: round-off.
 const NOTHING: f64 = 1e-14;
-/// Share of the largest force that springs may bear in a state at rest.
+/// Fraction of the largest force that springs may bear in a state at rest.
 const SETTLED: f64 = 1e-11;
-/// A spring bears more than this share of the largest force only if the load drives its body on:
+/// A spring bears more than this fraction of the largest force only if the load drives its body on:
 /// the body has then moved by a hundred times the deformation.
 const DRIVEN: f64 = 1e-6;
 
@@ -113,9 +113,9 @@ impl Solver<'_> {
         !self.springs.is_empty() && (least(&self.now.gap) < gap || least(&self.now.force) < force)
     }
 
-    /// Releases springs that bear more than a share of the largest force: makes them free of force
-    /// at the current gaps, so that their bodies stay where they are. A body that contact holds
-    /// weakly then moves on under the force that its spring has borne.
+    /// Releases springs that bear more than a fraction of the largest force: makes them free of
+    /// force at the current gaps, so that their bodies stay where they are. A body that contact
+    /// holds weakly then moves on under the force that its spring has borne.
     pub(super) fn let_springs_go(&mut self, share: f64) {
         for _ in 0..MOST_TIMES {
             if !self.springs_bear(share) {
@@ -135,7 +135,7 @@ impl Solver<'_> {
         springs.any(|own| own.pairs().iter().all(|&k| open[k]))
     }
 
-    /// Whether a spring bears more than a share of the largest force.
+    /// Whether a spring bears more than a fraction of the largest force.
     pub(in crate::analysis) fn springs_bear(&self, share: f64) -> bool {
         let gap = &self.now.gap;
         let forces = self.springs.iter().map(|own| own.largest_force(gap));

@@ -15,12 +15,12 @@ use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 use std::borrow::Cow;
 
-/// Share of the largest gap and of the largest force that counts as round-off of their sums.
+/// Fraction of the largest gap and of the largest force that counts as round-off of their sums.
 const ZERO: f64 = 1e-14;
 
 impl Solver<'_> {
-    /// Equilibrium for a load point and initial loads with the current statuses (paper 4.2): the
-    /// second half of a trailing solve.
+    /// Equilibrium for a load point and initial loads with the current statuses (paper, eq. 4.2):
+    /// the second half of a trailing solve.
     pub fn respond(&mut self, point: &LoadPoint, initial: EliminatedLoad) -> Equilibrium {
         let n = self.structure.gaps.initial.len();
         let mut u = initial.eliminated.clone();
@@ -45,7 +45,9 @@ impl Solver<'_> {
         }
     }
 
-    /// Force of each pair at a load point, with initial loads, if all pairs were tied without gap.
+    /// Force of each pair at a load point, with initial loads, if all pairs were tied without gap:
+    /// [`super::factored::Structure::closed_forces`] with the forces of the initial loads and of
+    /// the springs.
     pub fn forces_if_tied(&self, point: &LoadPoint, initial: &EliminatedLoad) -> Vec<f64> {
         let mut q = initial.forces.clone();
         let factors = self.structure.model.factors_of_alike(&point.factors);
@@ -56,7 +58,7 @@ impl Solver<'_> {
         }
         let [initial, by_interference] = &self.structure.gaps.forces;
         for (q, (constant, change)) in q.iter_mut().zip(initial.iter().zip(by_interference)) {
-            *q += point.interference * change - constant;
+            *q += point.interference_share * change - constant;
         }
         self.add_springs(&mut q);
         q
@@ -187,7 +189,7 @@ impl Solver<'_> {
     }
 
     /// Solves the elastic contact problem at a load point from scratch and makes the solution the
-    /// current state (paper 3.7 to 3.10).
+    /// current state (paper, eqs. 3.7 to 3.10).
     ///
     /// # Errors
     /// A load that drives a body away from every contact.

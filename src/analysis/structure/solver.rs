@@ -235,13 +235,16 @@ impl<'m> Solver<'m> {
                         condensed.load.iter().map(|f| f.abs()).sum()
                     }
                     Magnitude::Gap => condensed.forces.iter().map(|f| f.abs()).sum(),
-                    _ => loads().map(LoadCase::size).sum(),
+                    Magnitude::Force
+                    | Magnitude::Stress
+                    | Magnitude::Temperature
+                    | Magnitude::Strain => loads().map(LoadCase::size).sum(),
                 };
                 (to - from).abs() * size
             })
             .sum();
         !self.now.gap.is_empty()
-            && self.at.interference == end.interference
+            && self.at.interference_share == end.interference_share
             && left <= self.round_off_of_contact()
     }
 

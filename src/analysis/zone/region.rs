@@ -25,7 +25,7 @@ impl Reach {
     }
 }
 
-/// Distance that a solid model's region reaches from the middle of the contact surface, as a
+/// Distance that a solid model's region reaches from the centre of the contact surface, as a
 /// multiple of half the surface's smaller width and for either reach. It leaves room for first
 /// yield, which lies 0.79 half widths deep under a line contact and 0.48 under a point (K. Johnson,
 /// Contact Mechanics, 1985, sections 4.2 and 3.4).

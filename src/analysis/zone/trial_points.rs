@@ -18,7 +18,7 @@ pub(super) struct TrialPoints<'a, const S: usize> {
 }
 
 impl<const S: usize> TrialPoints<'_, S> {
-    /// Stores that a point stays elastic. Nothing is written for a point that was elastic before,
+    /// Stores that a point stays elastic. Nothing is written for a point that was elastic already,
     /// as the majority is.
     #[inline]
     pub fn stay_elastic(&mut self, point: usize, committed: &PlasticState<S>) {

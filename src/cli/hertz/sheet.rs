@@ -66,7 +66,7 @@ pub(super) struct PeakSheet {
     pub depth: f64,
 }
 
-/// A body, and the stresses in it below the middle of the contact.
+/// A body, and the stresses in it below the centre of the contact.
 #[derive(Debug, Serialize)]
 pub(super) struct BodySheet {
     pub name: &'static str,

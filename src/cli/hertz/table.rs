@@ -12,9 +12,9 @@ const DIGITS: usize = 6;
 pub(super) fn text(sheet: &Sheet) -> String {
     let page = page_width();
     let title = match sheet.contact {
-        "point" => "Hertz' contact: a circle",
-        "ellipse" => "Hertz' contact: an ellipse",
-        _ => "Hertz' contact: a line, loads per length",
+        "point" => "Hertz's contact: a circle",
+        "ellipse" => "Hertz's contact: an ellipse",
+        _ => "Hertz's contact: a line, loads per length",
     };
     let notes: String = notes(sheet)
         .iter()

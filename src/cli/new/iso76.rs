@@ -21,7 +21,7 @@ use clap::Args;
 /// # Source
 /// ISO 76:2006, notes on the basic static load ratings in clause 3.
 const DIAMETER_OVER_DENT: f64 = 1e4;
-/// Contact stress in the middle of the most heavily loaded contact [MPa], and the kind of bearing.
+/// Contact stress at the centre of the most heavily loaded contact [MPa], and the kind of bearing.
 ///
 /// # Source
 /// ISO 76:2006, clause 3: definitions of the basic static radial and axial load rating.

@@ -33,10 +33,10 @@ struct Page<'s> {
 impl Page<'_> {
     /// Describes a definition: its meaning, and its keys or values.
     fn definition(&mut self, schema: &Value) -> String {
-        let about = schema["description"].as_str().unwrap_or_default();
-        let mut text = match about {
+        let about = without_links(schema["description"].as_str().unwrap_or_default());
+        let mut text = match about.trim() {
             "" => String::new(),
-            about => format!("{}\n\n", about.trim()),
+            about => format!("{about}\n\n"),
         };
         if schema["properties"].is_object() {
             text.push_str(&self.keys(schema));
@@ -162,8 +162,29 @@ impl Page<'_> {
 
 /// Formats a text for a cell of a table.
 fn in_line(text: &str) -> String {
+    let text = without_links(text);
     let words: Vec<&str> = text.split_whitespace().collect();
     words.join(" ").replace('|', "\\|")
+}
+
+/// Takes the brackets off links between Rust items, which lead nowhere on a page.
+fn without_links(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    while let Some((before, link)) = rest.split_once("[`") {
+        out.push_str(before);
+        match link.split_once('`') {
+            Some((name, after)) if after.starts_with(']') => {
+                out.push_str(&format!("`{name}`"));
+                rest = &after[1..];
+            }
+            _ => {
+                out.push_str("[`");
+                rest = link;
+            }
+        }
+    }
+    out + rest
 }
 
 #[cfg(test)]
@@ -207,5 +228,18 @@ A way.
 - `\"up\"`: Upwards.
 "
         );
+    }
+
+    #[test]
+    fn links_between_items_lose_their_brackets() {
+        for (text, wanted) in [
+            ("See [`crate::a`], or [`B`].", "See `crate::a`, or `B`."),
+            (
+                "Rows `[C, gamma]`, [`a`, `b`].",
+                "Rows `[C, gamma]`, [`a`, `b`].",
+            ),
+        ] {
+            assert_eq!(without_links(text), wanted);
+        }
     }
 }

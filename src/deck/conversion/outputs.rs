@@ -12,7 +12,8 @@ use crate::space::Space;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Distance from the end of a step, as a share of the step, up to which a time counts as the end.
+/// Distance from the end of a step, as a fraction of the step, up to which a time counts as the
+/// end.
 const CLOSE: f64 = 1e-9;
 /// Largest number of increments at which results may be requested.
 const MOST_MOMENTS: usize = 10_000;
@@ -290,8 +291,8 @@ impl RequestedSets<'_, '_> {
         Ok(On::Section(NamedSet { name, labels }, Arc::new(faces)))
     }
 
-    /// The contact between the surfaces that a request names, by its number. A pair that does not
-    /// exist causes a remark; a request without surfaces has an empty set.
+    /// The number of the contact between the surfaces that a request names. A missing pair causes a
+    /// remark; a request without surfaces gives an empty set.
     fn contact(&mut self, request: &OutputRequest) -> On {
         let [slave, master] = request.contact.clone().unwrap_or_default();
         let pairs = &self.deck.properties.contacts;

@@ -17,7 +17,7 @@ use crate::scene::{self, Direction, EquationTerm, Load, Relative};
 use crate::space::Vector;
 use std::collections::BTreeMap;
 
-/// Share of its terms up to which a sum of displacements counts as zero.
+/// Fraction of its terms up to which a sum of displacements counts as zero.
 const ROUND_OFF: f64 = 1e-9;
 
 impl Draft<'_> {

@@ -71,7 +71,7 @@ impl Common {
 
     /// Returns the error of the last call, if any; `what` was being done on `n` freedoms.
     pub(super) fn check(&self, what: &str, n: usize) -> Result<()> {
-        // Ordering, tree and column counts, as long integers.
+        // Ten long integers a freedom: ordering, tree, counts.
         self.check_asking(what, n, 80.0 * n as f64)
     }
 

@@ -1,4 +1,4 @@
-//! faer backend: the sparse factor in Rust alone, without system libraries and under permissive
+//! faer backend: the sparse factor in pure Rust, without system libraries and under permissive
 //! licences.
 //!
 //! The use of the factor is in `linalg::sparse`. The factor is computed on one thread, so all

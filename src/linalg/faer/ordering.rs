@@ -1,4 +1,4 @@
-//! Fill-reducing ordering in the groups `[ interior | zone | contact ]`, in Rust alone.
+//! Fill-reducing ordering in the groups `[ interior | zone | contact ]`, in pure Rust.
 //!
 //! | candidate | how | good for |
 //! |---|---|---|

@@ -63,8 +63,8 @@ fn subtrees_are_solved_like_the_whole() {
     });
 }
 
-/// The column counts from the pattern of supervariables equal those of a factorisation of zeros and
-/// ones on the whole pattern.
+/// Column counts from the pattern of supervariables equal those of a symbolic factorisation of the
+/// whole pattern.
 #[test]
 fn counts_are_those_of_the_structure() {
     let grid = Grid::<2>::new([9, 7], Support::Bottom);

@@ -1,4 +1,4 @@
-//! Meaning of MUMPS' error numbers, with a remedy.
+//! Meaning of MUMPS's error numbers, with a remedy.
 //!
 //! # Source
 //! MUMPS 5.5 users' guide, section 8.

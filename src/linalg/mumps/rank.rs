@@ -193,7 +193,7 @@ fn answer<T: Serialize>(value: &T) -> Vec<u8> {
 }
 
 /// Bytes that the limits of this process leave to this rank, and that its machine leaves to all
-/// ranks, without the work buffer of the BLAS: MUMPS' calls would request the buffer endlessly.
+/// ranks, without the work buffer of the BLAS: MUMPS's calls would request the buffer endlessly.
 fn left() -> [Option<f64>; 2] {
     let _entered = cholmod::enter_blas().ok();
     [memory::limits(), memory::of_machine()]

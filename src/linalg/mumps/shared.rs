@@ -253,8 +253,8 @@ impl Shared {
         Ok((entries, touched))
     }
 
-    /// Graph of the interior and the freedoms that it touches, as pairs of vertices, given the
-    /// vertex of each freedom (-1 for none). The trailing freedoms are those of [`Shared::near`].
+    /// Graph of the interior and the freedoms that it touches, as pairs of vertices, given each
+    /// freedom's vertex (-1 for none). [`Shared::near`] must have set the trailing freedoms.
     pub(super) fn graph(&self, vertex: &[i32]) -> Result<Vec<[i32; 2]>> {
         let task = |rank| Task::Graph(self.index(), self.own(rank, |freedom| vertex[freedom]));
         let parts: Vec<Vec<[i32; 2]>> = self.ask(task, &mut Host::default())?;

@@ -65,7 +65,7 @@ pub(super) struct Near {
     pub(super) values: Vec<f64>,
 }
 
-/// Results of MUMPS' analysis on a rank.
+/// Results of MUMPS's analysis on a rank.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Analysed {
     /// INFOG(1) and INFOG(2).
@@ -89,7 +89,7 @@ pub(super) struct Analysed {
     pub(super) nonzeros: f64,
 }
 
-/// Results of MUMPS' factorisation on a rank.
+/// Results of MUMPS's factorisation on a rank.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Factored {
     /// INFOG(1) and INFOG(2).

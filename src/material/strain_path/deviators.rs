@@ -41,7 +41,7 @@ impl<'a, const S: usize> Deviators<'a, S> {
         let material = path.material;
         let (g, linear) = (material.shear_modulus(), material.back_stresses.linear());
         let strain: [f64; S] = std::array::from_fn(|k| path.end[k] - path.begin[k]);
-        // The strain has engineering shear.
+        // Shear strains are doubled.
         let change = deviator(&strain).map(|e| g * e);
         Deviators {
             hardening,

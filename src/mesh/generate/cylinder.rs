@@ -1,4 +1,4 @@
-//! A cylinder or ball on a half plane or half space (paper 5.1).
+//! A cylinder or ball on a half plane or half space (paper, sec. 5.1).
 
 use super::grading::{self, Growth};
 use super::grid::{BodyBuilder, Side, empty_mesh};
@@ -10,9 +10,9 @@ use crate::{Error, Result};
 const KEY: &str = "mesh.cylinder_on_half_plane";
 /// Largest ratio of the candidates' reach to the radius: further out the circle is nearly vertical.
 pub const WIDEST: f64 = 0.9;
-/// Default size of each body in half widths, for a cylinder and for a ball. A size W changes the
-/// stress under a cylinder by the order b/W; under a ball it changes the stress by (b/W)^2 and the
-/// approach by b/W.
+/// Default size of each body in half widths b, for a cylinder and a ball. A size W changes the
+/// stress under a cylinder by order b/W; under a ball the stress by order (b/W)^2, the approach by
+/// b/W.
 pub(super) const PLANE_FAR_SIZE: f64 = 20_000.0;
 pub(super) const ROUND_FAR_SIZE: f64 = 2_000.0;
 
@@ -46,14 +46,14 @@ impl ContactSize {
 /// `[0, W]` between its surface and the flat top `y = W`. The surface is the circle
 /// `y = R - sqrt(R^2 - x^2)` over the candidates and levels off beyond: as in Hertz's theory, both
 /// bodies are half planes that differ from flat near the contact only. A body of finite size W
-/// changes the stress under the contact by the order b/W (a uniform stress along the surface), a
-/// true cylinder by b/R. `far_size` is therefore large, which the growing elements make cheap.
-/// Elements are even with size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to
-/// the nearest whole element). If the contact may reach further, elements grow by
-/// `1 + 1/resolution` from there out to its reach, and downwards in proportion: a contact of any
-/// half width has at least `resolution` elements over it. Beyond, they grow by `growth`, rising to
-/// `far_growth` at the far end. Both surfaces have nodes at the same `x`. Corner and mid-side nodes
-/// of the cylinder lie on the circle to round-off, so nodal gaps are the exact gaps.
+/// changes the stress under the contact by order b/W (a uniform stress along the surface), a true
+/// cylinder by b/R. `far_size` is therefore large, which the growing elements make cheap. Elements
+/// are even with size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to the
+/// nearest whole element). If the contact may reach further, elements grow by `1 + 1/resolution`
+/// from there out to its reach, and downwards in proportion: a contact of any half width has at
+/// least `resolution` elements over it. Beyond, they grow by `growth`, rising to `far_growth` at
+/// the far end. Both surfaces have nodes at the same `x`. Corner and mid-side nodes of the cylinder
+/// lie on the circle to round-off, so nodal gaps are the exact gaps.
 ///
 /// Only the even part of the surfaces, and the part beyond that the contact may reach, are contact
 /// candidates (`cylinder.contact`, `half_plane.contact`), which keeps the condensed matrix small.
@@ -168,7 +168,7 @@ struct CylinderLayout {
     n_contact: usize,
     /// Size `W` of each body.
     size: f64,
-    /// Coordinates along x, by half steps from 0 to `W`.
+    /// Element ends and midpoints along x, 0 to `W`.
     x: Vec<f64>,
     /// Distances from the contact surface, by half steps from 0 to `W`.
     depth: Vec<f64>,

@@ -1,4 +1,4 @@
-//! A disc in the hole of a plate (paper 5.2).
+//! A disc in the hole of a plate (paper, sec. 5.2).
 
 use super::grading::{self, Growth};
 use super::grid::{BodyBuilder, Side, empty_mesh};

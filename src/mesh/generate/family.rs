@@ -357,7 +357,7 @@ fn with_counts(parts: &[Part], new: impl Fn(usize) -> usize) -> Vec<Part> {
 }
 
 /// Whether the new counts that must be even are even: all counts of a disc, and counts of triangles
-/// that were even before, because their diagonals alternate.
+/// that were even, because their diagonals alternate.
 fn is_alike(old: &Part, new: &Part) -> bool {
     let is_disc = old.disc.is_some();
     let alternates = |n: usize| old.element.n_corners() == 3 && n.is_multiple_of(2);

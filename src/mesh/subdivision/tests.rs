@@ -104,7 +104,7 @@ fn new_nodes_lie_on_the_circle_that_is_known_and_on_the_side_else() {
         };
         let mut mesh = ring(shape);
         let polygon = subdivided(mesh.clone(), 1, &[]).unwrap();
-        // Sides turn by 22.5 degrees; parabolas come closer to the circle, but do not lie on it.
+        // Sides span 22.5 degrees; parabolas come closer to the circle, but do not lie on it.
         let sag = 1.0 - (11.25f64).to_radians().cos();
         let expected = if shape.is_quadratic() { 0.0 } else { sag };
         assert!(

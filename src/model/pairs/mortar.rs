@@ -40,15 +40,15 @@ use rayon::prelude::*;
 use sides::Sides;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Share of a row's weight that must be covered for the row to be kept: rows below it would contain
-/// the inverse of round-off.
+/// Fraction of a row's weight that must be covered for the row to be kept: rows below it would
+/// contain the inverse of round-off.
 const COVERED: f64 = 1e-8;
-/// Largest distance of tied surfaces, as a share of a facet's length: more than the tolerances of a
-/// mesher, less than an element.
+/// Largest distance of tied surfaces, as a fraction of a facet's length: more than the tolerances
+/// of a mesher, less than an element.
 const NEAR: f64 = 0.05;
-/// Share of a facet's length by which facets of a flat surface may deviate from it.
+/// Fraction of a facet's length by which facets of a flat surface may deviate from it.
 const FLAT: f64 = 1e-6;
-/// Overlap of the meshes that counts as round-off, as a share of a facet's length.
+/// Overlap of the meshes that counts as round-off, as a fraction of a facet's length.
 const TOUCHING: f64 = 1e-9;
 
 /// Both sides of a contact, with the pairs found.
@@ -303,7 +303,7 @@ impl Sides<'_> {
             false => (0.0, Vec::new()),
         };
         let met = self.meet(node, normal, &of_node.faced);
-        // On the axis of revolution a quadratic element has no weight: see `AxisPoint`.
+        // A quadratic element's node on the axis has zero weight: see `AxisPoint`.
         let largest = of_node.largest;
         let on_axis = self.entries.space.is_axisymmetric()
             && mesh.point(node)[0].abs() <= COVERED * largest

@@ -27,7 +27,8 @@ const STEPS: usize = 20;
 const FACING: f64 = 0.5;
 /// Weight below which a master is dropped as round-off.
 const NOTHING: f64 = 1e-13;
-/// Share of a facet's length by which round-off of coordinates may put a node behind the surface.
+/// Fraction of a facet's length by which round-off of coordinates may put a node behind the
+/// surface.
 const ROUND_OFF: f64 = 1e-9;
 
 /// The point of a facet that is nearest to a node.

@@ -16,7 +16,8 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Cosine of the angle between the normals of the two surfaces up to which they face each other:
 /// beyond 60 degrees a surface would have to turn further than small displacements allow.
 const FACING: f64 = 0.5;
-/// Share of a facet's length by which round-off of coordinates may put a node into the rigid body.
+/// Fraction of a facet's length by which round-off of coordinates may put a node into the rigid
+/// body.
 const ROUND_OFF: f64 = 1e-9;
 
 /// Finds the pairs of a mesh surface, number `slave` of the contact, with a rigid one.

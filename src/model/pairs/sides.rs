@@ -18,15 +18,16 @@ use std::collections::BTreeMap;
 
 /// Cosine of the largest angle between outward normals that count as equal or as opposed.
 const AGREE: f64 = 0.5;
-/// Share of the depth of a slave's element beyond which an overlap is examined: a face on the far
-/// side is off by the full depth.
+/// Fraction of the depth of a slave's element beyond which an overlap is examined: a face on the
+/// far side is off by the full depth.
 const DEEP: f64 = 0.9;
 /// Largest number of faces that are examined, the deepest ones.
 const MOST: usize = 8;
-/// Distance from either end of an overlap, as a share of the overlap, at which a point is tested
+/// Distance from either end of an overlap, as a fraction of the overlap, at which a point is tested
 /// for being inside the bodies.
 const NEAR_ENDS: f64 = 0.125;
-/// Share of an element's size by which a point may lie outside its faces and still count as inside.
+/// Fraction of an element's size by which a point may lie outside its faces and still count as
+/// inside.
 const OUTSIDE: f64 = 1e-3;
 
 /// Facets of a surface, with a search for those that a line meets.

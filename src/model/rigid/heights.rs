@@ -25,7 +25,7 @@ use std::path::Path;
 const STEPS: usize = 100;
 /// Largest number of halvings of a step that leads away.
 const HALVINGS: usize = 40;
-/// Error allowed in a closest point, as a share of the largest coordinate.
+/// Error allowed in a closest point, as a fraction of the largest coordinate.
 const EXACT: f64 = 1e-13;
 
 /// Heights of a rigid surface on a grid.
@@ -33,7 +33,7 @@ const EXACT: f64 = 1e-13;
 pub(in crate::model) struct Heights {
     /// Grid coordinates along x and y, ascending; in the plane a single one along y.
     places: [Vec<f64>; 2],
-    /// Heights row by row, x first.
+    /// Heights, x varying fastest.
     values: Vec<f64>,
     /// Number of the axis along which heights are measured.
     up: usize,

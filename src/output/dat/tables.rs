@@ -11,7 +11,7 @@ use crate::scene::{Print, ResultItem, Totals};
 use crate::space::{Space, Vector, along, dot};
 use std::io::{self, Write};
 
-/// Share of the circle that CalculiX computes of an axisymmetric model: 2 degrees.
+/// Fraction of the circle that CalculiX computes of an axisymmetric model: 2 degrees.
 const SLICE: f64 = 1.0 / 180.0;
 
 /// Writes tables of a model.

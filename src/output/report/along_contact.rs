@@ -231,7 +231,7 @@ pub(super) fn dent_profile(
     })
 }
 
-/// Returns Hertz' pressure for a state in which nothing has yielded, if the model is a half model
+/// Returns Hertz's pressure for a state in which nothing has yielded, if the model is a half model
 /// with one contact.
 fn elastic_pressure(model: &Model, state: &State) -> Option<Vec<[f64; 2]>> {
     let is_alone = model.contacts.len() == 1 && model.materials.len() == 2;

@@ -10,7 +10,7 @@ pub(super) const DISTANCE: f64 = 5.0;
 /// Direction of the eye: degrees round from the first axis, and degrees up.
 const ROUND: f64 = 36.0;
 const UP: f64 = 24.0;
-/// Share of the lower body's height by which a body that lies on it may reach down into it.
+/// Fraction of the lower body's height by which a body that lies on it may reach down into it.
 const OVERLAP: f64 = 0.1;
 
 /// A viewpoint with the axes of the picture.

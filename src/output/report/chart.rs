@@ -233,7 +233,7 @@ fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     if points.len() <= MOST_POINTS {
         return points;
     }
-    // The lowest and the highest point of each stretch stay, in their order.
+    // The lowest and the highest point of each stretch stay, in order.
     let stretch = points.len().div_ceil(MOST_POINTS / 2);
     let mut out = Vec::with_capacity(MOST_POINTS + 2);
     for part in points.chunks(stretch) {

@@ -99,8 +99,8 @@ pub(super) fn global(axis: Vector) -> Option<usize> {
     (0..3).find(|&d| dot(axis, unit(d)).abs() > 1.0 - 1e-9)
 }
 
-/// Returns the direction or its opposite, whichever has a positive largest component; exactly a
-/// coordinate axis if it is one.
+/// Returns the direction or its opposite, whichever has a positive largest component, rounded to an
+/// axis if along one.
 fn positive(axis: Vector) -> Vector {
     if let Some(d) = global(axis) {
         return unit(d);

@@ -18,7 +18,7 @@ use crate::space::{Vector, along, cross, dot};
 
 /// Extent of the map, in half axes of the largest patch of all states.
 const REACH: f64 = 1.3;
-/// Number of straight pieces of the line round a patch.
+/// Number of straight segments in a patch's outline.
 const PIECES: usize = 180;
 /// Half length of a patch without end, in half widths.
 const ENDLESS: f64 = 1e4;

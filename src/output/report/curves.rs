@@ -168,7 +168,7 @@ fn against_load(
     Some(Titled {
         name: figure.name.to_string(),
         title: format!("{} against load", figure.title),
-        caption: "Every accepted increment of the load program, in its order, and the way from \
+        caption: "Every accepted increment of the load program, in order, and the way from \
                   one to the next, contact forces changing evenly."
             .to_string(),
         chart: Chart {
@@ -196,7 +196,7 @@ fn residual_depth(results: &Results, labels: &Labels) -> Option<Titled> {
         title: "Residual depth".to_string(),
         caption: "The dent that the plastic strains of each state leave when all load is taken \
                   off: the largest opening of the unloaded surfaces beyond their first shape, both \
-                  bodies together. The states in their order."
+                  bodies together. The states in order."
             .to_string(),
         chart: Chart {
             labels: [
@@ -222,7 +222,7 @@ fn displacement(results: &Results, labels: &Labels, has_contact: bool) -> Option
         true => (
             "approach",
             "Load against approach",
-            "How far the loads move the bodies towards each other; the states in their order.",
+            "How far the loads move the bodies towards each other; the states in order.",
         ),
         false => (
             "displacement",
@@ -268,7 +268,7 @@ fn plastic_strain(results: &Results, labels: &Labels) -> Option<Titled> {
     Some(Titled {
         name: "plastic_strain".to_string(),
         title: "Largest equivalent plastic strain against load".to_string(),
-        caption: "Every accepted increment of the load program, in its order.".to_string(),
+        caption: "Every accepted increment of the load program, in order.".to_string(),
         chart: Chart {
             labels: [label, "largest equivalent plastic strain".to_string()],
             curves: vec![curve("", 0, Pen::Line, points)],

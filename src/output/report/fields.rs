@@ -84,10 +84,10 @@ pub(super) struct StatePicture {
     pub has_own_scale: bool,
 }
 
-/// A state whose values reach less than this share of the largest ones gets a scale of its own, so
-/// that residual stresses are visible.
+/// A state whose values reach less than this fraction of the largest ones gets a scale of its own,
+/// so that residual stresses are visible.
 const FAINT: f64 = 0.3;
-/// Share of the yielded elements round a node at which the border of the plastic zone is drawn.
+/// Fraction of the yielded elements round a node at which the border of the plastic zone is drawn.
 const ZONE: f64 = 0.5;
 /// Colour of bodies on which no values are shown.
 const NEUTRAL: RGBColor = RGBColor(0x9a, 0xa5, 0xb1);

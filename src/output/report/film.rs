@@ -74,8 +74,8 @@ mod tests {
         }
     }
 
-    /// A film consists of the pictures that both states have, in their order; a picture of one
-    /// state alone makes no film.
+    /// A film consists of the pictures that both states have, in order; a picture of one state
+    /// alone makes no film.
     #[test]
     fn films_are_of_pictures_that_several_states_have() {
         let states = [

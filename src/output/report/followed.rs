@@ -8,8 +8,8 @@ use crate::output::labels::{Labels, labelled};
 use crate::results::Results;
 use plotters::prelude::SeriesLabelPosition;
 
-/// Share of the largest load below which a force is round-off, or a force that only keeps a body in
-/// place.
+/// Fraction of the largest load below which a force is round-off, or a force that only keeps a body
+/// in place.
 const ROUND_OFF: f64 = 1e-6;
 
 /// Returns the charts of a run; none if its history has no additional columns.
@@ -107,7 +107,7 @@ fn of_contacts(results: &Results, labels: &Labels) -> Vec<Titled> {
     contacts.into_iter().filter_map(chart).collect()
 }
 
-/// Returns the names of the sets among the columns, in their order.
+/// Returns the names of the sets among the columns, in order.
 fn sets(columns: &[String]) -> Vec<&str> {
     let names = columns.iter();
     names

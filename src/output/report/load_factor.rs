@@ -2,7 +2,7 @@
 
 use crate::scene::Unit;
 
-/// Returns the meaning of a load factor, for the head of a column.
+/// Returns the column heading for load factors.
 pub(super) fn factor(unit: Unit) -> &'static str {
     match unit {
         Unit::Load => "load factor",

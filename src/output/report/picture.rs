@@ -138,7 +138,7 @@ impl Picture {
             true => ("start", 8.0),
             false => ("end", -8.0),
         };
-        // Words are kept off the lower border, where they would lie on the numbers of the axis.
+        // Labels stay off the lower border, where they would cover the axis numbers.
         let below = (y + 4.5)
             .min(f64::from(TOP) + self.down() - 4.0)
             .max(f64::from(TOP) + LETTERS);

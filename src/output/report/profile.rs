@@ -1,4 +1,4 @@
-//! Stresses over the depth below the middle of the contact, by which bearings are judged.
+//! Stresses over the depth below the centre of the contact, by which bearings are judged.
 
 use super::chart::{Chart, ChartCurve, Pen};
 use super::contact_frame::{ContactFrame, global};
@@ -19,7 +19,7 @@ use plotters::prelude::SeriesLabelPosition;
 /// Depth of the curves, in half widths of the contact.
 const DEPTH: f64 = 3.0;
 
-/// Draws von Mises and largest shear stress below the middle of the contact in each of its two
+/// Draws von Mises and largest shear stress below the centre of the contact in each of its two
 /// bodies, in the state with the largest load that has fields.
 pub(super) fn chart(
     model: &Model,
@@ -84,7 +84,7 @@ pub(super) fn chart(
     }
     (!curves.is_empty()).then(|| Titled {
         name: "below_contact".to_string(),
-        title: "Stress below the middle of the contact".to_string(),
+        title: "Stress below the centre of the contact".to_string(),
         caption,
         chart: Chart {
             labels: [

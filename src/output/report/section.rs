@@ -15,7 +15,7 @@ pub(super) struct SectionPlane {
     pub axes: [Vector; 2],
 }
 
-/// Share of a window's size by which a cut is moved away from nodes on its plane.
+/// Fraction of a window's size by which a cut is moved away from nodes on its plane.
 const OFF: f64 = 1e-6;
 
 /// Orders of a tetrahedron's corners, all even permutations: with the corners on the near side
@@ -31,7 +31,7 @@ const TWO: [[usize; 4]; 6] = [
 ];
 
 impl SectionPlane {
-    /// Returns the planes through the middle of a contact along its axes and normal.
+    /// Returns the planes through the centre of a contact along its axes and normal.
     pub(super) fn both(frame: &ContactFrame) -> [SectionPlane; 2] {
         frame.axes.map(|axis| SectionPlane {
             origin: frame.center,

@@ -15,7 +15,7 @@ pub(super) struct Window {
 
 /// Extent of a picture of the contact, in half widths of the pairs that are or were closed.
 const REACH: [f64; 2] = [2.4, 2.0];
-/// Room round the content of a picture, as a share of its size.
+/// Room round the content of a picture, as a fraction of its size.
 const ROOM: f64 = 0.03;
 /// Room round the drawing of the whole model: for arrows and supports.
 const WIDE_ROOM: f64 = 0.1;

@@ -51,8 +51,8 @@ impl TrailingFactor {
         panels.map(|(k, &start)| (k, &tree.own_rows[start..start + self.panels[k].rows.len()]))
     }
 
-    /// Performs the forward substitution with the columns of a panel: `own = L^-1 own`, and
-    /// `below -= L own` for the panel's rows, which `rows` numbers from `offset` on.
+    /// Performs the forward substitution with the columns of a panel: `own = L^-1 own`, and `below
+    /// -= L own` in the panel's `rows`; `below` begins at row `offset`.
     fn forward(
         &self,
         p: &Panel,

@@ -19,10 +19,10 @@ use std::ops::Range;
 const SLIVER: f64 = 1e-7;
 /// Uncovered share of a facet above which it counts as partly covered; below it is round-off.
 const PARTLY: f64 = 1e-9;
-/// Share of a facet that may be covered twice: polygons deviate by less from facets with curved
+/// Fraction of a facet that may be covered twice: polygons deviate by less from facets with curved
 /// edges.
 const TWICE: f64 = 0.05;
-/// Share of a facet's weight below which a master is dropped.
+/// Fraction of a facet's weight below which a master is dropped.
 const NOTHING: f64 = 1e-13;
 /// Weight of each end of an edge at its middle, as in [`crate::model::ContactBasis`].
 const ALPHA: f64 = crate::model::ContactBasis::ALPHA;

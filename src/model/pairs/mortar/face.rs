@@ -226,7 +226,7 @@ impl MortarFace {
     }
 }
 
-/// Share of an edge's length by which its middle may deviate from the chord.
+/// Fraction of an edge's length by which its middle may deviate from the chord.
 const STRAIGHT: f64 = 1e-9;
 
 fn position(values: &[f64], x: &[Vector]) -> Vector {

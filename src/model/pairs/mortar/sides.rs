@@ -7,7 +7,7 @@ use crate::mesh::Curve;
 use crate::space::{Vector, along, difference, dot, length};
 use std::collections::BTreeMap;
 
-/// Share of a facet by which a point on the border of two facets may lie outside either.
+/// Fraction of a facet by which a point on the border of two facets may lie outside either.
 const BORDER: f64 = 1e-6;
 
 /// Facets of both surfaces with their true shapes.

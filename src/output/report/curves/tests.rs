@@ -66,7 +66,7 @@ fn a_curve_goes_through_the_points_between_increments() {
         crate::analysis::Analysis::new(model, crate::linalg::Backend::default()).unwrap();
     let results = analysis.run(&mut crate::progress::Silent).unwrap();
     assert!(!results.path.is_empty());
-    // The points lie between the rows in every figure, in their order.
+    // Points lie between their rows in `alpha` and `load`, in order.
     for point in &results.path {
         let [from, to] = [point.increment - 2, point.increment - 1].map(|i| &results.history[i]);
         let within = |value: f64, a: f64, b: f64| {
