@@ -17,7 +17,7 @@ use crate::{Error, Result};
 use std::collections::{BTreeMap, HashSet};
 
 /// A side of an element by its corners, the smaller index first.
-type Side = [u32; 2];
+type ElementSide = [u32; 2];
 
 /// The mesh refined around points. `contacts` lists the surfaces that face each other.
 ///
@@ -97,19 +97,19 @@ fn near(mesh: &Mesh, around: &[LocalRefinement], pass: usize) -> Vec<usize> {
     (0..mesh.n_elements()).filter(has_near).collect()
 }
 
-fn ordered([a, b]: Side) -> Side {
+fn ordered([a, b]: ElementSide) -> ElementSide {
     [a.min(b), a.max(b)]
 }
 
 /// The sides of an element in the order of its facets.
-fn sides_of(mesh: &Mesh, element: usize) -> impl Iterator<Item = Side> + '_ {
+fn sides_of(mesh: &Mesh, element: usize) -> impl Iterator<Item = ElementSide> + '_ {
     let (shape, nodes) = (mesh.shapes[element], mesh.nodes(element));
     let edges = shape.reference().edges.iter();
     edges.map(|&edge| ordered(edge.map(|k| nodes[k])))
 }
 
 /// One bit for each side of an element that is divided.
-fn divided(mesh: &Mesh, element: usize, sides: &HashSet<Side>) -> usize {
+fn divided(mesh: &Mesh, element: usize, sides: &HashSet<ElementSide>) -> usize {
     let all = sides_of(mesh, element).enumerate();
     all.filter(|(_, side)| sides.contains(side))
         .fold(0, |bits, (k, _)| bits | 1 << k)
@@ -117,7 +117,7 @@ fn divided(mesh: &Mesh, element: usize, sides: &HashSet<Side>) -> usize {
 
 /// The divided sides where these elements are divided into four: their own, those opposite them on
 /// facing surfaces, and those of further elements that cannot be divided otherwise.
-fn closed(mesh: &Mesh, elements: &[usize], contacts: &[Contact]) -> HashSet<Side> {
+fn closed(mesh: &Mesh, elements: &[usize], contacts: &[Contact]) -> HashSet<ElementSide> {
     let facing = facing_nodes(mesh, contacts);
     let mut sides = HashSet::new();
     for &element in elements {
@@ -126,11 +126,11 @@ fn closed(mesh: &Mesh, elements: &[usize], contacts: &[Contact]) -> HashSet<Side
     loop {
         let before = sides.len();
         for partner in &facing {
-            let opposite = |side: &Side| {
+            let opposite = |side: &ElementSide| {
                 let [a, b] = side.map(|node| partner.get(&node).copied());
                 Some(ordered([a?, b?]))
             };
-            let more: Vec<Side> = sides.iter().filter_map(opposite).collect();
+            let more: Vec<ElementSide> = sides.iter().filter_map(opposite).collect();
             sides.extend(more);
         }
         for element in 0..mesh.n_elements() {

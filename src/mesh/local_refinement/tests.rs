@@ -72,7 +72,7 @@ fn sharpest(mesh: &Mesh, element: usize) -> f64 {
 }
 
 /// Sides that belong to one element only.
-fn rim(mesh: &Mesh) -> HashSet<Side> {
+fn rim(mesh: &Mesh) -> HashSet<ElementSide> {
     let mut rim = HashSet::new();
     for side in (0..mesh.n_elements()).flat_map(|element| sides_of(mesh, element)) {
         if !rim.insert(side) {
