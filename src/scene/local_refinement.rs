@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LocalRefinement {
-    /// The point.
+    /// Point around which elements become smaller.
     pub at: [f64; 2],
     /// Distance from the point up to which elements have the smallest size.
     pub radius: f64,

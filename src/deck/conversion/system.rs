@@ -36,16 +36,7 @@ impl Draft<'_> {
         for equation in others {
             self.rows_of(equation, &mut rows)?;
         }
-        for body in self.deck.rigid_bodies()? {
-            for (node, axis, mut row) in body.rows(self.deck) {
-                let own = axes.get(&node).copied().unwrap_or(GLOBAL);
-                for (of, local) in own.iter().enumerate() {
-                    *row.terms.entry((node, of as u8)).or_insert(0.0) += local[axis];
-                }
-                row.first = Some((node, axis as u8));
-                rows.push(row);
-            }
-        }
+        self.rows_of_bodies(&axes, &mut rows)?;
         self.forces_of_loose(&planes, &rows);
         let (simple, joined) = apart(planes, &rows, |plane| {
             let is_own = |node: &u32| {
@@ -106,6 +97,25 @@ impl Draft<'_> {
         let is_loose = |key: &Key| !self.geometry.uses(key.0);
         boundary.retain(|key, _| !(is_loose(key) && of_rows.contains(key)));
         Ok(simple)
+    }
+
+    /// Adds the rows of rigid bodies, of displacements along the axes of their nodes.
+    fn rows_of_bodies(
+        &self,
+        axes: &BTreeMap<u32, [Vector; 3]>,
+        rows: &mut Vec<LinearRow>,
+    ) -> Result<()> {
+        for body in self.deck.rigid_bodies()? {
+            for (node, axis, mut row) in body.rows(self.deck) {
+                let own = axes.get(&node).copied().unwrap_or(GLOBAL);
+                for (of, local) in own.iter().enumerate() {
+                    *row.terms.entry((node, of as u8)).or_insert(0.0) += local[axis];
+                }
+                row.first = Some((node, axis as u8));
+                rows.push(row);
+            }
+        }
+        Ok(())
     }
 
     /// Reduces the rows to independent ones, after removing displacements that are held at zero.
