@@ -87,7 +87,7 @@ pub fn reach(
         backend,
         extent,
         budget: budget.unwrap_or(f64::INFINITY),
-        asked_for: scene.mesh.refine.len(),
+        places_left: MOST_PLACES,
         start: Instant::now(),
         runs: Runs::new(backend, extent),
         sequence: Vec::new(),
@@ -107,8 +107,8 @@ struct Pursuit {
     backend: Backend,
     extent: Extent,
     budget: f64,
-    /// Number of refinements that the scene itself asks for.
-    asked_for: usize,
+    /// How many more contacts meshes may be refined around.
+    places_left: usize,
     start: Instant,
     runs: Runs,
     /// Element sizes of the meshes so far over those of the scene, and the seconds they took.
@@ -296,16 +296,18 @@ impl Pursuit {
 
     /// The scene with a mesh that is refined around a contact, where one as fine as the scene's own
     /// leaves the contact unresolved and figures that are demanded therefore unknown.
-    fn graded(&self, mesh: &MeshRun, ratio: f64, observer: &mut dyn Observer) -> Option<Next> {
-        let is_own = ratio <= 1.0 && !mesh.outcome.unknown.is_empty();
-        let places = self.base.mesh.refine.len() - self.asked_for;
-        if !is_own || places == MOST_PLACES {
+    fn graded(&mut self, mesh: &MeshRun, ratio: f64, observer: &mut dyn Observer) -> Option<Next> {
+        if ratio > 1.0 || mesh.outcome.unknown.is_empty() || self.places_left == 0 {
             return None;
         }
         let run = (&mesh.reached.scene, &mesh.reached.results);
-        let in_time = || self.start.elapsed().as_secs_f64() < self.budget;
-        let found = graded::resolving(run, (self.backend, self.extent), in_time, observer)?;
-        Some(Next::Graded(Box::new(graded::with(&self.base, found))))
+        let (start, budget) = (self.start, self.budget);
+        let in_time = || start.elapsed().as_secs_f64() < budget;
+        let asked = (self.backend, self.extent);
+        let found = graded::resolving(run, asked, (in_time, &mut self.work), observer);
+        // What smaller elements did not resolve once, they do not resolve on the next mesh.
+        self.places_left = found.as_ref().map_or(0, |_| self.places_left - 1);
+        Some(Next::Graded(Box::new(graded::with(&self.base, found?))))
     }
 
     /// What to do after a mesh.

@@ -6,6 +6,7 @@
 //! around it ([`LocalRefinement`]) at one that grows with its logarithm.
 
 use super::companions::READABLE;
+use super::meter::work;
 use super::runs::{Extent, Quiet, analyse};
 use crate::linalg::Backend;
 use crate::model::Model;
@@ -93,12 +94,13 @@ pub(super) fn suggested(scene: &Scene, results: &Results) -> Option<LocalRefinem
 
 /// The refinement of a plane scene's mesh that resolves the first contact that a run of the scene
 /// leaves unresolved, with [`READABLE`] pairs on a side: the elements there are halved, and the
-/// scene is run again, until it does. `None` where all contacts are resolved, where the mesh is one
-/// of solids, where smaller elements do not help, or where `may_go_on` ends the search.
+/// scene is run again, until it does. `spent` grows by the floating point operations of these runs.
+/// `None` where all contacts are resolved, where the mesh is one of solids, where smaller elements
+/// do not help, or where `may_go_on` ends the search.
 pub(super) fn resolving(
     (scene, results): (&Scene, &Results),
     (backend, extent): (Backend, Extent),
-    mut may_go_on: impl FnMut() -> bool,
+    (may_go_on, spent): (impl Fn() -> bool, &mut f64),
     observer: &mut dyn Observer,
 ) -> Option<LocalRefinement> {
     let mut spot = ContactSpot::unresolved(results).filter(|_| !scene.kind.is_solid())?;
@@ -115,6 +117,7 @@ pub(super) fn resolving(
         let refined = with(scene, refinement.clone());
         let model = Model::new(&refined).ok()?;
         let (_, results) = analyse(model, backend, extent, &mut Quiet(observer)).ok()?;
+        *spent += work(&results);
         let now = ContactSpot::of(&results, spot.state.as_deref())?;
         if now.pairs >= READABLE {
             return Some(refinement);
