@@ -31,13 +31,13 @@ const LARGEST_STEP: usize = 1000;
 const MOST_ELEMENTS: f64 = 1e9;
 
 /// A source of meshes that differ in their element size alone.
-pub trait Family: Sized {
-    /// The member whose elements are closest to `ratio` times as large, and the exact ratio of this
-    /// member.
+pub trait Family {
+    /// Makes the elements about `ratio` times as large, and returns the exact ratio of the nearest
+    /// mesh of the family.
     ///
     /// # Errors
-    /// A message in words if no member is near the ratio.
-    fn member(&self, ratio: f64) -> Result<(Self, f64), String>;
+    /// A message in words if no mesh of the family is near the ratio; the source is then unchanged.
+    fn resize(&mut self, ratio: f64) -> Result<f64, String>;
 
     /// Resolution of the mesh, in the words of a scene.
     fn words(&self) -> String;
@@ -47,51 +47,76 @@ pub trait Family: Sized {
 
     /// Sets the shape of the elements, unless a file determines it.
     fn set_shape(&mut self, shape: Shape);
+
+    /// The member whose elements are closest to `ratio` times as large, and the exact ratio of this
+    /// member.
+    ///
+    /// # Errors
+    /// Those of [`Family::resize`].
+    fn member(&self, ratio: f64) -> Result<(Self, f64), String>
+    where
+        Self: Clone,
+    {
+        let mut out = self.clone();
+        let ratio = out.resize(ratio)?;
+        Ok((out, ratio))
+    }
+}
+
+impl MeshSource {
+    /// The generator of the mesh; `None` for a mesh from a file.
+    fn generator(&self) -> Option<&dyn Family> {
+        let pairs: [Option<&dyn Family>; 4] = [
+            self.cylinder_on_half_plane.as_ref().map(|p| p as _),
+            self.disc_in_plate.as_ref().map(|p| p as _),
+            self.curved_bodies.as_ref().map(|p| p as _),
+            self.parts.as_ref().map(|p| p as _),
+        ];
+        pairs.into_iter().flatten().next()
+    }
+
+    fn generator_mut(&mut self) -> Option<&mut dyn Family> {
+        let pairs: [Option<&mut dyn Family>; 4] = [
+            self.cylinder_on_half_plane.as_mut().map(|p| p as _),
+            self.disc_in_plate.as_mut().map(|p| p as _),
+            self.curved_bodies.as_mut().map(|p| p as _),
+            self.parts.as_mut().map(|p| p as _),
+        ];
+        pairs.into_iter().flatten().next()
+    }
+
+    /// Divides the elements of a file as often as the ratio asks for.
+    fn subdivide(&mut self, ratio: f64) -> Result<f64, String> {
+        let halvings = -ratio.log2().round();
+        let subdivisions = self.subdivisions as f64 + halvings;
+        if !(0.0..=f64::from(u16::MAX)).contains(&subdivisions) {
+            return Err("a mesh from a file has no coarser member than the file".to_string());
+        }
+        self.subdivisions = subdivisions as usize;
+        Ok(0.5f64.powf(halvings))
+    }
 }
 
 impl Family for MeshSource {
-    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
-        let mut out = self.clone();
-        let ratio = if let Some(p) = &mut out.cylinder_on_half_plane {
-            replace(p, ratio)?
-        } else if let Some(p) = &mut out.disc_in_plate {
-            replace(p, ratio)?
-        } else if let Some(p) = &mut out.curved_bodies {
-            replace(p, ratio)?
-        } else if let Some(p) = &mut out.parts {
-            replace(p, ratio)?
-        } else {
-            let halvings = -ratio.log2().round();
-            let subdivisions = self.subdivisions as f64 + halvings;
-            if !(0.0..=f64::from(u16::MAX)).contains(&subdivisions) {
-                return Err("a mesh from a file has no coarser member than the file".to_string());
-            }
-            out.subdivisions = subdivisions as usize;
-            0.5f64.powf(halvings)
+    fn resize(&mut self, ratio: f64) -> Result<f64, String> {
+        let ratio = match self.generator_mut() {
+            Some(generator) => generator.resize(ratio)?,
+            None => self.subdivide(ratio)?,
         };
         // A swept solid keeps its elements' proportions along the sweep.
-        if let Some(extrude) = &mut out.extrude {
+        if let Some(extrude) = &mut self.extrude {
             extrude.elements = scaled(extrude.elements, 1, ratio);
         }
-        if let Some(revolve) = &mut out.revolve {
+        if let Some(revolve) = &mut self.revolve {
             let least = (revolve.angle / 90.0).ceil() as usize;
             revolve.elements = scaled(revolve.elements, 1, ratio).max(least);
         }
-        Ok((out, ratio))
+        Ok(ratio)
     }
 
     fn words(&self) -> String {
-        let mut out = if let Some(p) = &self.cylinder_on_half_plane {
-            p.words()
-        } else if let Some(p) = &self.disc_in_plate {
-            p.words()
-        } else if let Some(p) = &self.curved_bodies {
-            p.words()
-        } else if let Some(p) = &self.parts {
-            p.words()
-        } else {
-            format!("subdivisions {}", self.subdivisions)
-        };
+        let of_file = || format!("subdivisions {}", self.subdivisions);
+        let mut out = self.generator().map_or_else(of_file, Family::words);
         for LocalRefinement {
             at: [x, y], times, ..
         } in &self.refine
@@ -103,31 +128,14 @@ impl Family for MeshSource {
     }
 
     fn shape(&self) -> Option<Shape> {
-        let generated = self.cylinder_on_half_plane.as_ref().map(|p| p.element);
-        let generated = generated.or(self.disc_in_plate.as_ref().map(|p| p.element));
-        let generated = generated.or(self.curved_bodies.as_ref().map(|p| p.element));
-        generated.or_else(|| self.parts.as_ref()?.shape())
+        self.generator()?.shape()
     }
 
     fn set_shape(&mut self, shape: Shape) {
-        self.cylinder_on_half_plane
-            .iter_mut()
-            .for_each(|p| p.set_shape(shape));
-        self.disc_in_plate
-            .iter_mut()
-            .for_each(|p| p.set_shape(shape));
-        self.curved_bodies
-            .iter_mut()
-            .for_each(|p| p.set_shape(shape));
-        self.parts.iter_mut().for_each(|p| p.set_shape(shape));
+        if let Some(generator) = self.generator_mut() {
+            generator.set_shape(shape);
+        }
     }
-}
-
-/// Replaces a family by the member of the given ratio, and returns the exact ratio.
-fn replace<F: Family>(family: &mut F, ratio: f64) -> Result<f64, String> {
-    let (member, ratio) = family.member(ratio)?;
-    *family = member;
-    Ok(ratio)
 }
 
 /// The number of elements when `n` elements are scaled by a ratio, rounded to a multiple of `step`.
@@ -141,84 +149,99 @@ fn grown(growth: f64, ratio: f64) -> f64 {
     growth.powf(ratio).min(MOST_GROWTH)
 }
 
-/// Describes a mesh that is even near the contact and grows from there on.
-fn growing(resolution: usize, growth: f64, far_growth: Option<f64>) -> String {
-    let far = far_growth.map_or(String::new(), |g| format!(", far_growth {g:.4}"));
-    format!("resolution {resolution}, growth {growth:.4}{far}")
+/// A generator of meshes that are even near a contact and grow from there on.
+trait GrowsFromContact {
+    /// Number of which the resolution is a multiple.
+    const STEP: usize;
+    /// Resolution, growth, growth far away where it is another, shape of the elements.
+    fn settings(&self) -> (usize, f64, Option<f64>, Shape);
+    fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape);
 }
 
-impl Family for CylinderOnHalfPlane {
-    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
-        let mut out = self.clone();
-        out.resolution = scaled(self.resolution, 1, ratio);
-        let ratio = self.resolution as f64 / out.resolution as f64;
-        out.growth = grown(self.growth, ratio);
-        out.far_growth = self.far_growth.map(|g| grown(g, ratio));
-        Ok((out, ratio))
+impl GrowsFromContact for CylinderOnHalfPlane {
+    const STEP: usize = 1;
+
+    fn settings(&self) -> (usize, f64, Option<f64>, Shape) {
+        (self.resolution, self.growth, self.far_growth, self.element)
     }
 
-    fn words(&self) -> String {
-        growing(self.resolution, self.growth, self.far_growth)
-    }
-
-    fn shape(&self) -> Option<Shape> {
-        Some(self.element)
-    }
-
-    fn set_shape(&mut self, shape: Shape) {
-        self.element = shape;
-    }
-}
-
-impl Family for DiscInPlate {
-    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
-        let mut out = self.clone();
-        out.resolution = scaled(self.resolution, 2, ratio);
-        let ratio = self.resolution as f64 / out.resolution as f64;
-        out.growth = grown(self.growth, ratio);
-        out.far_growth = self.far_growth.map(|g| grown(g, ratio));
-        Ok((out, ratio))
-    }
-
-    fn words(&self) -> String {
-        growing(self.resolution, self.growth, self.far_growth)
-    }
-
-    fn shape(&self) -> Option<Shape> {
-        Some(self.element)
-    }
-
-    fn set_shape(&mut self, shape: Shape) {
-        self.element = shape;
+    fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape) {
+        let far = self.far_growth.as_mut();
+        (
+            &mut self.resolution,
+            &mut self.growth,
+            far,
+            &mut self.element,
+        )
     }
 }
 
-impl Family for CurvedBodies {
-    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
-        let mut out = self.clone();
-        out.resolution = scaled(self.resolution, 1, ratio);
-        let ratio = self.resolution as f64 / out.resolution as f64;
-        out.growth = grown(self.growth, ratio);
-        Ok((out, ratio))
+impl GrowsFromContact for DiscInPlate {
+    const STEP: usize = 2;
+
+    fn settings(&self) -> (usize, f64, Option<f64>, Shape) {
+        (self.resolution, self.growth, self.far_growth, self.element)
+    }
+
+    fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape) {
+        let far = self.far_growth.as_mut();
+        (
+            &mut self.resolution,
+            &mut self.growth,
+            far,
+            &mut self.element,
+        )
+    }
+}
+
+impl GrowsFromContact for CurvedBodies {
+    const STEP: usize = 1;
+
+    fn settings(&self) -> (usize, f64, Option<f64>, Shape) {
+        (self.resolution, self.growth, None, self.element)
+    }
+
+    fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape) {
+        (
+            &mut self.resolution,
+            &mut self.growth,
+            None,
+            &mut self.element,
+        )
+    }
+}
+
+impl<G: GrowsFromContact> Family for G {
+    fn resize(&mut self, ratio: f64) -> Result<f64, String> {
+        let (resolution, growth, far, _) = self.settings_mut();
+        let before = *resolution;
+        *resolution = scaled(before, G::STEP, ratio);
+        let ratio = before as f64 / *resolution as f64;
+        for growth in far.into_iter().chain([growth]) {
+            *growth = grown(*growth, ratio);
+        }
+        Ok(ratio)
     }
 
     fn words(&self) -> String {
-        growing(self.resolution, self.growth, None)
+        let (resolution, growth, far, _) = self.settings();
+        let far = far.map_or(String::new(), |g| format!(", far_growth {g:.4}"));
+        format!("resolution {resolution}, growth {growth:.4}{far}")
     }
 
     fn shape(&self) -> Option<Shape> {
-        Some(self.element)
+        Some(self.settings().3)
     }
 
     fn set_shape(&mut self, shape: Shape) {
-        self.element = shape;
+        *self.settings_mut().3 = shape;
     }
 }
 
 impl Family for Vec<Part> {
     /// Scales in exact proportion if the element counts have a common divisor that allows it;
     /// otherwise each count is rounded.
-    fn member(&self, ratio: f64) -> Result<(Self, f64), String> {
+    fn resize(&mut self, ratio: f64) -> Result<f64, String> {
         if let Some(part) = self.iter().find(|part| !ends_on_nodes(part, None)) {
             return Err(format!(
                 "a piece of the block of `{}` does not begin and end at nodes of an even mesh, so \
@@ -230,14 +253,14 @@ impl Family for Vec<Part> {
         let exact = proportional(self, ratio);
         let is_near = |other: f64| (ratio / other).max(other / ratio) <= NEAR;
         let near = exact.as_ref().filter(|(_, exact)| is_near(*exact));
-        near.cloned()
-            .or_else(|| rounded(self, ratio))
-            .or(exact)
-            .ok_or_else(|| {
-                "its element counts have no common divisor and are too small to be rounded; give \
-                 counts that are multiples of 4"
-                    .to_string()
-            })
+        let found = near.cloned().or_else(|| rounded(self, ratio)).or(exact);
+        let (parts, ratio) = found.ok_or_else(|| {
+            "its element counts have no common divisor and are too small to be rounded; give \
+             counts that are multiples of 4"
+                .to_string()
+        })?;
+        *self = parts;
+        Ok(ratio)
     }
 
     fn words(&self) -> String {
