@@ -18,7 +18,7 @@ pub fn families(folder: &Path) -> Vec<Family> {
             "rigid roller on a soft block, tri6",
             &[12, 16, 20],
             &roller,
-            48,
+            64,
         ),
         near_contact(
             "two rollers of different radius, quad8",
@@ -41,7 +41,8 @@ pub fn families(folder: &Path) -> Vec<Family> {
     ]
 }
 
-/// A family whose contact is at the origin; its truth has elements 64 times smaller there.
+/// A family whose contact is at the origin; its truth has elements 64 times smaller there, and up
+/// to 256 times where bodies touch.
 fn near_contact(
     name: &str,
     counts: &[usize],
@@ -49,6 +50,8 @@ fn near_contact(
     finest: usize,
 ) -> Family {
     let truth = refined(scene(finest), [0.0; 2], 0.15, 6);
+    let truth = refined(truth, [0.0; 2], 0.06, 7);
+    let truth = refined(truth, [0.0; 2], 0.03, 8);
     Family {
         name: name.to_string(),
         extent: Extent::Program,

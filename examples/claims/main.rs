@@ -16,6 +16,7 @@ mod solids;
 mod support;
 mod unseen;
 
+use prices::Priced;
 use std::fmt::Write;
 use support::families::{self, Claim, Family};
 
@@ -101,7 +102,7 @@ fn main() {
     if std::env::args().nth(1).is_some_and(|only| only == "prices") {
         let folder = tempfile::tempdir().unwrap();
         let mut page = PRICES.to_string();
-        let mut priced = String::new();
+        let mut priced = Vec::new();
         let groups = [
             ("fourth set", held_out_fourth::families(folder.path())),
             ("third set", held_out_third::families(folder.path())),
@@ -111,7 +112,8 @@ fn main() {
             by_quantity(group, &claims, &mut page);
         }
         page += prices::HEAD;
-        page += &priced;
+        page.extend(priced.iter().map(Priced::row));
+        page += &prices::summary(&priced);
         std::fs::write("data/accuracy/prices.md", page).unwrap();
         return;
     }
@@ -152,7 +154,7 @@ fn judged(
     group: &str,
     families: &[Family],
     page: &mut String,
-    mut priced: Option<&mut String>,
+    mut priced: Option<&mut Vec<Priced>>,
 ) -> Vec<Claim> {
     write!(page, "\n## Families: {group}\n\n| family {COLUMNS}").unwrap();
     let mut all = Vec::new();
@@ -163,7 +165,10 @@ fn judged(
         writeln!(page, "| {} | {row} |", family.name).unwrap();
         eprintln!("{}: {row}", family.name);
         if let Some(priced) = &mut priced {
-            **priced += &prices::of(family, &known);
+            for demand in prices::of(family, &known) {
+                eprint!("{}", demand.row());
+                priced.push(demand);
+            }
         }
         all.extend(claims);
     }

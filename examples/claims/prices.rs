@@ -1,6 +1,7 @@
 //! What demands cost beside the cheapest uniform mesh that is as accurate, found by trial.
 
-use super::support::families::{Family, run_extent};
+use super::held_out_fourth::refined;
+use super::support::families::{Family, Truth, run_extent};
 use brinell::accuracy::{Extent, Quantity, member, quantities, reach, work};
 use brinell::linalg::Backend;
 use brinell::progress::Silent;
@@ -11,14 +12,18 @@ use std::fmt::Write;
 use std::time::Instant;
 
 pub const HEAD: &str = "\n## What a demand costs\n\nAll runs of a demand together, over the one \
-                        run of the cheapest uniform mesh from which on every mesh is as accurate, \
-                        found by trial with the true errors known, in floating point operations. \
-                        The scene is the family's mesh of medium size; what is demanded are the \
-                        quantities that are known and that a demand on all asks for. The true \
-                        error is that of the demand's last mesh; `-`: no mesh down to 0.4 of the \
-                        scene's element size (in space 0.7) is as accurate.\n\n| scene | demand | \
-                        true error | outcome | seconds | operations over the cheapest \
-                        |\n|---|---|---|---|---|---|\n";
+                        run of the cheapest mesh by trial, in floating point operations, and the \
+                        last run of the demand alone over the same. Meshes by trial are uniform \
+                        ones and, where bodies touch on less than an element, the same with \
+                        elements refined around the contact, each 1.2 times coarser than the one \
+                        before; the cheapest is the coarsest from which on every mesh is as \
+                        accurate, with the true errors known. The scene is the family's mesh of \
+                        medium size; what is demanded are the quantities that are known and that a \
+                        demand on all asks for. The true error is that of the demand's last mesh; \
+                        `-`: no mesh down to 0.4 of the scene's element size (in space 0.7) is as \
+                        accurate.\n\n| scene | demand | true error | outcome | seconds | \
+                        operations over the cheapest | the last run's \
+                        |\n|---|---|---|---|---|---|---|\n";
 
 /// Element sizes of the meshes among which the cheapest is sought, over the scene's: in the plane,
 /// and in space, where the time grows with the sixth power of the fineness.
@@ -34,8 +39,82 @@ const POINTWISE: [&str; 3] = [
     "max_equivalent_plastic_strain",
 ];
 
-/// The rows of a family, of which these values are known.
-pub fn of(family: &Family, known: &BTreeMap<String, f64>) -> String {
+/// A demand on a scene, as it ended.
+pub struct Priced {
+    scene: String,
+    demand: f64,
+    ended: Result<Ended, String>,
+}
+
+/// What a demand ended with.
+struct Ended {
+    truth: f64,
+    /// Why it was not reached.
+    reason: Option<String>,
+    seconds: f64,
+    /// Operations of all runs and of the last one over those of the cheapest mesh.
+    prices: Option<[f64; 2]>,
+}
+
+impl Priced {
+    pub fn row(&self) -> String {
+        let Priced { scene, demand, .. } = self;
+        let demand = 100.0 * demand;
+        match &self.ended {
+            Err(why) => format!("| {scene} | {demand} % | - | {why} | - | - | - |\n"),
+            Ok(ended) => {
+                let reason = ended.reason.as_deref().unwrap_or("reached");
+                let [all, last] = match ended.prices {
+                    Some(prices) => prices.map(|price| format!("{price:.1}")),
+                    None => ["-", "-"].map(str::to_string),
+                };
+                format!(
+                    "| {scene} | {demand} % | {:.2} % | {reason} | {:.1} | {all} | {last} |\n",
+                    100.0 * ended.truth,
+                    ended.seconds
+                )
+            }
+        }
+    }
+}
+
+/// What all demands of a size came to, in a sentence for each size.
+pub fn summary(all: &[Priced]) -> String {
+    let mut out = String::new();
+    for demand in DEMANDS {
+        let of: Vec<&Priced> = all.iter().filter(|p| p.demand == demand).collect();
+        let ended = of.iter().filter_map(|p| p.ended.as_ref().ok());
+        let reached: Vec<&Ended> = ended.filter(|e| e.reason.is_none()).collect();
+        let kept = reached.iter().filter(|e| e.truth <= demand).count();
+        let median = |which: usize| {
+            let mut of: Vec<f64> = (reached.iter())
+                .filter_map(|e| Some(e.prices?[which]))
+                .collect();
+            of.sort_by(f64::total_cmp);
+            let worst = of.last().copied().unwrap_or(f64::NAN);
+            (
+                of.get(of.len() / 2).copied().unwrap_or(f64::NAN),
+                worst,
+                of.len(),
+            )
+        };
+        let ((price, worst, n), (last, _, _)) = (median(0), median(1));
+        write!(
+            out,
+            "\n{} %: {} of {} reached, the true error within the demand in {kept} of them; price \
+             in the median of {n} {price:.1}, at most {worst:.1}, of the last run alone {last:.1} \
+             in the median.\n",
+            100.0 * demand,
+            reached.len(),
+            of.len(),
+        )
+        .unwrap();
+    }
+    out
+}
+
+/// The demands on a family, of which these values are known.
+pub fn of(family: &Family, known: &BTreeMap<String, f64>) -> Vec<Priced> {
     let scene = &family.meshes[family.meshes.len() / 2].1;
     let has =
         run_extent(scene, family.extent).map_or_else(Vec::new, |results| quantities(&results));
@@ -47,52 +126,70 @@ pub fn of(family: &Family, known: &BTreeMap<String, f64>) -> String {
             keys.insert(quantity.kind);
         }
     }
-    let tried = meshes_by_trial(scene, family.extent, &asked);
-    let mut out = String::new();
-    for demand in DEMANDS {
+    let mut tried = vec![meshes_by_trial(scene, family.extent, &asked)];
+    for refined in refined_by_trial(scene, &family.truth) {
+        tried.push(meshes_by_trial(&refined, family.extent, &asked));
+    }
+    let priced = DEMANDS.map(|demand| {
         let all: Vec<String> = keys.iter().map(|key| format!("{key} = {demand}")).collect();
         let mut demanded = scene.clone();
         demanded.accuracy = Some(AccuracyDemand::try_from(all.join(", ")).unwrap());
-        let (backend, begun) = (Backend::default(), Instant::now());
-        let found = reach(&demanded, backend, family.extent, Some(BUDGET), &mut Silent);
-        let results = match found {
-            Ok(found) => found.results,
-            Err(error) => {
-                writeln!(
-                    out,
-                    "| {} | {} % | - | {error} | - | - |",
-                    family.name,
-                    100.0 * demand
-                )
-                .unwrap();
-                continue;
-            }
-        };
-        let reached = results.accuracy.as_ref().and_then(|a| a.demand.as_ref());
-        let reached = reached.unwrap();
-        let enough = tried
-            .iter()
-            .take_while(|(error, _)| *error <= demand)
-            .last();
-        let price = enough.map_or("-".to_string(), |(_, of)| {
-            format!("{:.1}", reached.work / of)
-        });
-        let seconds = begun.elapsed().as_secs_f64();
-        let outcome = reached.reason.as_deref().unwrap_or("reached");
-        writeln!(
-            out,
-            "| {} | {} % | {:.2} % | {outcome} | {seconds:.1} | {price} |",
-            family.name,
-            100.0 * demand,
-            100.0 * error(&results, &asked),
-        )
-        .unwrap();
-        eprintln!("    {demand}: {price}, {outcome}");
-    }
-    out
+        let ended = ended(&demanded, family.extent, &asked, cheapest(&tried, demand));
+        let scene = family.name.clone();
+        Priced {
+            scene,
+            demand,
+            ended,
+        }
+    });
+    priced.into()
 }
 
-/// Uniform meshes, fine to coarse: the error on each, and its operations.
+/// Runs a demand; `cheapest` are the operations of the cheapest mesh that is as accurate.
+fn ended(
+    demanded: &Scene,
+    extent: Extent,
+    asked: &BTreeMap<String, f64>,
+    cheapest: Option<f64>,
+) -> Result<Ended, String> {
+    let (backend, begun) = (Backend::default(), Instant::now());
+    let found = reach(demanded, backend, extent, Some(BUDGET), &mut Silent);
+    let results = found.map_err(|error| error.to_string())?.results;
+    let reached = results.accuracy.as_ref().and_then(|a| a.demand.as_ref());
+    let reached = reached.unwrap();
+    Ok(Ended {
+        truth: error(&results, asked),
+        reason: reached.reason.clone(),
+        seconds: begun.elapsed().as_secs_f64(),
+        prices: cheapest.map(|of| [reached.work / of, work(&results) / of]),
+    })
+}
+
+/// Operations of the cheapest of the meshes by trial, sequences from fine to coarse, from which on
+/// every mesh of its sequence is within the demand.
+fn cheapest(tried: &[Vec<(f64, f64)>], demand: f64) -> Option<f64> {
+    let coarsest = tried.iter().filter_map(|sequence| {
+        let within = sequence.iter().take_while(|(error, _)| *error <= demand);
+        within.last().map(|(_, of)| *of)
+    });
+    coarsest.reduce(f64::min)
+}
+
+/// The scene with a mesh refined around the contact as the truth's, but fewer times.
+fn refined_by_trial(scene: &Scene, truth: &Truth) -> Vec<Scene> {
+    let Truth::Finer(truth) = truth else {
+        return Vec::new();
+    };
+    let Some(last) = truth.mesh.refine.last() else {
+        return Vec::new();
+    };
+    let times = (2..=last.times).step_by(2);
+    times
+        .map(|times| refined(scene.clone(), last.at, last.radius, times))
+        .collect()
+}
+
+/// Meshes of a family, fine to coarse: the error on each, and its operations.
 fn meshes_by_trial(
     scene: &Scene,
     extent: Extent,
