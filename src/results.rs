@@ -244,6 +244,9 @@ pub struct State {
     pub increments: usize,
     /// Total load, defined as [`YieldPoint::load`].
     pub load: f64,
+    /// Whether any load acts, the leading one or another.
+    #[serde(default)]
+    pub is_loaded: bool,
     /// Whether the scene gives the load, so that it has no error.
     #[serde(default)]
     pub load_is_given: bool,

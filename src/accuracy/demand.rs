@@ -26,7 +26,7 @@ use crate::error::{Error, ErrorKind, Result};
 use crate::linalg::Backend;
 use crate::mesh::generate::Family;
 use crate::model::Model;
-use crate::number::duration;
+use crate::number::{duration, significant};
 use crate::progress::Observer;
 use crate::results::{Demand, Incomplete, Results};
 use crate::scene::{AccuracyDemand, Scene};
@@ -307,7 +307,14 @@ impl Pursuit {
         let found = graded::resolving(run, asked, (in_time, &mut self.work), observer);
         // What smaller elements did not resolve once, they do not resolve on the next mesh.
         self.places_left = found.as_ref().map_or(0, |_| self.places_left - 1);
-        Some(Next::Graded(Box::new(graded::with(&self.base, found?))))
+        let found = found?;
+        let [x, y, radius] = [found.at[0], found.at[1], found.radius].map(|c| significant(c, 3));
+        self.choices.push(format!(
+            "elements divided {} times within {radius} of ({x}, {y}): one or two pairs carried the \
+             contact there",
+            found.times
+        ));
+        Some(Next::Graded(Box::new(graded::with(&self.base, found))))
     }
 
     /// What to do after a mesh.

@@ -44,7 +44,7 @@ pub(super) struct Unresolved {
 /// no load: then nothing presses the surfaces on each other, whether or not they touch.
 fn gap_of_open(state: &State) -> Option<f64> {
     let gaps = state.pairs.iter().map(|pair| pair.gap);
-    let is_open = state.contact_force == 0.0 && state.load != 0.0;
+    let is_open = state.contact_force == 0.0 && state.is_loaded;
     gaps.reduce(f64::min).filter(|_| is_open)
 }
 
@@ -198,8 +198,8 @@ mod tests {
         hidden
     }
 
-    /// A state with a gap of 0.1 between its surfaces, under a load or none.
-    fn apart(gap: f64, load: f64) -> Results {
+    /// A state with a gap between its surfaces, under a load that does not lead, or none.
+    fn apart(gap: f64, is_loaded: bool) -> Results {
         let pair = PairState {
             pair: 0,
             contact: 0,
@@ -213,7 +213,7 @@ mod tests {
         let mut results = Results {
             states: vec![State {
                 name: "pressed".into(),
-                load,
+                is_loaded,
                 pairs: vec![pair],
                 ..State::default()
             }],
@@ -228,12 +228,12 @@ mod tests {
         let text = include_str!("../../data/scenes/thick_cylinder.toml");
         let scene = Scene::parse(text, "scene.toml").unwrap();
         // Gaps of three meshes, which change by more than their size, or by less; no load presses.
-        for (gaps, load, expected) in [
-            ([0.1, 0.3, 0.7], 5.0, true),
-            ([0.1, 0.1001, 0.1004], 5.0, false),
-            ([0.1, 0.3, 0.7], 0.0, false),
+        for (gaps, is_loaded, expected) in [
+            ([0.1, 0.3, 0.7], true, true),
+            ([0.1, 0.1001, 0.1004], true, false),
+            ([0.1, 0.3, 0.7], false, false),
         ] {
-            let runs = gaps.map(|gap| apart(gap, load));
+            let runs = gaps.map(|gap| apart(gap, is_loaded));
             let mut found = Unresolved::of(&scene, &runs[0]);
             let others = [(1.5, &runs[1]), (2.0, &runs[2])];
             found.find_nearly_closed(&runs[0], &others, 2.0);

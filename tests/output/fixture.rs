@@ -106,6 +106,7 @@ pub fn results(mesh: &Mesh) -> Results {
         plastic_zone_size: 0.004,
         plastic_zone_layer: 0.0,
         plastic_strain_reading: 0.0,
+        is_loaded: true,
         load_is_given: false,
         approach_is_given: false,
         plastic_work: 0.7,

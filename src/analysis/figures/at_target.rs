@@ -72,6 +72,7 @@ impl Reading<'_, '_> {
             alpha: self.solver.at.alpha,
             load,
             increments: 0,
+            is_loaded: factors.iter().any(|factor| *factor != 0.0),
             load_is_given: false,
             approach_is_given: false,
             contact_force: figures.force * self.solver.structure.model.symmetry,
