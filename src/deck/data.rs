@@ -1,49 +1,10 @@
 //! Contents of a deck, keyword by keyword: names and numbers as they are written, each with its
 //! place.
 
-use super::element_type::ElementType;
 use super::expansion::Expansion;
 use super::source::{Files, LinePlace};
 use crate::scene::{ResultItem, Totals};
 use std::collections::BTreeMap;
-
-/// Nodes of a deck, in the order of the deck.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Nodes {
-    pub(super) labels: Vec<u64>,
-    /// Coordinates, three per node.
-    pub(super) coordinates: Vec<f64>,
-    pub(super) places: Vec<LinePlace>,
-}
-
-/// Elements of a deck, in the order of the deck.
-#[derive(Debug, Clone, Default)]
-pub(super) struct DeckElements {
-    pub(super) labels: Vec<u64>,
-    pub(super) types: Vec<ElementType>,
-    /// Index in `nodes` at which each element's nodes begin, followed by the end of the last
-    /// element's nodes.
-    pub(super) offsets: Vec<usize>,
-    /// Numbers of the nodes of all elements, one element after the other.
-    pub(super) nodes: Vec<u64>,
-    pub(super) places: Vec<LinePlace>,
-}
-
-impl DeckElements {
-    /// Keeps only the elements that are wanted, selected by index.
-    pub(super) fn retain(&mut self, wanted: impl Fn(usize) -> bool) {
-        let old = std::mem::take(self);
-        self.offsets.push(0);
-        for element in (0..old.labels.len()).filter(|&element| wanted(element)) {
-            self.labels.push(old.labels[element]);
-            self.types.push(old.types[element]);
-            self.places.push(old.places[element]);
-            let nodes = &old.nodes[old.offsets[element]..old.offsets[element + 1]];
-            self.nodes.extend_from_slice(nodes);
-            self.offsets.push(self.nodes.len());
-        }
-    }
-}
 
 /// A named set or surface, a single node or element by its number, or all of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -201,6 +162,13 @@ pub(super) struct ContactPair {
     /// Whether all nodes of the slave surface were moved onto the master surface.
     pub(super) is_closed: bool,
     pub(super) place: LinePlace,
+}
+
+impl ContactPair {
+    /// Whether the pair is of these surfaces.
+    pub(super) fn is_of(&self, slave: &str, master: &str) -> bool {
+        self.slave.eq_ignore_ascii_case(slave) && self.master.eq_ignore_ascii_case(master)
+    }
 }
 
 /// Two surfaces that are tied together.

@@ -1,24 +1,17 @@
-//! Faces of elements that belong to a single element.
+//! Faces of elements, and which of them belong to a single element.
 
-use super::Deck;
-use crate::shape::Shape;
+use super::mesh::DeckMesh;
+use crate::space::{Vector, along, cross, difference, direction};
 use std::collections::HashMap;
 
 /// A face: an element and its local facet.
 pub(crate) type Face = (u32, u8);
 
+/// A node and its degree of freedom counted from 0, or an element and its local facet.
+pub(super) type Key = Face;
+
 /// The corners of a face in ascending order, padded to four.
 type FaceCorners = [u32; 4];
-
-fn corners(nodes: &[u32], shape: Shape, local: usize) -> FaceCorners {
-    let mut out = [u32::MAX; 4];
-    let n = shape.facet_reference(local).n_corners;
-    for (out, &corner) in out.iter_mut().zip(&shape.facet(local)[..n]) {
-        *out = nodes[corner];
-    }
-    out.sort_unstable();
-    out
-}
 
 /// How many corners and nodes of a face are among given ones.
 struct NodesGiven {
@@ -28,7 +21,71 @@ struct NodesGiven {
     n_nodes: usize,
 }
 
-impl Deck {
+impl DeckMesh {
+    /// The nodes of a face, corners first.
+    fn face_nodes(&self, (element, local): Face) -> impl Iterator<Item = u32> {
+        let nodes = self.element_nodes(element as usize);
+        let own = self.shape(element as usize).facet(local as usize);
+        own.iter().map(|&k| nodes[k])
+    }
+
+    /// Number of corners of a face.
+    fn n_corners(&self, (element, local): Face) -> usize {
+        let shape = self.shape(element as usize);
+        shape.facet_reference(local as usize).n_corners
+    }
+
+    /// The corners of a face.
+    pub(super) fn corners(&self, face: Face) -> impl Iterator<Item = u32> {
+        self.face_nodes(face).take(self.n_corners(face))
+    }
+
+    /// Coordinates of the corners of a face.
+    pub(super) fn corner_points(&self, face: Face) -> Vec<Vector> {
+        let corners = self.corners(face);
+        corners.map(|node| self.point(node as usize)).collect()
+    }
+
+    fn sorted_corners(&self, face: Face) -> FaceCorners {
+        let mut out = [u32::MAX; 4];
+        for (out, corner) in out.iter_mut().zip(self.corners(face)) {
+            *out = corner;
+        }
+        out.sort_unstable();
+        out
+    }
+
+    /// The centre of the corners of a face, and the unit vector out of its element.
+    pub(super) fn center_and_normal(&self, face: Face) -> (Vector, Vector) {
+        let x = self.corner_points(face);
+        let share = 1.0 / x.len() as f64;
+        let center = x.iter().fold([0.0; 3], |sum, &x| along(sum, share, x));
+        let outward = match x[..] {
+            [a, b] => [b[1] - a[1], a[0] - b[0], 0.0],
+            [a, b, c] => cross(difference(b, a), difference(c, a)),
+            [a, b, c, d, ..] => cross(difference(c, a), difference(d, b)),
+            _ => [0.0; 3],
+        };
+        (center, direction(outward))
+    }
+
+    /// Whether the given faces include both sides of a face between two elements.
+    pub(super) fn look_both_ways(&self, faces: &[Face]) -> bool {
+        let corners = faces.iter().map(|face| self.sorted_corners(*face));
+        let mut corners: Vec<FaceCorners> = corners.collect();
+        corners.sort_unstable();
+        corners.windows(2).any(|pair| pair[0] == pair[1])
+    }
+
+    /// The nodes of the given faces, in ascending order without duplicates.
+    pub(super) fn nodes_of(&self, faces: &[Face]) -> Vec<u32> {
+        let nodes = faces.iter().flat_map(|&face| self.face_nodes(face));
+        let mut nodes: Vec<u32> = nodes.collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        nodes
+    }
+
     /// The faces of the given elements that belong to no other element of the deck.
     pub(super) fn free_faces_of(&self, elements: &[u32]) -> Vec<Face> {
         let nodes = elements
@@ -68,25 +125,18 @@ impl Deck {
             .for_each(|node| marked[node as usize] = true);
         let mut found: HashMap<FaceCorners, (Face, usize)> = HashMap::new();
         for element in 0..self.n_elements() {
-            let nodes = self.element_nodes(element);
-            let shape = self.elements.types[element].shape;
-            for local in 0..shape.n_facets() {
-                let corners = corners(nodes, shape, local);
-                let facet = shape.facet(local);
-                let n_corners = shape.facet_reference(local).n_corners;
-                let n_given = |own: &[usize]| {
-                    let given = own.iter().filter(|&&k| marked[nodes[k] as usize]);
-                    given.count()
-                };
+            for local in 0..self.shape(element).n_facets() {
+                let face = (element as u32, local as u8);
+                let is_given = |node: &u32| marked[*node as usize];
                 let given = NodesGiven {
-                    corners: n_given(&facet[..n_corners]),
-                    n_corners,
-                    nodes: n_given(facet),
-                    n_nodes: facet.len(),
+                    corners: self.corners(face).filter(is_given).count(),
+                    n_corners: self.n_corners(face),
+                    nodes: self.face_nodes(face).filter(is_given).count(),
+                    n_nodes: self.face_nodes(face).count(),
                 };
                 if is_chosen(given) {
-                    let new = ((element as u32, local as u8), 0);
-                    found.entry(corners).or_insert(new).1 += 1;
+                    let corners = self.sorted_corners(face);
+                    found.entry(corners).or_insert((face, 0)).1 += 1;
                 }
             }
         }

@@ -9,6 +9,8 @@ mod properties;
 mod rigid;
 mod volume;
 
+use super::absent::leave_out_absent;
+use super::adjust::adjust;
 use super::assembly::{self, Assembled};
 use super::data::{Account, Condition, Rigid};
 use super::fields::LineFields;
@@ -112,15 +114,17 @@ impl<'t> Reader<'t> {
         let here = self.source.here();
         self.deck.files = self.source.files;
         self.deck.end = here;
-        for (name, place) in self.deck.take_faces_of_solids() {
+        let deck = &mut self.deck;
+        let (elements, sets) = (&mut deck.mesh.elements, &mut deck.sets.elements);
+        for (name, place) in deck.boundary.take_faces_of_solids(elements, sets) {
             let how =
                 format!("TYPE={name}: beside solids, without stiffness; sets of them are surfaces");
-            let list = &mut self.deck.account.taken;
-            Account::add(list, &self.deck.files, place, "ELEMENT", &how);
+            let list = &mut deck.account.taken;
+            Account::add(list, &deck.files, place, "ELEMENT", &how);
         }
-        self.deck.index()?;
-        self.deck.leave_out_absent()?;
-        self.deck.adjust();
+        deck.mesh.index(&deck.files)?;
+        leave_out_absent(deck)?;
+        adjust(deck);
         Ok(self.deck)
     }
 
@@ -129,16 +133,21 @@ impl<'t> Reader<'t> {
     fn flatten(&mut self, first: Keyword) -> Result<()> {
         let model = Assembled::read(&mut self.source, first)?;
         let deck = &mut self.deck;
-        let labels = deck.nodes.labels.iter().chain(&deck.elements.labels);
-        deck.instances = model.instances(&self.source, labels.copied().max())?;
-        let anew = model.flat(&self.source, &deck.instances)?;
+        let labels = deck
+            .mesh
+            .nodes
+            .labels
+            .iter()
+            .chain(&deck.mesh.elements.labels);
+        deck.mesh.instances = model.instances(&self.source, labels.copied().max())?;
+        let anew = model.flat(&self.source, &deck.mesh.instances)?;
         for part in model.unused_parts() {
             self.ignore(part, part.place, "no *INSTANCE is made of it");
         }
         for keyword in model.frame() {
             self.understand(keyword);
         }
-        if let Some((keyword, how)) = model.note(&self.deck.instances) {
+        if let Some((keyword, how)) = model.note(&self.deck.mesh.instances) {
             self.take(keyword, keyword.place, &how);
         }
         self.source.go_on_with(anew);

@@ -2,11 +2,12 @@
 
 use super::{Reader, fields};
 use crate::deck::boundary::nodes_of_boundary;
-use crate::deck::data::{DeckElements, EntitySelection, Member, Nodes, SurfacePart};
+use crate::deck::data::{EntitySelection, Member, SurfacePart};
 use crate::deck::element_type::ElementType;
 use crate::deck::fields::LineFields;
 use crate::deck::instances::Instances;
 use crate::deck::keyword::Keyword;
+use crate::deck::mesh::{DeckElements, Nodes};
 use crate::deck::source::{DeckLines, Line};
 use crate::error::{Error, ErrorKind, Result};
 use crate::shape::MAX_NODES;
@@ -14,7 +15,7 @@ use crate::shape::MAX_NODES;
 impl Reader<'_> {
     pub(super) fn nodes(&mut self, keyword: &Keyword) -> Result<()> {
         keyword.allow(&self.source.files, &["NSET"])?;
-        let nodes = &mut self.deck.nodes;
+        let nodes = &mut self.deck.mesh.nodes;
         let first = nodes.labels.len();
         read_nodes(&mut self.source, keyword, nodes)?;
         let last = nodes.labels.len();
@@ -36,9 +37,9 @@ impl Reader<'_> {
             let error = keyword.error(files, why);
             Error::new(ErrorKind::Unsupported, error.message())
         })?;
-        let elements = &mut self.deck.elements;
+        let elements = &mut self.deck.mesh.elements;
         let first = elements.labels.len();
-        let instances = &self.deck.instances;
+        let instances = &self.deck.mesh.instances;
         read_elements(&mut self.source, keyword, element_type, elements, instances)?;
         let last = elements.labels.len();
         if let Some(name) = keyword.get("ELSET") {
