@@ -1,7 +1,7 @@
 //! Undefined numbers in sets and surfaces, which are left out with a remark, as in CalculiX.
 
 use super::Deck;
-use super::data::{Account, EntitySelection, Member, SurfacePart};
+use super::data::{EntitySelection, Member, SurfacePart};
 use super::sets::{Lookup, What};
 use super::source::LinePlace;
 use crate::error::Result;
@@ -27,7 +27,7 @@ pub(super) fn leave_out_absent(deck: &mut Deck) -> Result<()> {
     leave_out_of_surfaces(deck, &mut remarks)?;
     deck.lookup().refuse_empty_circles()?;
     for (place, key, text) in remarks {
-        Account::add(&mut deck.account.taken, &deck.files, place, key, &text);
+        deck.account.take(&deck.files, place, key, &text);
     }
     Ok(())
 }

@@ -5,7 +5,7 @@
 //! into triangles; edges in the plane are straight.
 
 use super::Deck;
-use super::data::{Account, Adjust, ContactPair, EntitySelection};
+use super::data::{Adjust, ContactPair, EntitySelection};
 use super::facets::Face;
 use super::mesh::DeckMesh;
 use super::sets::{Lookup, What};
@@ -86,8 +86,8 @@ pub(super) fn adjust(deck: &mut Deck) {
             pair.master,
             exact(farthest)
         );
-        let list = &mut deck.account.taken;
-        Account::add(list, &deck.files, pair.place, "CONTACT PAIR", &text);
+        deck.account
+            .take(&deck.files, pair.place, "CONTACT PAIR", &text);
     }
 }
 

@@ -32,22 +32,8 @@ impl Bodies {
             sections: &deck.properties.sections,
             end: deck.end,
         };
-        assignment.bodies()
-    }
-}
-
-/// The assignment of elements to bodies.
-struct Assignment<'d> {
-    lookup: Lookup<'d>,
-    sections: &'d [Section],
-    /// Place of the end of the deck.
-    end: LinePlace,
-}
-
-impl Assignment<'_> {
-    fn bodies(&self) -> Result<Bodies> {
-        let section_of = self.section_of_elements()?;
-        let part_of = self.parts(&section_of);
+        let section_of = assignment.section_of_elements()?;
+        let part_of = assignment.parts(&section_of);
         let mut out = Bodies::default();
         // The number of the body, by section and part.
         let mut known: BTreeMap<(u32, u32), u32> = BTreeMap::new();
@@ -60,14 +46,24 @@ impl Assignment<'_> {
             }
             out.of_element.push(body);
         }
-        out.names = self.body_names(&sections, &out.of_element)?;
-        self.name_by_instances(&mut out);
-        let has_sections = !self.sections.is_empty();
+        out.names = assignment.body_names(&sections, &out.of_element)?;
+        assignment.name_by_instances(&mut out);
+        let has_sections = !assignment.sections.is_empty();
         let section = |section: &u32| has_sections.then_some(*section as usize);
         out.sections = sections.iter().map(section).collect();
         Ok(out)
     }
+}
 
+/// The assignment of elements to bodies.
+struct Assignment<'d> {
+    lookup: Lookup<'d>,
+    sections: &'d [Section],
+    /// Place of the end of the deck.
+    end: LinePlace,
+}
+
+impl Assignment<'_> {
     /// The section of each element. In a deck without sections, the number of the first element set
     /// that contains the element. A set of `*ELEMENT` gives way to one of `*ELSET` with the same
     /// elements: a mesher names parts of the geometry by the former, and its groups by the latter.

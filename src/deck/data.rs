@@ -314,6 +314,21 @@ pub(super) struct Condition {
     pub(super) place: LinePlace,
 }
 
+impl Condition {
+    /// The value 0 on everything.
+    pub(super) fn new(kind: ConditionKind, place: LinePlace) -> Self {
+        Condition {
+            kind,
+            on: EntitySelection::All,
+            range: [1; 2],
+            value: 0.0,
+            amplitude: None,
+            is_fixed: false,
+            place,
+        }
+    }
+}
+
 /// A contact pair that a step switches on or off.
 #[derive(Debug, Clone)]
 pub(super) struct ContactChange {
@@ -432,22 +447,30 @@ pub struct Account {
 }
 
 impl Account {
-    /// Adds a remark to one of the lists, unless the list has a remark with the same keyword and
-    /// text.
-    pub(super) fn add(
-        list: &mut Vec<Note>,
-        files: &Files,
-        place: LinePlace,
-        key: &str,
-        text: &str,
-    ) {
-        let is_there = |note: &Note| note.keyword == key && note.text == text;
-        if !list.iter().any(is_there) {
-            list.push(Note {
-                place: files.show(place),
-                keyword: key.to_string(),
-                text: text.to_string(),
-            });
-        }
+    /// Adds a remark on data that brinell interprets differently.
+    pub(super) fn take(&mut self, files: &Files, place: LinePlace, key: &str, text: &str) {
+        add(&mut self.taken, files, place, key, text);
+    }
+
+    /// Adds a remark on data that have no effect here.
+    pub(super) fn ignore(&mut self, files: &Files, place: LinePlace, key: &str, text: &str) {
+        add(&mut self.ignored, files, place, key, text);
+    }
+
+    /// Adds a remark on data that ask for effects that brinell does not have.
+    pub(super) fn refuse(&mut self, files: &Files, place: LinePlace, key: &str, text: &str) {
+        add(&mut self.refused, files, place, key, text);
+    }
+}
+
+/// Adds a remark to a list, unless the list has a remark with the same keyword and text.
+fn add(list: &mut Vec<Note>, files: &Files, place: LinePlace, key: &str, text: &str) {
+    let is_there = |note: &Note| note.keyword == key && note.text == text;
+    if !list.iter().any(is_there) {
+        list.push(Note {
+            place: files.show(place),
+            keyword: key.to_string(),
+            text: text.to_string(),
+        });
     }
 }

@@ -67,7 +67,30 @@ pub(crate) fn largest_changes(deck: &Deck) -> Result<Vec<(u64, f64)>> {
         bodies,
         nodes,
     };
-    temperatures.largest_changes()
+    let program = &deck.program;
+    let mut out = BTreeMap::new();
+    for (element, &body) in bodies.of_element.iter().enumerate() {
+        let expansion = temperatures.varying_expansion(body as usize);
+        for &node in deck.mesh.element_nodes(element) {
+            let of_node = &temperatures.nodes[node as usize];
+            let value = match expansion {
+                Some(expansion) => of_node.expanded(expansion, &program.step_ends()).largest(),
+                None => of_node.change.largest(),
+            };
+            if *out.entry(node).or_insert(value) != value {
+                let message = format!(
+                    "node {} belongs to two materials whose *EXPANSION differs by temperature, \
+                     and its body has several temperatures: give one *EXPANSION to both, or \
+                     each body its own nodes and a *TIE",
+                    deck.mesh.node_name(node as usize)
+                );
+                let place = of_node.place.unwrap_or(deck.end);
+                return Err(unsupported(deck.error(place, "TEMPERATURE", message)));
+            }
+        }
+    }
+    let value = |(node, value): (u32, f64)| (deck.mesh.node_label(node as usize), value);
+    Ok(out.into_iter().map(value).collect())
 }
 
 /// The temperatures of each body of a deck.
@@ -87,7 +110,18 @@ pub(super) fn of_bodies(deck: &Deck, bodies: &Bodies) -> Result<Vec<OfBody>> {
         bodies,
         nodes,
     };
-    temperatures.of_bodies()
+    let mut of_body: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); bodies.names.len()];
+    for (element, &body) in bodies.of_element.iter().enumerate() {
+        of_body[body as usize].extend(deck.mesh.element_nodes(element));
+    }
+    let names = bodies.names.iter().zip(&of_body);
+    let expansions = (0..).map(|body| temperatures.varying_expansion(body));
+    names
+        .zip(expansions)
+        .map(|((name, of_body), expansion)| {
+            temperatures.of_body(name, &temperatures.expanded(of_body, expansion))
+        })
+        .collect()
 }
 
 fn of_nodes(deck: &Deck) -> Result<Vec<OfNode>> {
@@ -140,33 +174,6 @@ struct NodeTemperatures<'d> {
 }
 
 impl NodeTemperatures<'_> {
-    fn largest_changes(&self) -> Result<Vec<(u64, f64)>> {
-        let (deck, program) = (self.deck, &self.deck.program);
-        let mut out = BTreeMap::new();
-        for (element, &body) in self.bodies.of_element.iter().enumerate() {
-            let expansion = self.varying_expansion(body as usize);
-            for &node in deck.mesh.element_nodes(element) {
-                let of_node = &self.nodes[node as usize];
-                let value = match expansion {
-                    Some(expansion) => of_node.expanded(expansion, &program.step_ends()).largest(),
-                    None => of_node.change.largest(),
-                };
-                if *out.entry(node).or_insert(value) != value {
-                    let message = format!(
-                        "node {} belongs to two materials whose *EXPANSION differs by temperature, \
-                         and its body has several temperatures: give one *EXPANSION to both, or \
-                         each body its own nodes and a *TIE",
-                        deck.mesh.node_name(node as usize)
-                    );
-                    let place = of_node.place.unwrap_or(deck.end);
-                    return Err(unsupported(deck.error(place, "TEMPERATURE", message)));
-                }
-            }
-        }
-        let value = |(node, value): (u32, f64)| (deck.mesh.node_label(node as usize), value);
-        Ok(out.into_iter().map(value).collect())
-    }
-
     /// The expansion of a body's material, if it depends on temperature.
     fn varying_expansion(&self, body: usize) -> Option<&Expansion> {
         let section = self.bodies.sections.get(body).copied().flatten()?;
@@ -174,22 +181,6 @@ impl NodeTemperatures<'_> {
         let material = &properties.sections.get(section)?.material;
         let expansion = properties.materials.get(material)?.expansion.as_ref()?;
         (!expansion.is_constant()).then_some(expansion)
-    }
-
-    fn of_bodies(&self) -> Result<Vec<OfBody>> {
-        let bodies = self.bodies;
-        let mut of_body: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); bodies.names.len()];
-        for (element, &body) in bodies.of_element.iter().enumerate() {
-            of_body[body as usize].extend(self.deck.mesh.element_nodes(element));
-        }
-        let names = bodies.names.iter().zip(&of_body);
-        let expansions = (0..).map(|body| self.varying_expansion(body));
-        names
-            .zip(expansions)
-            .map(|((name, of_body), expansion)| {
-                self.of_body(name, &self.expanded(of_body, expansion))
-            })
-            .collect()
     }
 
     /// The nodes of a body, with equivalent changes of temperature if the expansion depends on

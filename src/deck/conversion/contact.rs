@@ -1,7 +1,7 @@
 //! Contact pairs and ties of a deck as those of the scene.
 
 use super::super::Deck;
-use super::super::data::{Account, Adjust, ContactPair};
+use super::super::data::{Adjust, ContactPair};
 use super::super::node_slaves::NodeSlaves;
 use super::super::sets::What;
 use super::super::source::LinePlace;
@@ -20,7 +20,7 @@ pub(super) struct ScenePairs {
 impl ScenePairs {
     /// Adds the contact pairs, with the slave surface first. A clearance becomes a gap, or an
     /// interference if it is negative.
-    pub(super) fn add_contacts(&mut self, draft: &mut Draft, account: &mut Account) -> Result<()> {
+    pub(super) fn add_contacts(&mut self, draft: &mut Draft) -> Result<()> {
         let (deck, lookup) = (draft.deck, draft.deck.lookup());
         let properties = &deck.properties;
         for pair in &properties.contacts {
@@ -31,7 +31,7 @@ impl ScenePairs {
             };
             lookup.surface(&pair.master, at)?;
             let (first, nodes) = match lookup.node_slaves(pair)? {
-                Some(slaves) => around(draft, pair, slaves, account),
+                Some(slaves) => around(draft, pair, slaves),
                 None => {
                     lookup.surface(&pair.slave, at)?;
                     (draft.geometry.surface_name(&pair.slave), None)
@@ -49,7 +49,7 @@ impl ScenePairs {
             }
             contact.gap = pair.is_closed.then(|| 0.0.into());
             contact.held = true;
-            clear(deck, pair, &mut contact, account);
+            clear(draft, pair, &mut contact);
             contact.overlap = contact.gap.is_none();
             let key = format!("contact.{}", self.contacts.len());
             draft.places.insert(key, deck.files.show(pair.place));
@@ -85,20 +85,14 @@ impl ScenePairs {
 }
 
 /// Adds the faces around slave nodes as a surface, and the nodes as a set; returns both names.
-fn around(
-    draft: &mut Draft,
-    pair: &ContactPair,
-    slaves: NodeSlaves,
-    account: &mut Account,
-) -> (String, Option<String>) {
+fn around(draft: &mut Draft, pair: &ContactPair, slaves: NodeSlaves) -> (String, Option<String>) {
     let n = slaves.nodes.len();
     let text = format!(
         "the nodes of {} ({n}) touch alone, where they lie: they make up no whole faces of \
          one piece",
         pair.slave,
     );
-    let list = &mut account.taken;
-    Account::add(list, &draft.deck.files, pair.place, "CONTACT PAIR", &text);
+    draft.remark(pair.place, "CONTACT PAIR", &text);
     let faces = format!("{}_faces", pair.slave);
     let nodes = format!("{}_nodes", pair.slave);
     (
@@ -127,8 +121,8 @@ fn require_pair(
 }
 
 /// Gives a contact the clearances of its pair.
-fn clear(deck: &Deck, pair: &ContactPair, contact: &mut Contact, account: &mut Account) {
-    let clearances = deck.properties.clearances.iter();
+fn clear(draft: &mut Draft, pair: &ContactPair, contact: &mut Contact) {
+    let clearances = draft.deck.properties.clearances.iter();
     for clearance in clearances.filter(|c| pair.is_of(&c.slave, &c.master)) {
         contact.gap = Some(clearance.value.max(0.0).into());
         contact.interference = (-clearance.value).max(0.0).into();
@@ -136,7 +130,6 @@ fn clear(deck: &Deck, pair: &ContactPair, contact: &mut Contact, account: &mut A
             true => format!("an interference of {}", exact(-clearance.value)),
             false => format!("a gap of {} everywhere", exact(clearance.value)),
         };
-        let list = &mut account.taken;
-        Account::add(list, &deck.files, clearance.place, "CLEARANCE", &text);
+        draft.remark(clearance.place, "CLEARANCE", &text);
     }
 }

@@ -6,7 +6,7 @@
 
 use super::super::Deck;
 use super::super::bodies::unsupported;
-use super::super::data::{Account, ContactChange, ContactPair};
+use super::super::data::{ContactChange, ContactPair};
 use super::super::series::Series;
 use super::super::source::LinePlace;
 use super::contact::ScenePairs;
@@ -22,7 +22,7 @@ impl ScenePairs {
     /// # Errors
     /// `Input` for pairs that are not defined; `Unsupported` if both surfaces belong to other pairs
     /// too, because the gap would then act on all of these pairs.
-    pub(super) fn add_changes(&self, draft: &mut Draft, account: &mut Account) -> Result<()> {
+    pub(super) fn add_changes(&self, draft: &mut Draft) -> Result<()> {
         let deck = draft.deck;
         let pairs = &deck.properties.contacts;
         let mut changed: Vec<Option<(Series, LinePlace)>> = vec![None; pairs.len()];
@@ -49,8 +49,7 @@ impl ScenePairs {
                     false if number == 0 => "the surfaces begin apart",
                     false => "the surfaces are taken apart over the step",
                 };
-                let list = &mut account.taken;
-                Account::add(list, &deck.files, change.place, KEYWORD, how);
+                draft.remark(change.place, KEYWORD, how);
             }
             time = end;
         }

@@ -2,6 +2,7 @@
 
 use super::super::Deck;
 use super::super::constraints::LocalAxes;
+use super::super::data::Account;
 use super::super::facets::Key;
 use super::super::history::KeyHistory;
 use super::super::series::Series;
@@ -20,6 +21,8 @@ pub(super) const GLOBAL: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 
 /// Parts of a scene, and the sets to which they refer.
 pub(super) struct Draft<'d> {
     pub(super) deck: &'d Deck,
+    /// What becomes of the lines of the deck.
+    pub(super) account: Account,
     pub(super) geometry: Geometry,
     /// Thickness of a plane model: forces of the scene are per unit thickness.
     pub(super) thickness: f64,
@@ -34,9 +37,15 @@ pub(super) struct Draft<'d> {
 }
 
 impl<'d> Draft<'d> {
-    pub(super) fn new(deck: &'d Deck, geometry: Geometry, thickness: f64) -> Self {
+    pub(super) fn new(
+        deck: &'d Deck,
+        account: Account,
+        geometry: Geometry,
+        thickness: f64,
+    ) -> Self {
         Draft {
             deck,
+            account,
             geometry,
             thickness,
             supports: Vec::new(),
@@ -45,6 +54,11 @@ impl<'d> Draft<'d> {
             sets_of_nodes: BTreeMap::new(),
             places: BTreeMap::new(),
         }
+    }
+
+    /// Remarks how a line of the deck is interpreted.
+    pub(super) fn remark(&mut self, place: LinePlace, keyword: &str, text: &str) {
+        self.account.take(&self.deck.files, place, keyword, text);
     }
 
     /// A vector with as many components as the model has axes.

@@ -12,21 +12,13 @@ use std::collections::BTreeMap;
 
 /// Nodes without elements, with the sums that their displacements and forces are.
 pub(super) struct LooseNodes<'c> {
-    mesh: &'c DeckMesh,
-    geometry: &'c Geometry,
+    pub(super) mesh: &'c DeckMesh,
+    pub(super) geometry: &'c Geometry,
     /// The sums by node number.
     pub(super) sums: BTreeMap<u64, LooseNode>,
 }
 
-impl<'c> LooseNodes<'c> {
-    pub(super) fn new(mesh: &'c DeckMesh, geometry: &'c Geometry) -> Self {
-        LooseNodes {
-            mesh,
-            geometry,
-            sums: BTreeMap::new(),
-        }
-    }
-
+impl LooseNodes<'_> {
     /// Records the forces of nodes without elements. With the row `sum c_k u_k = 0`, whose first
     /// term `i` is of a node with elements, the force on a node `l` without elements is
     /// `-c_l / c_i f_i`. In the rows of a rigid body these are the sums of the forces on its nodes

@@ -90,13 +90,14 @@ impl Deck {
         let geometry = Geometry::of(self)?;
         for (name, place) in &geometry.left_out {
             let text = format!("{name} looks both ways, and is there for results alone");
-            Account::add(&mut account.ignored, &self.files, *place, "SURFACE", &text);
+            account.ignore(&self.files, *place, "SURFACE", &text);
         }
-        let mut draft = Draft::new(self, geometry, self.thickness(space, &mut account)?);
+        let thickness = self.thickness(space, &mut account)?;
+        let mut draft = Draft::new(self, account, geometry, thickness);
         let loose = DeckConditions::convert(&mut draft)?;
         let mut pairs = ScenePairs::default();
-        pairs.add_contacts(&mut draft, &mut account)?;
-        pairs.add_changes(&mut draft, &mut account)?;
+        pairs.add_contacts(&mut draft)?;
+        pairs.add_changes(&mut draft)?;
         pairs.add_ties(&mut draft)?;
         let loads = BodyLoads {
             space,
@@ -106,10 +107,10 @@ impl Deck {
         let temperatures = temperature::of_bodies(self, &bodies)?;
         let mut scene = self.empty_scene(space);
         self.add_bodies(&bodies, &temperatures, &mut scene, &mut draft.places)?;
-        self.add_integration(&bodies, &mut scene, &mut account);
-        loads.add_temperatures(&mut draft, temperatures, &mut account)?;
+        self.add_integration(&bodies, &mut scene, &mut draft.account);
+        loads.add_temperatures(&mut draft, temperatures)?;
         let of_plane = (space, draft.thickness);
-        scene.requests = requests(self, of_plane, options.increments, &mut account)?;
+        scene.requests = requests(self, of_plane, options.increments, &mut draft.account)?;
         scene.requests.large = large;
         scene.requests.loose = Arc::new(loose);
         self.add_loads(&mut draft, &mut scene);
@@ -118,7 +119,7 @@ impl Deck {
         (scene.contact, scene.tie) = (pairs.contacts, pairs.ties);
         Ok(Conversion {
             scene,
-            account,
+            account: draft.account,
             geometry: draft.geometry,
             places: draft.places,
         })
@@ -135,7 +136,7 @@ impl Deck {
                 "NLGEOM: strains and displacements are taken to be small; the run measures them"
             }
         };
-        Account::add(&mut account.taken, &self.files, place, "STEP", text);
+        account.take(&self.files, place, "STEP", text);
         (!options.small_strain).then(|| self.files.show(place))
     }
 
@@ -165,13 +166,7 @@ impl Deck {
                 "forces are per unit thickness: those of the deck over {}",
                 exact(first)
             );
-            Account::add(
-                &mut account.taken,
-                &self.files,
-                section.place,
-                "SOLID SECTION",
-                &text,
-            );
+            account.take(&self.files, section.place, "SOLID SECTION", &text);
         }
         Ok(first)
     }
@@ -266,7 +261,7 @@ impl Deck {
                      {name}: give it a section of its own"
                 );
                 let place = self.mesh.elements.places[element];
-                Account::add(&mut account.taken, &self.files, place, "ELEMENT", &text);
+                account.take(&self.files, place, "ELEMENT", &text);
             }
         }
     }

@@ -322,7 +322,7 @@ impl RequestedSets<'_, '_> {
     }
 
     fn remark(&mut self, request: &OutputRequest, keyword: &str, text: &str) {
-        let list = &mut self.account.taken;
-        Account::add(list, &self.deck.files, request.place, keyword, text);
+        self.account
+            .take(&self.deck.files, request.place, keyword, text);
     }
 }

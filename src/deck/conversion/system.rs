@@ -36,7 +36,11 @@ impl DeckConditions<'_, '_> {
             rows_of(equation, deck, &mut rows)?;
         }
         self.rows_of_bodies(&mut rows)?;
-        let mut loose = LooseNodes::new(&deck.mesh, &self.draft.geometry);
+        let mut loose = LooseNodes {
+            mesh: &deck.mesh,
+            geometry: &self.draft.geometry,
+            sums: BTreeMap::new(),
+        };
         loose.record_forces(&planes, &rows);
         let (simple, joined) = apart(planes, &rows, |plane| self.is_joined(plane, &in_steps));
         for plane in joined {

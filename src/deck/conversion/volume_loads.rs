@@ -1,7 +1,7 @@
 //! Loads on the volumes of bodies: weight, rotation, and change of temperature.
 
 use super::super::bodies::{Bodies, unsupported};
-use super::super::data::{Account, ConditionKind, VolumeLoad};
+use super::super::data::{ConditionKind, VolumeLoad};
 use super::super::history::histories;
 use super::super::source::LinePlace;
 use super::super::temperature::OfBody;
@@ -83,7 +83,6 @@ impl BodyLoads<'_> {
         &self,
         draft: &mut Draft,
         temperatures: Vec<OfBody>,
-        account: &mut Account,
     ) -> Result<()> {
         let mut idle = None;
         let (deck, bodies) = (draft.deck, self.bodies);
@@ -110,8 +109,7 @@ impl BodyLoads<'_> {
             } else if !of_body.change.is_zero() {
                 let name = &section.material;
                 let text = format!("material {name} has no *EXPANSION: temperatures do nothing");
-                let list = &mut account.taken;
-                Account::add(list, &deck.files, place, "TEMPERATURE", &text);
+                draft.remark(place, "TEMPERATURE", &text);
                 idle = Some((place, text));
             }
         }
