@@ -315,8 +315,8 @@ pub(super) struct Condition {
 }
 
 impl Condition {
-    /// The value 0 on everything.
-    pub(super) fn new(kind: ConditionKind, place: LinePlace) -> Self {
+    /// What lines of a keyword have in common.
+    pub(super) fn of_keyword(kind: ConditionKind, place: LinePlace) -> Self {
         Condition {
             kind,
             on: EntitySelection::All,
@@ -325,6 +325,23 @@ impl Condition {
             amplitude: None,
             is_fixed: false,
             place,
+        }
+    }
+
+    /// The condition of a line.
+    pub(super) fn line(
+        &self,
+        on: EntitySelection,
+        range: [usize; 2],
+        value: f64,
+        place: LinePlace,
+    ) -> Self {
+        Condition {
+            on,
+            range,
+            value,
+            place,
+            ..self.clone()
         }
     }
 }

@@ -13,14 +13,6 @@ pub(super) type Key = Face;
 /// The corners of a face in ascending order, padded to four.
 type FaceCorners = [u32; 4];
 
-/// How many corners and nodes of a face are among given ones.
-struct NodesGiven {
-    corners: usize,
-    n_corners: usize,
-    nodes: usize,
-    n_nodes: usize,
-}
-
 impl DeckMesh {
     /// The nodes of a face, corners first.
     fn face_nodes(&self, (element, local): Face) -> impl Iterator<Item = u32> {
@@ -29,15 +21,10 @@ impl DeckMesh {
         own.iter().map(|&k| nodes[k])
     }
 
-    /// Number of corners of a face.
-    fn n_corners(&self, (element, local): Face) -> usize {
-        let shape = self.shape(element as usize);
-        shape.facet_reference(local as usize).n_corners
-    }
-
     /// The corners of a face.
     pub(super) fn corners(&self, face: Face) -> impl Iterator<Item = u32> {
-        self.face_nodes(face).take(self.n_corners(face))
+        let reference = self.shape(face.0 as usize).facet_reference(face.1 as usize);
+        self.face_nodes(face).take(reference.n_corners)
     }
 
     /// Coordinates of the corners of a face.
@@ -99,25 +86,25 @@ impl DeckMesh {
     /// The faces all of whose corners are among the given nodes and that belong to a single
     /// element.
     pub(super) fn free_faces_among(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
-        self.free_faces(nodes, |given| given.corners == given.n_corners)
+        self.free_faces(nodes, |face, is_given| self.corners(face).all(is_given))
     }
 
     /// The faces all of whose nodes, those between corners too, are among the given nodes and that
     /// belong to a single element.
     pub(super) fn whole_free_faces_among(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
-        self.free_faces(nodes, |given| given.nodes == given.n_nodes)
+        self.free_faces(nodes, |face, is_given| self.face_nodes(face).all(is_given))
     }
 
     /// The faces any of whose nodes is among the given nodes and that belong to a single element.
     pub(super) fn free_faces_at(&self, nodes: impl IntoIterator<Item = u32>) -> Vec<Face> {
-        self.free_faces(nodes, |given| given.nodes > 0)
+        self.free_faces(nodes, |face, is_given| self.face_nodes(face).any(is_given))
     }
 
-    /// The faces that belong to a single element, chosen by how many of their nodes are given.
+    /// The faces that belong to a single element, chosen by which nodes are given.
     fn free_faces(
         &self,
         nodes: impl IntoIterator<Item = u32>,
-        is_chosen: impl Fn(NodesGiven) -> bool,
+        is_chosen: impl Fn(Face, &dyn Fn(u32) -> bool) -> bool,
     ) -> Vec<Face> {
         let mut marked = vec![false; self.n_nodes()];
         nodes
@@ -127,14 +114,7 @@ impl DeckMesh {
         for element in 0..self.n_elements() {
             for local in 0..self.shape(element).n_facets() {
                 let face = (element as u32, local as u8);
-                let is_given = |node: &u32| marked[*node as usize];
-                let given = NodesGiven {
-                    corners: self.corners(face).filter(is_given).count(),
-                    n_corners: self.n_corners(face),
-                    nodes: self.face_nodes(face).filter(is_given).count(),
-                    n_nodes: self.face_nodes(face).count(),
-                };
-                if is_chosen(given) {
+                if is_chosen(face, &|node| marked[node as usize]) {
                     let corners = self.sorted_corners(face);
                     found.entry(corners).or_insert((face, 0)).1 += 1;
                 }

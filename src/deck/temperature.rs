@@ -62,17 +62,12 @@ impl OfNode {
 pub(crate) fn largest_changes(deck: &Deck) -> Result<Vec<(u64, f64)>> {
     let nodes = of_nodes(deck)?;
     let bodies = &Bodies::of(deck)?;
-    let temperatures = NodeTemperatures {
-        deck,
-        bodies,
-        nodes,
-    };
     let program = &deck.program;
     let mut out = BTreeMap::new();
     for (element, &body) in bodies.of_element.iter().enumerate() {
-        let expansion = temperatures.varying_expansion(body as usize);
+        let expansion = varying_expansion(deck, bodies, body as usize);
         for &node in deck.mesh.element_nodes(element) {
-            let of_node = &temperatures.nodes[node as usize];
+            let of_node = &nodes[node as usize];
             let value = match expansion {
                 Some(expansion) => of_node.expanded(expansion, &program.step_ends()).largest(),
                 None => of_node.change.largest(),
@@ -105,21 +100,16 @@ pub(super) fn of_bodies(deck: &Deck, bodies: &Bodies) -> Result<Vec<OfBody>> {
         return Ok(none.collect());
     }
     let nodes = of_nodes(deck)?;
-    let temperatures = NodeTemperatures {
-        deck,
-        bodies,
-        nodes,
-    };
-    let mut of_body: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); bodies.names.len()];
+    let mut members: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); bodies.names.len()];
     for (element, &body) in bodies.of_element.iter().enumerate() {
-        of_body[body as usize].extend(deck.mesh.element_nodes(element));
+        members[body as usize].extend(deck.mesh.element_nodes(element));
     }
-    let names = bodies.names.iter().zip(&of_body);
-    let expansions = (0..).map(|body| temperatures.varying_expansion(body));
+    let names = bodies.names.iter().zip(&members);
+    let expansions = (0..).map(|body| varying_expansion(deck, bodies, body));
     names
         .zip(expansions)
-        .map(|((name, of_body), expansion)| {
-            temperatures.of_body(name, &temperatures.expanded(of_body, expansion))
+        .map(|((name, members), expansion)| {
+            of_body(deck, name, &expanded(deck, members, &nodes, expansion))
         })
         .collect()
 }
@@ -166,87 +156,78 @@ impl DeckProgram {
     }
 }
 
-/// Temperatures of the nodes of a deck, and the bodies to which the nodes belong.
-struct NodeTemperatures<'d> {
-    deck: &'d Deck,
-    bodies: &'d Bodies,
-    nodes: Vec<OfNode>,
+/// The expansion of a body's material, if it depends on temperature.
+fn varying_expansion<'d>(deck: &'d Deck, bodies: &Bodies, body: usize) -> Option<&'d Expansion> {
+    let section = bodies.sections.get(body).copied().flatten()?;
+    let properties = &deck.properties;
+    let material = &properties.sections.get(section)?.material;
+    let expansion = properties.materials.get(material)?.expansion.as_ref()?;
+    (!expansion.is_constant()).then_some(expansion)
 }
 
-impl NodeTemperatures<'_> {
-    /// The expansion of a body's material, if it depends on temperature.
-    fn varying_expansion(&self, body: usize) -> Option<&Expansion> {
-        let section = self.bodies.sections.get(body).copied().flatten()?;
-        let properties = &self.deck.properties;
-        let material = &properties.sections.get(section)?.material;
-        let expansion = properties.materials.get(material)?.expansion.as_ref()?;
-        (!expansion.is_constant()).then_some(expansion)
-    }
+/// The nodes of a body, with equivalent changes of temperature if the expansion depends on
+/// temperature.
+fn expanded<'a>(
+    deck: &Deck,
+    of_body: &BTreeSet<u32>,
+    nodes: &'a [OfNode],
+    expansion: Option<&Expansion>,
+) -> Vec<(u32, Cow<'a, OfNode>)> {
+    let members = || (of_body.iter()).map(|&node| (node, &nodes[node as usize]));
+    let Some(expansion) = expansion else {
+        let as_they_are = |(node, of_node)| (node, Cow::Borrowed(of_node));
+        return members().map(as_they_are).collect();
+    };
+    // Several different temperatures can stay in proportion only if no intermediate times are
+    // added.
+    let mut all = members().map(|(_, of_node)| (of_node.initial, of_node.change.bits()));
+    let first = all.next();
+    let times = match all.all(|other| Some(&other) == first.as_ref()) {
+        true => deck.program.increment_ends(),
+        false => deck.program.step_ends(),
+    };
+    let of = |(node, of_node): (u32, &OfNode)| {
+        let change = of_node.expanded(expansion, &times);
+        let place = of_node.place;
+        let initial = of_node.initial;
+        let of_node = OfNode {
+            initial,
+            change,
+            place,
+        };
+        (node, Cow::Owned(of_node))
+    };
+    members().map(of).collect()
+}
 
-    /// The nodes of a body, with equivalent changes of temperature if the expansion depends on
-    /// temperature.
-    fn expanded(
-        &self,
-        of_body: &BTreeSet<u32>,
-        expansion: Option<&Expansion>,
-    ) -> Vec<(u32, Cow<'_, OfNode>)> {
-        let members = || (of_body.iter()).map(|&node| (node, &self.nodes[node as usize]));
-        let Some(expansion) = expansion else {
-            let as_they_are = |(node, of_node)| (node, Cow::Borrowed(of_node));
-            return members().map(as_they_are).collect();
-        };
-        // Several different temperatures can stay in proportion only if no intermediate times are
-        // added.
-        let mut all = members().map(|(_, of_node)| (of_node.initial, of_node.change.bits()));
-        let first = all.next();
-        let times = match all.all(|other| Some(&other) == first.as_ref()) {
-            true => self.deck.program.increment_ends(),
-            false => self.deck.program.step_ends(),
-        };
-        let of = |(node, of_node): (u32, &OfNode)| {
-            let change = of_node.expanded(expansion, &times);
-            let place = of_node.place;
-            let initial = of_node.initial;
-            let of_node = OfNode {
-                initial,
-                change,
-                place,
-            };
-            (node, Cow::Owned(of_node))
-        };
-        members().map(of).collect()
+fn of_body(deck: &Deck, name: &str, nodes: &[(u32, Cow<OfNode>)]) -> Result<OfBody> {
+    let members = || nodes.iter().map(|(node, of_node)| (*node, &**of_node));
+    let size = |of_node: &OfNode| of_node.change.largest().abs();
+    let most = members().reduce(|a, b| if size(b.1) > size(a.1) { b } else { a });
+    let Some((first, most)) = most else {
+        return Ok(OfBody::none());
+    };
+    let shape = most.change.shape();
+    let is_in_proportion =
+        |of_node: &OfNode| of_node.change.is_zero() || are_alike(&of_node.change.shape(), &shape);
+    if let Some((node, other)) = members().find(|(_, of_node)| !is_in_proportion(of_node)) {
+        let label = |node: u32| deck.mesh.node_name(node as usize);
+        let message = format!(
+            "the temperatures of nodes {} and {} of body {name} do not change in proportion: \
+             those of a body do",
+            label(first),
+            label(node)
+        );
+        let place = other.place.or(most.place).unwrap_or(deck.end);
+        return Err(unsupported(deck.error(place, "TEMPERATURE", message)));
     }
-
-    fn of_body(&self, name: &str, nodes: &[(u32, Cow<OfNode>)]) -> Result<OfBody> {
-        let members = || nodes.iter().map(|(node, of_node)| (*node, &**of_node));
-        let size = |of_node: &OfNode| of_node.change.largest().abs();
-        let most = members().reduce(|a, b| if size(b.1) > size(a.1) { b } else { a });
-        let Some((first, most)) = most else {
-            return Ok(OfBody::none());
-        };
-        let shape = most.change.shape();
-        let is_in_proportion = |of_node: &OfNode| {
-            of_node.change.is_zero() || are_alike(&of_node.change.shape(), &shape)
-        };
-        if let Some((node, other)) = members().find(|(_, of_node)| !is_in_proportion(of_node)) {
-            let label = |node: u32| self.deck.mesh.node_name(node as usize);
-            let message = format!(
-                "the temperatures of nodes {} and {} of body {name} do not change in proportion: \
-                 those of a body do",
-                label(first),
-                label(node)
-            );
-            let place = other.place.or(most.place).unwrap_or(self.deck.end);
-            return Err(unsupported(self.deck.error(place, "TEMPERATURE", message)));
-        }
-        let initial = members().next().map_or(0.0, |(_, of_node)| of_node.initial);
-        Ok(OfBody {
-            initial: (initial, members().all(|(_, n)| n.initial == initial)),
-            change: most.change.clone(),
-            is_uniform: members().all(|(_, n)| n.change.bits() == most.change.bits()),
-            place: members().find_map(|(_, of_node)| of_node.place),
-        })
-    }
+    let initial = members().next().map_or(0.0, |(_, of_node)| of_node.initial);
+    Ok(OfBody {
+        initial: (initial, members().all(|(_, n)| n.initial == initial)),
+        change: most.change.clone(),
+        is_uniform: members().all(|(_, n)| n.change.bits() == most.change.bits()),
+        place: members().find_map(|(_, of_node)| of_node.place),
+    })
 }
 
 impl MaterialData {

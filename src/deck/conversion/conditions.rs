@@ -121,12 +121,12 @@ impl<'c, 'd> DeckConditions<'c, 'd> {
     fn add_boundary(&mut self) -> Result<()> {
         let mut map = std::mem::take(&mut self.boundary);
         map.retain(|key, _| self.draft.geometry.uses(key.0));
-        for (on, axis, series, place) in self.of_node_sets(ConditionKind::Boundary, &mut map)? {
+        let of_sets = self.of_node_sets(ConditionKind::Boundary, &mut map)?;
+        let draft = &mut *self.draft;
+        for (on, axis, series, place) in of_sets {
             match series.is_zero() {
-                true => self.draft.hold(&on, &[axis as usize], place),
-                false => self
-                    .draft
-                    .displace(on, axis, KeyHistory::new(series, place)),
+                true => draft.hold(&on, &[axis as usize], place),
+                false => draft.displace(on, axis, KeyHistory::new(series, place)),
             }
         }
         // For each node, the axes along which it is held, as a mask.
@@ -147,19 +147,12 @@ impl<'c, 'd> DeckConditions<'c, 'd> {
         }
         for (mask, (nodes, place)) in by_mask {
             let axes: Vec<usize> = (0..3).filter(|axis| mask & (1 << axis) != 0).collect();
-            let on = self
-                .draft
-                .geometry
-                .add_nodes(&made("boundary", place), nodes);
-            self.draft.hold(&on, &axes, place);
+            let on = draft.geometry.add_nodes(&made("boundary", place), nodes);
+            draft.hold(&on, &axes, place);
         }
         for ((axis, _), (nodes, series, place)) in groups(map) {
-            let on = self
-                .draft
-                .geometry
-                .add_nodes(&made("boundary", place), nodes);
-            self.draft
-                .displace(on, axis, KeyHistory::new(series, place));
+            let on = draft.geometry.add_nodes(&made("boundary", place), nodes);
+            draft.displace(on, axis, KeyHistory::new(series, place));
         }
         Ok(())
     }

@@ -70,14 +70,11 @@ impl ScenePairs {
     /// A surface of a contact pair that belongs to no other pair.
     fn own_surface(&self, index: usize) -> Option<String> {
         let has = |contact: &Contact, name: &str| contact.first == name || contact.second == name;
-        let is_other =
-            |(k, contact): (usize, &Contact), name: &str| k != index && has(contact, name);
-        let is_own = |name: &&String| {
-            let mut all = self.contacts.iter().enumerate();
-            !all.any(|of| is_other(of, name))
-        };
-        let contact = &self.contacts[index];
-        let own = [&contact.first, &contact.second].into_iter().find(is_own);
+        let (before, rest) = self.contacts.split_at(index);
+        let (contact, after) = rest.split_first()?;
+        let others = || before.iter().chain(after);
+        let mut own = [&contact.first, &contact.second].into_iter();
+        let own = own.find(|name| !others().any(|other| has(other, name)));
         own.cloned()
     }
 }

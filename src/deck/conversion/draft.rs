@@ -111,13 +111,7 @@ impl<'d> Draft<'d> {
 
     /// Moves a set along an axis.
     pub(super) fn displace(&mut self, on: String, axis: u8, entry: KeyHistory) {
-        let KeyHistory {
-            series,
-            place,
-            span,
-            ..
-        } = entry;
-        let value = |of: u8| (of == axis).then(|| series.largest().into());
+        let value = |of: u8| (of == axis).then(|| entry.series.largest().into());
         let load = Load {
             on,
             displacement: Some(Displacement {
@@ -125,11 +119,11 @@ impl<'d> Draft<'d> {
                 y: value(1),
                 z: value(2),
             }),
-            since: span.since,
-            until: span.until,
+            since: entry.span.since,
+            until: entry.span.until,
             ..Load::default()
         };
-        self.add_load("displacement", load, series, place);
+        self.add_load("displacement", load, entry.series, entry.place);
     }
 
     pub(super) fn add_equation(&mut self, terms: Vec<EquationTerm>, place: LinePlace) {

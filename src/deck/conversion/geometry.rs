@@ -60,11 +60,7 @@ impl Geometry {
                 }
             }
             if is_free && !faces.is_empty() {
-                let own = match out.node_sets.contains_key(name) {
-                    true => format!("{name}_surface"),
-                    false => name.to_string(),
-                };
-                out.add_surface(&own, faces);
+                out.add_named_surface(name, faces);
             }
         }
         for (name, parts) in deck.sets.surfaces.iter() {
@@ -79,15 +75,18 @@ impl Geometry {
                 out.left_out.push((name.to_string(), *place));
                 continue;
             }
-            let clashes = out.node_sets.contains_key(name);
-            let own = match clashes {
-                true => format!("{name}_surface"),
-                false => name.to_string(),
-            };
-            let own = out.add_surface(&own, faces);
+            let own = out.add_named_surface(name, faces);
             out.surface_names.insert(name.to_uppercase(), own);
         }
         Ok(out)
+    }
+
+    /// Adds a surface that the deck names, renamed if a set of nodes has its name.
+    fn add_named_surface(&mut self, name: &str, faces: Vec<Face>) -> String {
+        match self.node_sets.contains_key(name) {
+            true => self.add_surface(&format!("{name}_surface"), faces),
+            false => self.add_surface(name, faces),
+        }
     }
 
     /// The name in the mesh of a surface of the deck.

@@ -156,15 +156,12 @@ impl SumInSteps {
             coefficient: -own / c,
         });
         let terms = terms.collect();
-        let KeyHistory {
-            series,
-            place,
-            span,
-            stays,
-            ..
-        } = self.entry;
+        let entry = self.entry;
         // What stays has no values over time.
-        let series = if stays { Series::default() } else { series };
+        let series = match entry.stays {
+            true => Series::default(),
+            false => entry.series,
+        };
         let load = Load {
             on: draft.set_of_node(pivot.0),
             relative: Some(Relative {
@@ -172,11 +169,11 @@ impl SumInSteps {
                 value: series.largest() / c,
                 terms,
             }),
-            since: span.since,
-            until: span.until,
+            since: entry.span.since,
+            until: entry.span.until,
             ..Load::default()
         };
-        draft.add_load("relative", load, series, place);
+        draft.add_load("relative", load, series, entry.place);
     }
 }
 

@@ -59,28 +59,21 @@ impl LooseNodes<'_> {
         reduced: &Reduced,
         boundary: &Map,
     ) {
+        let alone = |key: Key| FreedomCoefficients::from([(key, 1.0)]);
         for plane in planes {
             let key = plane.leader;
             for &node in plane.nodes.iter().filter(|node| **node != key.0) {
-                self.displace(
-                    (node, key.1),
-                    &FreedomCoefficients::from([(key, 1.0)]),
-                    boundary,
-                );
+                self.displace((node, key.1), &alone(key), boundary);
             }
             let follower = plane.nodes.iter().find(|node| self.geometry.uses(**node));
-            if let Some(&follower) = follower.filter(|_| !boundary.contains_key(&key)) {
-                self.displace(
-                    key,
-                    &FreedomCoefficients::from([((follower, key.1), 1.0)]),
-                    boundary,
-                );
-            } else {
-                self.displace(key, &FreedomCoefficients::from([(key, 1.0)]), boundary);
-            }
+            let of = match follower.filter(|_| !boundary.contains_key(&key)) {
+                Some(&follower) => (follower, key.1),
+                None => key,
+            };
+            self.displace(key, &alone(of), boundary);
         }
         for key in boundary.keys() {
-            self.displace(*key, &FreedomCoefficients::from([(*key, 1.0)]), boundary);
+            self.displace(*key, &alone(*key), boundary);
         }
         for follows in &reduced.loose {
             self.displace(follows.key, &follows.of, boundary);

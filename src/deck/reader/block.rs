@@ -14,7 +14,7 @@ pub(super) struct BlockReader<'r, 't> {
 }
 
 /// A data line: its place and its values.
-type Row<'a> = (LinePlace, LineFields<'a>);
+type DataRow<'a> = (LinePlace, LineFields<'a>);
 
 impl<'r> BlockReader<'r, '_> {
     /// Counts the keyword among those that are understood.
@@ -51,18 +51,18 @@ impl<'r> BlockReader<'r, '_> {
     }
 
     /// The next data line.
-    pub(super) fn row(&mut self) -> Result<Option<Row<'_>>> {
+    pub(super) fn row(&mut self) -> Result<Option<DataRow<'_>>> {
         let line = self.source.next_data()?;
         Ok(line.map(|line| self.values(line)))
     }
 
-    fn values(&self, line: Line) -> Row<'_> {
+    fn values(&self, line: Line) -> DataRow<'_> {
         let at = self.keyword.at(self.source.file(line), line.place);
         (line.place, LineFields::new(self.source.bytes(line), at))
     }
 
     /// The next data line, which is required.
-    pub(super) fn one_row(&mut self, what: &str) -> Result<Row<'_>> {
+    pub(super) fn one_row(&mut self, what: &str) -> Result<DataRow<'_>> {
         match self.source.next_data()? {
             Some(line) => Ok(self.values(line)),
             None => Err(self.error(format!("a line with {what} should follow; give it"))),

@@ -115,19 +115,12 @@ pub(super) fn contact_pair(block: &mut BlockReader, properties: &mut Properties)
     }
     let interaction = block.require("INTERACTION")?.to_string();
     let adjust = match block.keyword.get("ADJUST") {
-        Some(text) => match text.parse::<f64>() {
-            Ok(distance) if distance >= 0.0 && distance.is_finite() => {
-                Some(Adjust::Within(distance))
-            }
-            Ok(_) => {
-                let why = format!(
-                    "ADJUST={text}: give a distance, 0 or more, or a set of nodes, or take it \
-                     out"
-                );
-                return Err(block.error(why));
-            }
-            Err(_) => Some(Adjust::Nodes(EntitySelection::Set(text.to_string()))),
-        },
+        Some(text) if text.parse::<f64>().is_ok() => {
+            let why = "give a distance, 0 or more, or a set of nodes, or take it out";
+            let within = distance(text).map(Adjust::Within);
+            Some(within.ok_or_else(|| block.error(format!("ADJUST={text}: {why}")))?)
+        }
+        Some(text) => Some(Adjust::Nodes(EntitySelection::Set(text.to_string()))),
         None => None,
     };
     for (place, [slave, master]) in block.pairs()? {
@@ -147,14 +140,16 @@ pub(super) fn contact_pair(block: &mut BlockReader, properties: &mut Properties)
     Ok(())
 }
 
+/// A distance that a parameter gives.
+fn distance(text: &str) -> Option<f64> {
+    let distance = text.parse().ok();
+    distance.filter(|distance: &f64| *distance >= 0.0 && distance.is_finite())
+}
+
 /// Reads a contact pair whose surfaces stay together. It is a tie of the slave nodes within the
 /// distance that `ADJUST` gives.
 fn tied_contact(block: &mut BlockReader, ties: &mut Vec<TiedPair>) -> Result<()> {
-    let distance = block
-        .keyword
-        .get("ADJUST")
-        .and_then(|text| text.parse().ok());
-    let Some(tolerance) = distance.filter(|d: &f64| *d >= 0.0 && d.is_finite()) else {
+    let Some(tolerance) = block.keyword.get("ADJUST").and_then(distance) else {
         let message = "TIED: give the distance within which nodes are tied, ADJUST=..., or a \
                        *TIE instead";
         return Err(block.error(message));
@@ -195,13 +190,10 @@ pub(super) fn tie(block: &mut BlockReader, ties: &mut Vec<TiedPair>) -> Result<(
     let known = "NAME POSITIONTOLERANCE ADJUST TYPE NOROTATION NOTHICKNESS";
     block.allow(known)?;
     let tolerance = match block.keyword.get("POSITIONTOLERANCE") {
-        Some(text) => match text.parse::<f64>() {
-            Ok(distance) if distance >= 0.0 && distance.is_finite() => Some(distance),
-            _ => {
-                let why = format!("POSITION TOLERANCE={text} must be a distance, 0 or more");
-                return Err(block.error(why));
-            }
-        },
+        Some(text) => {
+            let why = || format!("POSITION TOLERANCE={text} must be a distance, 0 or more");
+            Some(distance(text).ok_or_else(|| block.error(why()))?)
+        }
         None => None,
     };
     let is_moved = block.choice("ADJUST", &["YES", "NO"])? == "YES";

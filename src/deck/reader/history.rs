@@ -191,7 +191,7 @@ impl StepReader {
         Ok(Condition {
             amplitude,
             is_fixed,
-            ..Condition::new(kind, keyword.place)
+            ..Condition::of_keyword(kind, keyword.place)
         })
     }
 
@@ -222,13 +222,7 @@ impl StepReader {
             let (ranges, value) = freedoms(&mut row)?;
             row.end()?;
             for range in ranges {
-                self.add(Condition {
-                    on: on.clone(),
-                    range,
-                    value,
-                    place,
-                    ..common.clone()
-                });
+                self.add(common.line(on.clone(), range, value, place));
             }
         }
         Ok(())
@@ -247,13 +241,7 @@ impl StepReader {
                      and 6 of a reference node; heat flows do not"
                 )));
             }
-            self.add(Condition {
-                on,
-                range: [freedom; 2],
-                value,
-                place,
-                ..common.clone()
-            });
+            self.add(common.line(on, [freedom; 2], value, place));
         }
         Ok(())
     }
@@ -294,11 +282,7 @@ impl StepReader {
                     }
                     self.add(Condition {
                         kind: ConditionKind::Volume,
-                        on,
-                        range: [index; 2],
-                        value,
-                        place,
-                        ..common.clone()
+                        ..common.line(on, [index; 2], value, place)
                     });
                     continue;
                 }
@@ -306,13 +290,7 @@ impl StepReader {
             let face = face(&mut row, b'P')?;
             let value = row.number("the pressure")?;
             row.end()?;
-            self.add(Condition {
-                on,
-                range: [face; 2],
-                value,
-                place,
-                ..common.clone()
-            });
+            self.add(common.line(on, [face; 2], value, place));
         }
         Ok(())
     }
@@ -329,13 +307,7 @@ impl StepReader {
             }
             let value = row.number("the pressure")?;
             row.end()?;
-            self.add(Condition {
-                on,
-                range: [0; 2],
-                value,
-                place,
-                ..common.clone()
-            });
+            self.add(common.line(on, [0; 2], value, place));
         }
         Ok(())
     }
@@ -378,13 +350,7 @@ impl StepReader {
             let on = target(&mut row)?;
             let value = row.number("the temperature")?;
             row.end()?;
-            self.add(Condition {
-                on,
-                range: [1; 2],
-                value,
-                place,
-                ..common.clone()
-            });
+            self.add(common.line(on, [1; 2], value, place));
         }
         Ok(())
     }
@@ -393,7 +359,7 @@ impl StepReader {
         match block.keyword.get("TYPE").map(str::to_uppercase).as_deref() {
             Some("TEMPERATURE") => {
                 block.allow("TYPE")?;
-                let common = Condition::new(ConditionKind::Temperature, block.keyword.place);
+                let common = Condition::of_keyword(ConditionKind::Temperature, block.keyword.place);
                 return self.temperatures(block, common);
             }
             _ => block.refuse("bodies begin without stress and strain"),
