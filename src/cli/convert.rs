@@ -60,7 +60,7 @@ pub(super) fn run(arguments: &ConvertArguments) -> Result<()> {
         }
     }
     if is_heated {
-        let values = read.node_temperatures()?;
+        let values = deck::largest_changes(&read)?;
         gmsh::node_data::write("temperature", &values, &mut of_mesh).map_err(failed)?;
     }
     let mut text = format!("# Made from {} by brinell convert.\n", file_name(path));

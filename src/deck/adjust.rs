@@ -5,9 +5,10 @@
 //! into triangles; edges in the plane are straight.
 
 use super::Deck;
-use super::data::{Account, Adjust, ContactPair};
+use super::data::{Adjust, ContactPair, EntitySelection};
 use super::facets::Face;
-use super::sets::What;
+use super::mesh::DeckMesh;
+use super::sets::{Lookup, What};
 use crate::balls::Balls;
 use crate::number::exact;
 use crate::space::{Vector, along, cross, difference, dot, length};
@@ -15,77 +16,78 @@ use crate::space::{Vector, along, cross, difference, dot, length};
 /// Relative error of a coordinate of a deck, which a rotation may have rounded.
 const ROUND_OFF: f64 = 256.0 * f64::EPSILON;
 
-impl Deck {
-    /// Whether a contact has an interference: a negative clearance, or slave nodes behind the
-    /// master surface.
-    pub(super) fn any_interference(&self) -> bool {
-        let properties = &self.properties;
-        let is_behind = |pair: &ContactPair| {
-            let master = self.surface(&pair.master, (pair.place, "CONTACT PAIR"));
-            let (Ok(slaves), Ok(master)) = (self.slave_nodes(pair), master) else {
-                return false;
-            };
-            let surface = SurfacePieces::new(self, &master);
-            slaves.iter().any(|&node| {
-                let x = self.point(node as usize);
-                let (target, outward) = surface.nearest(x);
-                // Nodes that touch are behind the surface by the round-off of their coordinates.
-                let size = length(x).max(length(target)) * length(outward);
-                dot(difference(x, target), outward) < -ROUND_OFF * size
-            })
+/// Whether a contact has an interference: a negative clearance, or slave nodes behind the master
+/// surface.
+pub(super) fn any_interference(deck: &Deck) -> bool {
+    let (properties, mesh) = (&deck.properties, &deck.mesh);
+    let is_behind = |pair: &ContactPair| {
+        let Some((slaves, master)) = slaves_and_master(deck.lookup(), pair) else {
+            return false;
         };
-        let clearances = &properties.clearances;
-        let mut open = properties.contacts.iter().filter(|pair| !pair.is_closed);
-        clearances.iter().any(|clearance| clearance.value < 0.0) || open.any(is_behind)
-    }
+        slaves.iter().any(|&node| {
+            let x = mesh.point(node as usize);
+            let (target, outward) = master.nearest(x);
+            // Nodes that touch are behind the surface by the round-off of their coordinates.
+            let size = length(x).max(length(target)) * length(outward);
+            dot(difference(x, target), outward) < -ROUND_OFF * size
+        })
+    };
+    let clearances = &properties.clearances;
+    let mut open = properties.contacts.iter().filter(|pair| !pair.is_closed);
+    clearances.iter().any(|clearance| clearance.value < 0.0) || open.any(is_behind)
+}
 
-    /// Moves the nodes of all contact pairs that ask for it. An undefined name is reported later,
-    /// when the pair is used.
-    pub(super) fn adjust(&mut self) {
-        for number in 0..self.properties.contacts.len() {
-            let pair = self.properties.contacts[number].clone();
-            let Some(adjust) = &pair.adjust else { continue };
-            let at = (pair.place, "CONTACT PAIR");
-            let master = self.surface(&pair.master, at);
-            let (Ok(nodes), Ok(master)) = (self.slave_nodes(&pair), master) else {
+/// The slave nodes and the master surface of a contact pair; `None` if a name is undefined, which
+/// is reported when the pair is used.
+fn slaves_and_master(lookup: Lookup, pair: &ContactPair) -> Option<(Vec<u32>, SurfacePieces)> {
+    let slaves = lookup.slave_nodes(pair).ok()?;
+    let master = lookup.surface(&pair.master, (pair.place, "CONTACT PAIR"));
+    Some((slaves, SurfacePieces::new(lookup.mesh, &master.ok()?)))
+}
+
+/// Moves the nodes of all contact pairs that ask for it.
+pub(super) fn adjust(deck: &mut Deck) {
+    for number in 0..deck.properties.contacts.len() {
+        let pair = deck.properties.contacts[number].clone();
+        let Some(adjust) = &pair.adjust else { continue };
+        let Some((nodes, master)) = slaves_and_master(deck.lookup(), &pair) else {
+            continue;
+        };
+        let at = (pair.place, "CONTACT PAIR");
+        let chosen = match adjust {
+            Adjust::Within(_) => Ok(nodes.clone()),
+            Adjust::Nodes(set) => deck.lookup().indices(What::Nodes, set, at),
+        };
+        let Ok(chosen) = chosen else { continue };
+        let (mut n_moved, mut farthest) = (0, 0.0f64);
+        for &node in nodes
+            .iter()
+            .filter(|node| chosen.binary_search(node).is_ok())
+        {
+            let x = deck.mesh.point(node as usize);
+            let (target, outward) = master.nearest(x);
+            let off = difference(x, target);
+            let distance = length(off);
+            // A node inside the other body moves, however deep it is.
+            let is_apart = dot(off, outward) >= 0.0;
+            if matches!(adjust, Adjust::Within(most) if is_apart && distance > *most) {
                 continue;
-            };
-            let chosen = match adjust {
-                Adjust::Within(_) => Ok(nodes.clone()),
-                Adjust::Nodes(set) => self.indices(What::Nodes, set, at),
-            };
-            let Ok(chosen) = chosen else { continue };
-            let surface = SurfacePieces::new(self, &master);
-            let (mut n_moved, mut farthest) = (0, 0.0f64);
-            for &node in nodes
-                .iter()
-                .filter(|node| chosen.binary_search(node).is_ok())
-            {
-                let x = self.point(node as usize);
-                let (target, outward) = surface.nearest(x);
-                let off = difference(x, target);
-                let distance = length(off);
-                // A node inside the other body moves, however deep it is.
-                let is_apart = dot(off, outward) >= 0.0;
-                if matches!(adjust, Adjust::Within(most) if is_apart && distance > *most) {
-                    continue;
-                }
-                n_moved += 1;
-                farthest = farthest.max(distance);
-                self.nodes.coordinates[3 * node as usize..][..3].copy_from_slice(&target);
             }
-            self.properties.contacts[number].is_closed = n_moved == nodes.len();
-            let text = format!(
-                "ADJUST={}: {n_moved} of the {} nodes of {} are moved onto {}, by {} at most",
-                adjust.written(),
-                nodes.len(),
-                pair.slave,
-                pair.master,
-                exact(farthest)
-            );
-            let list = &mut self.account.taken;
-            Account::add(list, &self.files, pair.place, "CONTACT PAIR", &text);
+            n_moved += 1;
+            farthest = farthest.max(distance);
+            deck.mesh.nodes.coordinates[3 * node as usize..][..3].copy_from_slice(&target);
         }
+        deck.properties.contacts[number].is_closed = n_moved == nodes.len();
+        let text = format!(
+            "ADJUST={}: {n_moved} of the {} nodes of {} are moved onto {}, by {} at most",
+            adjust.written(),
+            nodes.len(),
+            pair.slave,
+            pair.master,
+            exact(farthest)
+        );
+        deck.account
+            .take(&deck.files, pair.place, "CONTACT PAIR", &text);
     }
 }
 
@@ -93,9 +95,9 @@ impl Adjust {
     fn written(&self) -> String {
         match self {
             Adjust::Within(distance) => exact(*distance).to_string(),
-            Adjust::Nodes(super::data::EntitySelection::Set(name)) => name.clone(),
-            Adjust::Nodes(super::data::EntitySelection::Label(label)) => label.to_string(),
-            Adjust::Nodes(super::data::EntitySelection::All) => "all".to_string(),
+            Adjust::Nodes(EntitySelection::Set(name)) => name.clone(),
+            Adjust::Nodes(EntitySelection::Label(label)) => label.to_string(),
+            Adjust::Nodes(EntitySelection::All) => "all".to_string(),
         }
     }
 }
@@ -108,14 +110,10 @@ pub(super) struct SurfacePieces {
 }
 
 impl SurfacePieces {
-    pub(super) fn new(deck: &Deck, faces: &[Face]) -> Self {
+    pub(super) fn new(mesh: &DeckMesh, faces: &[Face]) -> Self {
         let mut corners = Vec::new();
-        for &(element, local) in faces {
-            let shape = deck.shape(element as usize);
-            let n = shape.facet_reference(local as usize).n_corners;
-            let nodes = deck.element_nodes(element as usize);
-            let own = &shape.facet(local as usize)[..n];
-            let x: Vec<Vector> = own.iter().map(|&k| deck.point(nodes[k] as usize)).collect();
+        for &face in faces {
+            let x = mesh.corner_points(face);
             match x[..] {
                 [a, b] => corners.push([a, b, b]),
                 [a, b, c] => corners.push([a, b, c]),

@@ -1,12 +1,11 @@
 //! Assignment of elements to bodies: the connected parts of each section.
 
 use super::Deck;
-use super::data::{EntitySelection, Member};
-use super::sets::What;
+use super::data::{EntitySelection, Member, Section};
+use super::sets::{At, Lookup, What};
 use super::source::LinePlace;
 use crate::classes::Classes;
 use crate::error::{Error, Result};
-use crate::space::Space;
 use std::collections::{BTreeMap, HashMap};
 
 /// The bodies of a deck.
@@ -22,38 +21,19 @@ pub(crate) struct Bodies {
 /// Marks an element without a section.
 const NONE: u32 = u32::MAX;
 
-impl Deck {
-    /// The dimension and idealisation common to all elements.
-    ///
-    /// # Errors
-    /// `Input` if there are no elements, or at the first element whose kind differs from that of
-    /// the first one.
-    pub(crate) fn space(&self) -> Result<Space> {
-        let Some(first) = self.elements.types.first() else {
-            return Err(self.error(self.end, "ELEMENT", "the deck has no elements"));
-        };
-        let types = &self.elements.types;
-        match types.iter().position(|other| other.space != first.space) {
-            Some(other) => {
-                let message = format!(
-                    "elements {} after others {}: a model is of plane strain (CPE), of plane \
-                     stress (CPS), axisymmetric (CAX) or solid (C3D): give types of one kind",
-                    types[other].name(),
-                    first.name()
-                );
-                Err(self.error(self.elements.places[other], "ELEMENT", message))
-            }
-            None => Ok(first.space),
-        }
-    }
-
+impl Bodies {
     /// The bodies of the deck, in the order of their first elements.
     ///
     /// # Errors
     /// `Input` if an element is in no section or in two.
-    pub(crate) fn bodies(&self) -> Result<Bodies> {
-        let section_of = self.section_of_elements()?;
-        let part_of = self.parts(&section_of);
+    pub(crate) fn of(deck: &Deck) -> Result<Bodies> {
+        let assignment = Assignment {
+            lookup: deck.lookup(),
+            sections: &deck.properties.sections,
+            end: deck.end,
+        };
+        let section_of = assignment.section_of_elements()?;
+        let part_of = assignment.parts(&section_of);
         let mut out = Bodies::default();
         // The number of the body, by section and part.
         let mut known: BTreeMap<(u32, u32), u32> = BTreeMap::new();
@@ -66,25 +46,37 @@ impl Deck {
             }
             out.of_element.push(body);
         }
-        out.names = self.body_names(&sections, &out.of_element)?;
-        self.name_by_instances(&mut out);
-        let has_sections = !self.properties.sections.is_empty();
+        out.names = assignment.body_names(&sections, &out.of_element)?;
+        assignment.name_by_instances(&mut out);
+        let has_sections = !assignment.sections.is_empty();
         let section = |section: &u32| has_sections.then_some(*section as usize);
         out.sections = sections.iter().map(section).collect();
         Ok(out)
     }
+}
 
+/// The assignment of elements to bodies.
+struct Assignment<'d> {
+    lookup: Lookup<'d>,
+    sections: &'d [Section],
+    /// Place of the end of the deck.
+    end: LinePlace,
+}
+
+impl Assignment<'_> {
     /// The section of each element. In a deck without sections, the number of the first element set
     /// that contains the element. A set of `*ELEMENT` gives way to one of `*ELSET` with the same
     /// elements: a mesher names parts of the geometry by the former, and its groups by the latter.
     fn section_of_elements(&self) -> Result<Vec<u32>> {
-        let mut out = vec![NONE; self.n_elements()];
-        if self.properties.sections.is_empty() {
+        let mut out = vec![NONE; self.lookup.mesh.n_elements()];
+        if self.sections.is_empty() {
             let mut groups: HashMap<Vec<u32>, u32> = HashMap::new();
             let mut all = Vec::new();
-            for (number, (name, members)) in self.sets.elements.iter().enumerate() {
+            for (number, (name, members)) in self.lookup.sets.elements.iter().enumerate() {
                 let set = EntitySelection::Set(name.to_string());
-                let elements = self.indices(What::Elements, &set, (self.end, "ELSET"))?;
+                let elements = self
+                    .lookup
+                    .indices(What::Elements, &set, (self.end, "ELSET"))?;
                 let is_row = |(member, _): &(Member, LinePlace)| matches!(member, Member::Rows(..));
                 if !members.iter().all(is_row) {
                     groups.entry(elements.clone()).or_insert(number as u32);
@@ -101,29 +93,47 @@ impl Deck {
             }
             return Ok(out);
         }
-        for (number, section) in self.properties.sections.iter().enumerate() {
+        for (number, section) in self.sections.iter().enumerate() {
             let at = (section.place, "SOLID SECTION");
             let set = EntitySelection::Set(section.elements.clone());
-            self.refuse_boundary_section(&set, at)?;
-            for element in self.indices(What::Elements, &set, at)? {
+            self.refuse_boundary(&set, at)?;
+            for element in self.lookup.indices(What::Elements, &set, at)? {
                 if out[element as usize] != NONE {
-                    let label = self.element_name(element as usize);
+                    let label = self.lookup.mesh.element_name(element as usize);
                     let message = format!("element {label} is in another section too: give it one");
-                    return Err(self.error(at.0, at.1, message));
+                    return Err(self.lookup.error(at, message));
                 }
                 out[element as usize] = number as u32;
             }
         }
         match out.iter().position(|section| *section == NONE) {
             Some(element) => {
-                let label = self.element_name(element);
+                let label = self.lookup.mesh.element_name(element);
                 let message = format!(
                     "element {label} is in no *SOLID SECTION: give its set one, with a material"
                 );
-                Err(self.error(self.elements.places[element], "ELEMENT", message))
+                let place = self.lookup.mesh.elements.places[element];
+                Err(self.lookup.error((place, "ELEMENT"), message))
             }
             None => Ok(out),
         }
+    }
+
+    /// Refuses boundary elements to which a section would give a stiffness.
+    ///
+    /// # Errors
+    /// `Unsupported`, at the section.
+    fn refuse_boundary(&self, set: &EntitySelection, at: At) -> Result<()> {
+        let Some(&line) = self.lookup.boundary_of(set).first() else {
+            return Ok(());
+        };
+        let message = format!(
+            "element {} ({}) is a truss, a beam, or plane beside solids: a section would give it \
+             a stiffness, which brinell does not have",
+            self.lookup.mesh.instances.shown(line),
+            self.lookup.boundary.types()
+        );
+        Err(unsupported(self.lookup.error(at, message)))
     }
 
     /// A number for each element, shared by all elements of its section to which it is connected
@@ -132,11 +142,11 @@ impl Deck {
         let mut classes = Classes::new(section_of.len());
         // For each node its first section and an element of it; the few nodes in several sections
         // are kept separately.
-        let mut first = vec![(NONE, NONE); self.n_nodes()];
+        let mut first = vec![(NONE, NONE); self.lookup.mesh.n_nodes()];
         let mut others: HashMap<(u32, u32), u32> = HashMap::new();
         for (element, &section) in section_of.iter().enumerate() {
             let element = element as u32;
-            for &node in self.element_nodes(element as usize) {
+            for &node in self.lookup.mesh.element_nodes(element as usize) {
                 let (of, other) = &mut first[node as usize];
                 if *other == NONE {
                     (*of, *other) = (section, element);
@@ -156,20 +166,21 @@ impl Deck {
 
     /// Names each body that is a whole instance of a part after the instance.
     fn name_by_instances(&self, bodies: &mut Bodies) {
-        let n = self.instances.names().len();
+        let (elements, instances) = (&self.lookup.mesh.elements, &self.lookup.mesh.instances);
+        let n = instances.names().len();
         if n == 0 {
             return;
         }
         // For each body its instance, and for each instance its number of bodies.
         let mut of_body = vec![None; bodies.names.len()];
         for (element, &body) in bodies.of_element.iter().enumerate().rev() {
-            of_body[body as usize] = self.instances.of(self.elements.labels[element]);
+            of_body[body as usize] = instances.of(elements.labels[element]);
         }
         let mut n_bodies = vec![0; n];
         (of_body.iter().flatten()).for_each(|&instance: &usize| n_bodies[instance] += 1);
         for (name, instance) in bodies.names.iter_mut().zip(of_body) {
             if let Some(instance) = instance.filter(|&instance| n_bodies[instance] == 1) {
-                name.clone_from(&self.instances.names()[instance]);
+                name.clone_from(&instances.names()[instance]);
             }
         }
     }
@@ -178,9 +189,11 @@ impl Deck {
     /// is the whole set, otherwise after an element set that is exactly the body, otherwise with a
     /// number appended.
     fn body_names(&self, sections: &[u32], of_element: &[u32]) -> Result<Vec<String>> {
-        let of_section = |section: u32| match self.properties.sections.get(section as usize) {
+        let of_section = |section: u32| match self.sections.get(section as usize) {
             Some(section) => section.elements.as_str(),
-            None => (self.sets.elements.iter().nth(section as usize)).map_or("body", |set| set.0),
+            None => {
+                (self.lookup.sets.elements.iter().nth(section as usize)).map_or("body", |set| set.0)
+            }
         };
         let mut parts: BTreeMap<u32, usize> = BTreeMap::new();
         let numbers = sections.iter().map(|section| {
@@ -195,7 +208,12 @@ impl Deck {
         }
         let name = |(body, section): (usize, &u32)| {
             let of_section = of_section(*section);
-            let name = self.sets.elements.written(of_section).unwrap_or(of_section);
+            let name = self
+                .lookup
+                .sets
+                .elements
+                .written(of_section)
+                .unwrap_or(of_section);
             match own.get(&(body as u32)) {
                 _ if parts[section] == 1 => name.to_string(),
                 Some(own) => own.clone(),
@@ -216,12 +234,14 @@ impl Deck {
             .iter()
             .for_each(|&body| sizes[body as usize] += 1);
         let mut out = BTreeMap::new();
-        for (name, members) in self.sets.elements.iter() {
+        for (name, members) in self.lookup.sets.elements.iter() {
             let Some((_, place)) = members.first() else {
                 continue;
             };
             let set = EntitySelection::Set(name.to_string());
-            let elements = self.indices(What::Elements, &set, (*place, "ELSET"))?;
+            let elements = self
+                .lookup
+                .indices(What::Elements, &set, (*place, "ELSET"))?;
             let Some(&first) = elements.first() else {
                 continue;
             };

@@ -5,16 +5,22 @@
 //!
 //! Boundary elements have no stiffness here. A deck that gives them a section is refused.
 
-use super::Deck;
-use super::bodies::unsupported;
-use super::data::{EntitySelection, Member};
+use super::data::{EntitySelection, Member, Members, Named};
 use super::facets::Face;
 use super::keyword::plain;
-use super::sets::At;
+use super::mesh::{DeckElements, DeckMesh};
 use super::source::LinePlace;
-use crate::error::Result;
 use crate::space::Space;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Boundary elements by their numbers: lines and shells, and plane elements in a mesh with solids.
+#[derive(Debug, Clone, Default)]
+pub(super) struct BoundaryElements {
+    /// Nodes of each boundary element, as numbered in the deck.
+    nodes: BTreeMap<u64, Vec<u64>>,
+    /// Place at which each type is named first.
+    types: BTreeMap<String, LinePlace>,
+}
 
 /// The number of nodes of a type of lines or shells, which are boundary elements unless a section
 /// gives them stiffness.
@@ -30,11 +36,38 @@ pub(super) fn nodes_of_boundary(name: &str) -> Option<usize> {
     }
 }
 
-impl Deck {
-    /// Turns plane elements in a mesh with solids into boundary elements. Returns the first element
-    /// of each type.
-    pub(super) fn take_faces_of_solids(&mut self) -> Vec<(String, LinePlace)> {
-        let elements = &self.elements;
+impl BoundaryElements {
+    pub(super) fn add(&mut self, label: u64, nodes: Vec<u64>) {
+        self.nodes.insert(label, nodes);
+    }
+
+    pub(super) fn note_type(&mut self, name: &str, place: LinePlace) {
+        self.types.entry(name.to_string()).or_insert(place);
+    }
+
+    /// Names of the types, for messages.
+    pub(super) fn types(&self) -> String {
+        let types: Vec<&str> = self.types.keys().map(String::as_str).collect();
+        types.join(", ")
+    }
+
+    pub(super) fn has(&self, label: u64) -> bool {
+        self.nodes.contains_key(&label)
+    }
+
+    /// The boundary elements with a number in the range `[first, last, step]`.
+    pub(super) fn in_range(&self, [first, last, step]: [u64; 3]) -> impl Iterator<Item = u64> {
+        let between = self.nodes.range(first..=last).map(|(label, _)| *label);
+        between.filter(move |label| (label - first).is_multiple_of(step))
+    }
+
+    /// Turns plane elements in a mesh with solids into boundary elements, in the sets of elements
+    /// too. Returns the first element of each type.
+    pub(super) fn take_faces_of_solids(
+        &mut self,
+        elements: &mut DeckElements,
+        sets: &mut Named<Members>,
+    ) -> Vec<(String, LinePlace)> {
         let is_face: Vec<bool> = (elements.types.iter())
             .map(|of| of.space != Space::Solid)
             .collect();
@@ -44,10 +77,10 @@ impl Deck {
         let mut found: Vec<(String, LinePlace)> = Vec::new();
         for element in (0..is_face.len()).filter(|&element| is_face[element]) {
             let nodes = &elements.nodes[elements.offsets[element]..elements.offsets[element + 1]];
-            self.boundary.add(elements.labels[element], nodes.to_vec());
+            self.add(elements.labels[element], nodes.to_vec());
             let name = elements.types[element].name();
             if found.iter().all(|(known, _)| *known != name) {
-                self.boundary.note_type(&name, elements.places[element]);
+                self.note_type(&name, elements.places[element]);
                 found.push((name, elements.places[element]));
             }
         }
@@ -57,7 +90,7 @@ impl Deck {
             kept[element + 1] = kept[element] + usize::from(!is_face[element]);
         }
         let labels = &elements.labels;
-        self.sets.elements.for_each(|members| {
+        sets.for_each(|members| {
             let old = std::mem::take(members);
             for (member, place) in old {
                 match member {
@@ -72,49 +105,45 @@ impl Deck {
                 }
             }
         });
-        self.elements.retain(|element| !is_face[element]);
+        elements.retain(|element| !is_face[element]);
         found
     }
 
-    /// The boundary elements in a set of elements.
-    pub(super) fn boundary_of(&self, target: &EntitySelection) -> BTreeSet<u64> {
+    /// The boundary elements in one of the sets of elements.
+    pub(super) fn among(&self, sets: &Named<Members>, target: &EntitySelection) -> BTreeSet<u64> {
         let mut out = BTreeSet::new();
-        if !self.boundary.nodes.is_empty() {
-            self.collect_boundary(target, &mut BTreeSet::new(), &mut out);
+        if !self.nodes.is_empty() {
+            self.collect(sets, target, &mut BTreeSet::new(), &mut out);
         }
         out
     }
 
-    fn collect_boundary(
+    fn collect(
         &self,
+        sets: &Named<Members>,
         target: &EntitySelection,
         seen: &mut BTreeSet<String>,
         out: &mut BTreeSet<u64>,
     ) {
         let name = match target {
             EntitySelection::Label(label) => {
-                out.extend(Some(*label).filter(|label| self.boundary.has(*label)));
+                out.extend(Some(*label).filter(|label| self.has(*label)));
                 return;
             }
             EntitySelection::Set(name) => name,
             EntitySelection::All => {
-                out.extend(self.boundary.nodes.keys());
+                out.extend(self.nodes.keys());
                 return;
             }
         };
         if !seen.insert(name.to_uppercase()) {
             return;
         }
-        for (member, _) in self.sets.elements.get(name).into_iter().flatten() {
+        for (member, _) in sets.get(name).into_iter().flatten() {
             match member {
-                Member::Of(target) => self.collect_boundary(target, seen, out),
+                Member::Of(target) => self.collect(sets, target, seen, out),
                 Member::Range(first, last, step) => {
-                    let between = self
-                        .boundary
-                        .nodes
-                        .range(first..=last)
-                        .map(|(label, _)| *label);
-                    out.extend(between.filter(|label| (label - first).is_multiple_of(*step)));
+                    out.extend(self.in_range([*first, *last, *step]))
                 }
                 Member::Rows(..) | Member::NodesOf(_) => {}
             }
@@ -122,31 +151,26 @@ impl Deck {
     }
 
     /// The nodes of the given boundary elements.
-    pub(super) fn nodes_of_boundary(&self, lines: &BTreeSet<u64>) -> Vec<u32> {
-        let nodes = lines.iter().flat_map(|label| &self.boundary.nodes[label]);
-        nodes
-            .filter_map(|node| self.node_index.get(*node))
-            .collect()
+    pub(super) fn nodes_of(&self, lines: &BTreeSet<u64>, mesh: &DeckMesh) -> Vec<u32> {
+        let nodes = lines.iter().flat_map(|label| &self.nodes[label]);
+        let index = |node: &u64| mesh.node_index.get(*node);
+        nodes.filter_map(index).collect()
     }
 
     /// The faces of elements on which the given boundary elements lie.
-    pub(super) fn faces_of_boundary(&self, lines: &BTreeSet<u64>) -> Vec<Face> {
+    pub(super) fn faces_of(&self, lines: &BTreeSet<u64>, mesh: &DeckMesh) -> Vec<Face> {
         if lines.is_empty() {
             return Vec::new();
         }
         let mut lines_at: HashMap<u32, Vec<u64>> = HashMap::new();
         for label in lines {
-            let nodes = self.boundary.nodes[label].iter();
-            for node in nodes.filter_map(|node| self.node_index.get(*node)) {
+            let nodes = self.nodes[label].iter();
+            for node in nodes.filter_map(|node| mesh.node_index.get(*node)) {
                 lines_at.entry(node).or_default().push(*label);
             }
         }
-        let on_one = |&(element, local): &Face| {
-            let shape = self.elements.types[element as usize].shape;
-            let n = shape.facet_reference(local as usize).n_corners;
-            let corners = shape.facet(local as usize)[..n].iter();
-            let nodes = self.element_nodes(element as usize);
-            let mut at = corners.map(|&corner| lines_at.get(&nodes[corner]));
+        let on_one = |&face: &Face| {
+            let mut at = mesh.corners(face).map(|corner| lines_at.get(&corner));
             let first = at.next().flatten();
             first.is_some_and(|first| {
                 let rest: Vec<_> = at.collect();
@@ -154,26 +178,8 @@ impl Deck {
                 first.iter().any(all)
             })
         };
-        let mut faces = self.free_faces_among(self.nodes_of_boundary(lines));
+        let mut faces = mesh.free_faces_among(self.nodes_of(lines, mesh));
         faces.retain(on_one);
         faces
-    }
-
-    /// Refuses boundary elements to which a section would give a stiffness.
-    ///
-    /// # Errors
-    /// `Unsupported`, at the section.
-    pub(super) fn refuse_boundary_section(&self, set: &EntitySelection, at: At) -> Result<()> {
-        let Some(&line) = self.boundary_of(set).first() else {
-            return Ok(());
-        };
-        let types: Vec<&str> = self.boundary.types.keys().map(String::as_str).collect();
-        let message = format!(
-            "element {} ({}) is a truss, a beam, or plane beside solids: a section would give it \
-             a stiffness, which brinell does not have",
-            self.instances.shown(line),
-            types.join(", ")
-        );
-        Err(unsupported(self.error(at.0, at.1, message)))
     }
 }

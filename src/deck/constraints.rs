@@ -1,9 +1,8 @@
 //! Equations that hold a surface plane, and local axes of nodes.
 
-use super::Deck;
-use super::data::{LinearEquation, Transform};
-use super::history::Key;
-use super::sets::What;
+use super::data::{EntitySelection, LinearEquation, Transform};
+use super::facets::Key;
+use super::sets::{Lookup, What};
 use super::source::LinePlace;
 use crate::error::Result;
 use crate::space::{Vector, along, cross, difference, direction, dot, length};
@@ -19,17 +18,20 @@ pub(super) struct HeldPlane {
     pub(super) place: LinePlace,
 }
 
-impl Deck {
+impl HeldPlane {
     /// Separates the equations that hold nodes plane, `u_i - u_leader = 0` along one axis, from all
     /// other equations.
     ///
     /// # Errors
     /// `Input` for names and numbers that are not defined.
-    pub(super) fn held_planes(&self) -> Result<(Vec<HeldPlane>, Vec<&LinearEquation>)> {
+    pub(super) fn among<'e>(
+        equations: &'e [LinearEquation],
+        lookup: Lookup,
+    ) -> Result<(Vec<HeldPlane>, Vec<&'e LinearEquation>)> {
         let mut out: BTreeMap<Key, HeldPlane> = BTreeMap::new();
         let mut others = Vec::new();
-        for equation in &self.properties.equations {
-            let Some((leader, followers)) = self.follows(equation)? else {
+        for equation in equations {
+            let Some((leader, followers)) = equation.leader_and_followers(lookup)? else {
                 others.push(equation);
                 continue;
             };
@@ -47,45 +49,49 @@ impl Deck {
         }
         Ok((planes, others))
     }
+}
 
+impl LinearEquation {
     /// The leading node with its axis, and the nodes that follow, if the equation has this simple
     /// form.
-    fn follows(&self, equation: &LinearEquation) -> Result<Option<(Key, Vec<u32>)>> {
-        let [(of, freedom, a), (to, other, b)] = &equation.terms[..] else {
+    fn leader_and_followers(&self, lookup: Lookup) -> Result<Option<(Key, Vec<u32>)>> {
+        let [(of, freedom, a), (to, other, b)] = &self.terms[..] else {
             return Ok(None);
         };
         if freedom != other || *a != -*b || *a == 0.0 || !(1..=3).contains(freedom) {
             return Ok(None);
         }
-        let at = (equation.place, "EQUATION");
-        let followers = self.indices(What::Nodes, of, at)?;
-        match self.indices(What::Nodes, to, at)?[..] {
+        let at = (self.place, "EQUATION");
+        let followers = lookup.indices(What::Nodes, of, at)?;
+        match lookup.indices(What::Nodes, to, at)?[..] {
             [leader] => Ok(Some(((leader, *freedom as u8 - 1), followers))),
             _ => Ok(None),
         }
     }
+}
 
-    /// Local axes of the nodes for which the deck defines some.
-    ///
-    /// # Errors
-    /// `Input` for points that define no axes, and for names that are not defined.
-    pub(super) fn local_axes(&self) -> Result<BTreeMap<u32, [Vector; 3]>> {
-        let mut out = BTreeMap::new();
-        for transform in &self.properties.transforms {
-            let at = (transform.place, "TRANSFORM");
-            let set = super::data::EntitySelection::Set(transform.nodes.clone());
-            for node in self.indices(What::Nodes, &set, at)? {
-                let x = self.point(node as usize);
-                let axes = axes_at(transform, x).ok_or_else(|| {
-                    let label = self.node_name(node as usize);
-                    let message = format!("the points give node {label} no axes");
-                    self.error(at.0, at.1, message)
-                })?;
-                out.insert(node, axes);
-            }
+/// Local axes of nodes, by node.
+pub(super) type LocalAxes = BTreeMap<u32, [Vector; 3]>;
+
+/// Local axes of the nodes for which the deck defines some.
+///
+/// # Errors
+/// `Input` for points that define no axes, and for names that are not defined.
+pub(super) fn local_axes(transforms: &[Transform], lookup: Lookup) -> Result<LocalAxes> {
+    let mut out = LocalAxes::new();
+    for transform in transforms {
+        let at = (transform.place, "TRANSFORM");
+        let set = EntitySelection::Set(transform.nodes.clone());
+        for node in lookup.indices(What::Nodes, &set, at)? {
+            let x = lookup.mesh.point(node as usize);
+            let axes = axes_at(transform, x).ok_or_else(|| {
+                let label = lookup.mesh.node_name(node as usize);
+                lookup.error(at, format!("the points give node {label} no axes"))
+            })?;
+            out.insert(node, axes);
         }
-        Ok(out)
     }
+    Ok(out)
 }
 
 /// The axes at a point. Cartesian: along the first vector, perpendicular to it in the plane of both

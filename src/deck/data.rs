@@ -1,49 +1,10 @@
 //! Contents of a deck, keyword by keyword: names and numbers as they are written, each with its
 //! place.
 
-use super::element_type::ElementType;
 use super::expansion::Expansion;
 use super::source::{Files, LinePlace};
 use crate::scene::{ResultItem, Totals};
 use std::collections::BTreeMap;
-
-/// Nodes of a deck, in the order of the deck.
-#[derive(Debug, Clone, Default)]
-pub(super) struct Nodes {
-    pub(super) labels: Vec<u64>,
-    /// Coordinates, three per node.
-    pub(super) coordinates: Vec<f64>,
-    pub(super) places: Vec<LinePlace>,
-}
-
-/// Elements of a deck, in the order of the deck.
-#[derive(Debug, Clone, Default)]
-pub(super) struct DeckElements {
-    pub(super) labels: Vec<u64>,
-    pub(super) types: Vec<ElementType>,
-    /// Index in `nodes` at which each element's nodes begin, followed by the end of the last
-    /// element's nodes.
-    pub(super) offsets: Vec<usize>,
-    /// Numbers of the nodes of all elements, one element after the other.
-    pub(super) nodes: Vec<u64>,
-    pub(super) places: Vec<LinePlace>,
-}
-
-impl DeckElements {
-    /// Keeps only the elements that are wanted, selected by index.
-    pub(super) fn retain(&mut self, wanted: impl Fn(usize) -> bool) {
-        let old = std::mem::take(self);
-        self.offsets.push(0);
-        for element in (0..old.labels.len()).filter(|&element| wanted(element)) {
-            self.labels.push(old.labels[element]);
-            self.types.push(old.types[element]);
-            self.places.push(old.places[element]);
-            let nodes = &old.nodes[old.offsets[element]..old.offsets[element + 1]];
-            self.nodes.extend_from_slice(nodes);
-            self.offsets.push(self.nodes.len());
-        }
-    }
-}
 
 /// A named set or surface, a single node or element by its number, or all of them.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -203,6 +164,13 @@ pub(super) struct ContactPair {
     pub(super) place: LinePlace,
 }
 
+impl ContactPair {
+    /// Whether the pair is of these surfaces.
+    pub(super) fn is_of(&self, slave: &str, master: &str) -> bool {
+        self.slave.eq_ignore_ascii_case(slave) && self.master.eq_ignore_ascii_case(master)
+    }
+}
+
 /// Two surfaces that are tied together.
 #[derive(Debug, Clone)]
 pub(super) struct TiedPair {
@@ -346,6 +314,38 @@ pub(super) struct Condition {
     pub(super) place: LinePlace,
 }
 
+impl Condition {
+    /// What lines of a keyword have in common.
+    pub(super) fn of_keyword(kind: ConditionKind, place: LinePlace) -> Self {
+        Condition {
+            kind,
+            on: EntitySelection::All,
+            range: [1; 2],
+            value: 0.0,
+            amplitude: None,
+            is_fixed: false,
+            place,
+        }
+    }
+
+    /// The condition of a line.
+    pub(super) fn line(
+        &self,
+        on: EntitySelection,
+        range: [usize; 2],
+        value: f64,
+        place: LinePlace,
+    ) -> Self {
+        Condition {
+            on,
+            range,
+            value,
+            place,
+            ..self.clone()
+        }
+    }
+}
+
 /// A contact pair that a step switches on or off.
 #[derive(Debug, Clone)]
 pub(super) struct ContactChange {
@@ -464,22 +464,30 @@ pub struct Account {
 }
 
 impl Account {
-    /// Adds a remark to one of the lists, unless the list has a remark with the same keyword and
-    /// text.
-    pub(super) fn add(
-        list: &mut Vec<Note>,
-        files: &Files,
-        place: LinePlace,
-        key: &str,
-        text: &str,
-    ) {
-        let is_there = |note: &Note| note.keyword == key && note.text == text;
-        if !list.iter().any(is_there) {
-            list.push(Note {
-                place: files.show(place),
-                keyword: key.to_string(),
-                text: text.to_string(),
-            });
-        }
+    /// Adds a remark on data that brinell interprets differently.
+    pub(super) fn take(&mut self, files: &Files, place: LinePlace, key: &str, text: &str) {
+        add(&mut self.taken, files, place, key, text);
+    }
+
+    /// Adds a remark on data that have no effect here.
+    pub(super) fn ignore(&mut self, files: &Files, place: LinePlace, key: &str, text: &str) {
+        add(&mut self.ignored, files, place, key, text);
+    }
+
+    /// Adds a remark on data that ask for effects that brinell does not have.
+    pub(super) fn refuse(&mut self, files: &Files, place: LinePlace, key: &str, text: &str) {
+        add(&mut self.refused, files, place, key, text);
+    }
+}
+
+/// Adds a remark to a list, unless the list has a remark with the same keyword and text.
+fn add(list: &mut Vec<Note>, files: &Files, place: LinePlace, key: &str, text: &str) {
+    let is_there = |note: &Note| note.keyword == key && note.text == text;
+    if !list.iter().any(is_there) {
+        list.push(Note {
+            place: files.show(place),
+            keyword: key.to_string(),
+            text: text.to_string(),
+        });
     }
 }

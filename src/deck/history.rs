@@ -9,11 +9,10 @@
 //! steps.
 
 use super::Deck;
-use super::bodies::unsupported;
-use super::data::{Amplitude, Condition, ConditionKind, DeckStep, EntitySelection};
-use super::facets::Face;
+use super::data::{Amplitude, ConditionKind, DeckProgram, DeckStep};
+use super::facets::Key;
+use super::linear::FreedomCoefficients;
 use super::series::Series;
-use super::sets::What;
 use super::source::LinePlace;
 use crate::error::Result;
 use crate::interpolation::interpolate;
@@ -23,9 +22,6 @@ use std::collections::BTreeMap;
 /// Relative difference, between the end of a step and the beginning of the next, above which a
 /// value counts as jumping.
 const JUMP: f64 = 1e-9;
-
-/// A node and its degree of freedom counted from 0, or an element and its local facet.
-pub(super) type Key = Face;
 
 /// The history of one key.
 #[derive(Debug, Clone)]
@@ -65,6 +61,17 @@ pub(super) struct GivenDisplacements {
 /// Histories by key.
 pub(super) type Map = BTreeMap<Key, KeyHistory>;
 
+/// The sum of known displacements multiplied by coefficients.
+pub(super) fn sum_of(terms: &FreedomCoefficients, known: &Map) -> Series {
+    let mut sum = Series::starting(0.0);
+    for (key, c) in terms {
+        if let Some(entry) = known.get(key) {
+            sum.add(&entry.series, *c);
+        }
+    }
+    sum
+}
+
 /// The time interval of a step.
 struct Interval {
     start: f64,
@@ -81,22 +88,11 @@ struct StepGiven<'d> {
     place: LinePlace,
 }
 
-impl ConditionKind {
-    fn keyword(self) -> &'static str {
-        match self {
-            ConditionKind::Boundary => "BOUNDARY",
-            ConditionKind::Force => "CLOAD",
-            ConditionKind::Pressure | ConditionKind::Volume => "DLOAD",
-            ConditionKind::Temperature => "TEMPERATURE",
-        }
-    }
-}
-
-impl Deck {
+impl DeckProgram {
     /// Times at which the steps end.
     pub(super) fn step_ends(&self) -> Vec<f64> {
         let mut time = 0.0;
-        let steps = self.program.steps.iter();
+        let steps = self.steps.iter();
         steps
             .map(|step| {
                 time += step.period;
@@ -104,14 +100,16 @@ impl Deck {
             })
             .collect()
     }
+}
 
-    /// The histories of all given displacements.
+impl GivenDisplacements {
+    /// The histories of all displacements that a deck gives.
     ///
     /// # Errors
     /// `Input` for undefined names and numbers, and for values that are too large.
-    pub(super) fn displacements(&self) -> Result<GivenDisplacements> {
+    pub(super) fn of(deck: &Deck) -> Result<Self> {
         let mut ended = Vec::new();
-        let all = self.histories_of(ConditionKind::Boundary, &mut ended)?;
+        let all = histories_of(deck, ConditionKind::Boundary, &mut ended)?;
         let (whole, begun): (Map, Map) =
             (all.into_iter()).partition(|(_, entry)| entry.span.is_whole());
         ended.extend(begun);
@@ -121,54 +119,67 @@ impl Deck {
             in_steps: ended,
         })
     }
+}
 
-    /// The histories of all keys of a kind of load.
-    ///
-    /// # Errors
-    /// As for [`Deck::displacements`].
-    pub(super) fn histories(&self, kind: ConditionKind) -> Result<Map> {
-        self.histories_of(kind, &mut Vec::new())
+/// The histories of all keys of a kind of load.
+///
+/// # Errors
+/// As for [`GivenDisplacements::of`].
+pub(super) fn histories(deck: &Deck, kind: ConditionKind) -> Result<Map> {
+    histories_of(deck, kind, &mut Vec::new())
+}
+
+/// The histories of all keys of one kind. Those of displacements that are released are added to
+/// `ended`.
+fn histories_of(
+    deck: &Deck,
+    kind: ConditionKind,
+    ended: &mut Vec<(Key, KeyHistory)>,
+) -> Result<Map> {
+    let mut map = Map::new();
+    let initial = deck.program.initial.iter();
+    for condition in initial.filter(|condition| condition.kind == kind) {
+        for key in condition.keys(deck)? {
+            let entry = KeyHistory::new(Series::starting(condition.value), condition.place);
+            map.insert(key, entry);
+        }
     }
-
-    /// The histories of all keys of one kind. Those of displacements that are released are added to
-    /// `ended`.
-    fn histories_of(&self, kind: ConditionKind, ended: &mut Vec<(Key, KeyHistory)>) -> Result<Map> {
-        let mut map = Map::new();
-        let initial = self.program.initial.iter();
-        for condition in initial.filter(|condition| condition.kind == kind) {
-            for key in self.keys(condition)? {
-                let entry = KeyHistory::new(Series::starting(condition.value), condition.place);
-                map.insert(key, entry);
-            }
-        }
-        let mut start = 0.0;
-        for (number, step) in self.program.steps.iter().enumerate() {
-            let time = Interval {
-                start,
-                end: start + step.period,
-                first: start + step.period / step.increments.max(1) as f64,
-            };
-            self.go_through(kind, (number, step), &time, &mut map, ended)?;
-            start = time.end;
-        }
-        let all = || map.values().chain(ended.iter().map(|(_, entry)| entry));
-        if let Some(entry) = all().find(|entry| !entry.series.is_finite()) {
-            let message = "a value is too large, or a time";
-            return Err(self.error(entry.place, kind.keyword(), message));
-        }
-        Ok(map)
+    let mut start = 0.0;
+    for (number, step) in deck.program.steps.iter().enumerate() {
+        let end = start + step.period;
+        let first = start + step.period / step.increments.max(1) as f64;
+        let step = HistoryStep {
+            deck,
+            kind,
+            number,
+            step,
+            time: Interval { start, end, first },
+        };
+        step.go_through(&mut map, ended)?;
+        start = end;
     }
+    let all = || map.values().chain(ended.iter().map(|(_, entry)| entry));
+    if let Some(entry) = all().find(|entry| !entry.series.is_finite()) {
+        let message = "a value is too large, or a time";
+        return Err(deck.error(entry.place, kind.keyword(), message));
+    }
+    Ok(map)
+}
 
-    fn go_through(
-        &self,
-        kind: ConditionKind,
-        (number, step): (usize, &DeckStep),
-        time: &Interval,
-        map: &mut Map,
-        ended: &mut Vec<(Key, KeyHistory)>,
-    ) -> Result<()> {
-        let mut given = self.given(kind, step)?;
-        let is_renewed = step.renewed[kind as usize];
+/// A step through which the histories of one kind go on.
+struct HistoryStep<'d> {
+    deck: &'d Deck,
+    kind: ConditionKind,
+    number: usize,
+    step: &'d DeckStep,
+    time: Interval,
+}
+
+impl<'d> HistoryStep<'d> {
+    fn go_through(&self, map: &mut Map, ended: &mut Vec<(Key, KeyHistory)>) -> Result<()> {
+        let (kind, number, time) = (self.kind, self.number, &self.time);
+        let mut given = self.given()?;
+        let is_renewed = self.step.renewed[kind as usize];
         if kind == ConditionKind::Boundary {
             // A node that stayed where it was begins a history when it gets a value.
             let ends = |key: &Key, entry: &KeyHistory| match given.get(key) {
@@ -186,7 +197,7 @@ impl Deck {
         }
         for (key, entry) in map.iter_mut() {
             if let Some(given) = given.remove(key) {
-                self.apply(kind, number, &given, time, entry)?;
+                self.apply(&given, entry)?;
                 continue;
             }
             match (is_renewed, kind) {
@@ -198,7 +209,7 @@ impl Deck {
                     entry.runs_on.clear();
                     entry.series.push(time.end, 0.0);
                 }
-                (None, _) => self.run_on(entry, time)?,
+                (None, _) => self.run_on(entry),
             }
         }
         for (key, given) in given {
@@ -210,28 +221,27 @@ impl Deck {
             } else if number > 0 {
                 entry.series.push(time.start, 0.0);
             }
-            self.apply(kind, number, &given, time, &mut entry)?;
+            self.apply(&given, &mut entry)?;
             map.insert(key, entry);
         }
         Ok(())
     }
 
     /// The values that a step gives, key by key.
-    fn given<'d>(
-        &self,
-        kind: ConditionKind,
-        step: &'d DeckStep,
-    ) -> Result<BTreeMap<Key, StepGiven<'d>>> {
+    fn given(&self) -> Result<BTreeMap<Key, StepGiven<'d>>> {
         let mut out: BTreeMap<Key, StepGiven> = BTreeMap::new();
-        for condition in step.conditions.iter().filter(|c| c.kind == kind) {
+        for condition in self.step.conditions.iter().filter(|c| c.kind == self.kind) {
             let value = (condition.value, condition.amplitude.as_deref());
-            for key in self.keys(condition)? {
+            for key in condition.keys(self.deck)? {
                 let given = out.entry(key).or_insert(StepGiven {
                     values: Vec::new(),
                     is_fixed: false,
                     place: condition.place,
                 });
-                if matches!(kind, ConditionKind::Boundary | ConditionKind::Temperature) {
+                if matches!(
+                    self.kind,
+                    ConditionKind::Boundary | ConditionKind::Temperature
+                ) {
                     given.values.clear();
                 }
                 given.values.push(value);
@@ -242,89 +252,9 @@ impl Deck {
         Ok(out)
     }
 
-    /// The keys to which a condition applies. The direction out of a plane model is not among them.
-    ///
-    /// # Errors
-    /// `Input` for undefined names and numbers.
-    pub(super) fn keys(&self, condition: &Condition) -> Result<Vec<Key>> {
-        let at = (condition.place, condition.kind.keyword());
-        let [first, last] = condition.range;
-        if condition.kind == ConditionKind::Volume {
-            let bodies = self.whole_bodies(&condition.on, at)?;
-            return Ok(bodies.into_iter().map(|body| (body, first as u8)).collect());
-        }
-        if condition.kind != ConditionKind::Pressure {
-            let dimension = self.dimension();
-            let nodes = self.indices(What::Nodes, &condition.on, at)?;
-            let freedoms = first - 1..last.min(dimension);
-            let of_node = |&node: &u32| freedoms.clone().map(move |freedom| (node, freedom as u8));
-            let mut keys: Vec<Key> = nodes.iter().flat_map(of_node).collect();
-            keys.extend(self.rotations_among(&nodes, [first, last])?);
-            if condition.kind == ConditionKind::Force && first > 3 && keys.is_empty() {
-                let message = format!(
-                    "degree of freedom {first}: moments act on the reference node of a *RIGID \
-                     BODY or *COUPLING alone; press with forces along 1, 2 and 3"
-                );
-                return Err(self.error(at.0, at.1, message));
-            }
-            return Ok(keys);
-        }
-        match &condition.on {
-            EntitySelection::Set(name) if first == 0 => {
-                self.surface(name, (condition.place, "DSLOAD"))
-            }
-            on => {
-                let elements = self.indices(What::Elements, on, at)?;
-                let facet = |element: u32| self.facet(element, first, at);
-                elements.into_iter().map(facet).collect()
-            }
-        }
-    }
-
-    /// The bodies of which a set of elements consists.
-    ///
-    /// # Errors
-    /// `Unsupported` if the set contains only a part of a body.
-    fn whole_bodies(&self, on: &EntitySelection, at: (LinePlace, &str)) -> Result<Vec<u32>> {
-        let bodies = self.bodies()?;
-        let mut counts = vec![[0usize; 2]; bodies.names.len()];
-        for &body in &bodies.of_element {
-            counts[body as usize][1] += 1;
-        }
-        for element in self.indices(What::Elements, on, at)? {
-            counts[bodies.of_element[element as usize] as usize][0] += 1;
-        }
-        let mut whole = Vec::new();
-        for (body, [given, all]) in counts.into_iter().enumerate() {
-            if given == all {
-                whole.push(body as u32);
-            } else if given > 0 {
-                let message = format!(
-                    "it acts on {given} of the {all} elements of body {}: loads on volumes are \
-                     those of whole bodies; give the part a section of its own",
-                    bodies.names[body]
-                );
-                return Err(unsupported(self.error(at.0, at.1, message)));
-            }
-        }
-        Ok(whole)
-    }
-
-    /// Dimension of the first element, and hence of the model.
-    pub(super) fn dimension(&self) -> usize {
-        let first = self.elements.types.first();
-        first.map_or(3, |first| first.space.dimension())
-    }
-
     /// Continues a history to the end of a step that gives values for its key.
-    fn apply(
-        &self,
-        kind: ConditionKind,
-        number: usize,
-        given: &StepGiven,
-        time: &Interval,
-        entry: &mut KeyHistory,
-    ) -> Result<()> {
+    fn apply(&self, given: &StepGiven, entry: &mut KeyHistory) -> Result<()> {
+        let (deck, time) = (self.deck, &self.time);
         entry.place = given.place;
         entry.runs_on.clear();
         if given.is_fixed {
@@ -340,15 +270,15 @@ impl Deck {
             entry.series.push(time.end, sum);
             return Ok(());
         }
-        let keyword = kind.keyword();
+        let keyword = self.kind.keyword();
         let named = given.values.iter().map(|(value, name)| {
             let Some(name) = name else {
                 let message = "values with and without an amplitude meet in one step; give all one";
-                return Err(self.error(given.place, keyword, message));
+                return Err(deck.error(given.place, keyword, message));
             };
-            let amplitude = self.program.amplitudes.get(name).ok_or_else(|| {
+            let amplitude = deck.program.amplitudes.get(name).ok_or_else(|| {
                 let message = format!("there is no *AMPLITUDE {name}");
-                self.error(given.place, keyword, message)
+                deck.error(given.place, keyword, message)
             })?;
             let size = match amplitude.is_absolute {
                 true => 1.0,
@@ -362,13 +292,13 @@ impl Deck {
         let laws: Vec<(f64, &Amplitude)> = named.collect::<Result<_>>()?;
         let start = value_at(&laws, time.start, time);
         let last = entry.series.last();
-        if number == 0 {
+        if self.number == 0 {
             entry.series = Series::starting(start);
         }
         let jumps = (start - last).abs() > JUMP * start.abs().max(last.abs());
         // A jump at the start of the step is taken over the first increment; a node that comes from
         // wherever it is has no value there.
-        let from = match number > 0 && (jumps || !entry.series.is_begun()) {
+        let from = match self.number > 0 && (jumps || !entry.series.is_begun()) {
             true => time.first,
             false => time.start,
         };
@@ -377,8 +307,9 @@ impl Deck {
     }
 
     /// Continues a history through a step that does not give values for its key.
-    fn run_on(&self, entry: &mut KeyHistory, time: &Interval) -> Result<()> {
-        let amplitude = |name: &str| self.program.amplitudes.get(name);
+    fn run_on(&self, entry: &mut KeyHistory) {
+        let time = &self.time;
+        let amplitude = |name: &str| self.deck.program.amplitudes.get(name);
         let laws = entry.runs_on.iter();
         let laws: Vec<(f64, &Amplitude)> = laws
             .filter_map(|(value, name)| Some((*value, amplitude(name)?)))
@@ -387,7 +318,6 @@ impl Deck {
             true => entry.series.push(time.end, entry.series.last()),
             false => follow(&laws, time, time.start, &mut entry.series),
         }
-        Ok(())
     }
 }
 

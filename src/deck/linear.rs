@@ -5,7 +5,7 @@
 //! `u_i = sum_k a_k u_k`, in which no `u_i` occurs on the right of any row (Gauss-Jordan
 //! elimination, with the largest coefficient of a column or row as the pivot).
 
-use super::history::Key;
+use super::facets::Key;
 use super::source::LinePlace;
 use std::collections::{BTreeMap, BTreeSet};
 

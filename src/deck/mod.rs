@@ -22,11 +22,11 @@
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, chapters 6 (elements, loads) and 7
 //! (keywords); *Abaqus Keywords Reference Guide*.
 
+mod absent;
 mod adjust;
 mod assembly;
 mod bodies;
 mod boundary;
-mod boundary_elements;
 mod constraints;
 mod conversion;
 mod data;
@@ -36,9 +36,11 @@ mod facets;
 mod fields;
 mod history;
 mod instances;
+mod keys;
 mod keyword;
 mod linear;
 mod load;
+mod mesh;
 mod node_slaves;
 mod reader;
 mod rigid;
@@ -50,18 +52,20 @@ mod temperature;
 mod tests;
 pub(crate) mod words;
 
+pub(crate) use bodies::Bodies;
+pub(crate) use conversion::Geometry;
 pub use conversion::{Conversion, Options};
 pub use data::{Account, Note};
 pub(crate) use element_type::face_number;
 pub use load::{is_deck, load, load_with};
+pub(crate) use temperature::largest_changes;
 
 use crate::error::{Error, Result};
-use crate::labels::LabelIndex;
-use crate::shape::Shape;
-use crate::space::Vector;
-use boundary_elements::BoundaryElements;
-use data::{DeckElements, DeckProgram, Nodes, Properties, Sets};
-use instances::Instances;
+use crate::space::Space;
+use boundary::BoundaryElements;
+use data::{DeckProgram, Properties, Sets};
+use mesh::DeckMesh;
+use sets::Lookup;
 use source::{Files, LinePlace};
 
 /// A deck that has been read.
@@ -70,24 +74,17 @@ pub struct Deck {
     /// Lines of the heading.
     heading: Vec<String>,
     files: Files,
-    nodes: Nodes,
-    elements: DeckElements,
+    pub(crate) mesh: DeckMesh,
     /// Boundary elements, which have no stiffness: sets of them stand for faces.
     boundary: BoundaryElements,
     sets: Sets,
     properties: Properties,
     program: DeckProgram,
     account: Account,
-    /// Instances of parts, which determine the numbering of nodes and elements.
-    instances: Instances,
     /// First place at which large deformation is requested.
     nlgeom: Option<LinePlace>,
     /// Place of the end of the deck.
     end: LinePlace,
-    node_index: LabelIndex,
-    element_index: LabelIndex,
-    /// Indices of the nodes of all elements, one element after the other.
-    connectivity: Vec<u32>,
 }
 
 impl Deck {
@@ -96,105 +93,66 @@ impl Deck {
         &self.account
     }
 
-    /// Builds the indices of nodes and elements by number, and the connectivity.
-    fn index(&mut self) -> Result<()> {
-        if self.nodes.labels.len().max(self.elements.labels.len()) >= u32::MAX as usize {
-            return Err(Error::input("more nodes or elements than can be numbered"));
+    /// What names and numbers in the deck stand for.
+    fn lookup(&self) -> Lookup<'_> {
+        Lookup {
+            mesh: &self.mesh,
+            boundary: &self.boundary,
+            sets: &self.sets,
+            files: &self.files,
         }
-        let twice = |what: &str, labels: &[u64], places: &[LinePlace], label: u64| {
-            let mut all = labels.iter().zip(places).filter(|(l, _)| **l == label);
-            let place = all.nth(1).map_or(LinePlace::default(), |(_, place)| *place);
-            let place = self.files.show(place);
-            let label = self.instances.shown(label);
-            Error::input(format!(
-                "{place}: *{what}: number {label} is given twice; number them uniquely"
-            ))
-        };
-        let (nodes, elements) = (&self.nodes, &self.elements);
-        self.node_index = LabelIndex::new(&nodes.labels)
-            .map_err(|label| twice("NODE", &nodes.labels, &nodes.places, label))?;
-        self.element_index = LabelIndex::new(&elements.labels)
-            .map_err(|label| twice("ELEMENT", &elements.labels, &elements.places, label))?;
-        let index = |label: &u64| self.node_index.get(*label);
-        let found: Option<Vec<u32>> = self.elements.nodes.iter().map(index).collect();
-        self.connectivity = found.ok_or_else(|| self.missing_node())?;
-        Ok(())
-    }
-
-    /// An error for the first element that refers to an undefined node.
-    fn missing_node(&self) -> Error {
-        let elements = &self.elements;
-        let is_missing = |label: &&u64| self.node_index.get(**label).is_none();
-        let missing = (elements.offsets.windows(2).enumerate()).find_map(|(element, ends)| {
-            let label = elements.nodes[ends[0]..ends[1]].iter().find(is_missing)?;
-            Some((element, label))
-        });
-        let (element, label) = missing.unwrap_or((0, &0));
-        let (name, label) = (self.element_name(element), self.instances.shown(*label));
-        let message = format!("element {name} refers to node {label}, which is not in *NODE");
-        self.error(elements.places[element], "ELEMENT", message)
     }
 
     /// An error at a line, for a keyword.
     fn error(&self, place: LinePlace, keyword: &str, message: impl std::fmt::Display) -> Error {
-        let place = self.files.show(place);
-        Error::input(format!("{place}: *{keyword}: {message}"))
-    }
-
-    /// The number of a node in the deck.
-    pub(crate) fn node_label(&self, node: usize) -> u64 {
-        self.nodes.labels[node]
-    }
-
-    /// The number of an element in the deck.
-    pub(crate) fn element_label(&self, element: usize) -> u64 {
-        self.elements.labels[element]
-    }
-
-    /// The number of a node for messages; in an instance the number within the part.
-    fn node_name(&self, node: usize) -> String {
-        match self.nodes.labels.get(node) {
-            Some(label) => self.instances.shown(*label),
-            None => "of a rotation".to_string(),
-        }
-    }
-
-    /// The number of an element for messages; in an instance the number within the part.
-    fn element_name(&self, element: usize) -> String {
-        self.instances.shown(self.elements.labels[element])
-    }
-
-    /// The shape of an element.
-    pub(crate) fn shape(&self, element: usize) -> Shape {
-        self.elements.types[element].shape
-    }
-
-    /// The coordinates of a node.
-    pub(crate) fn point(&self, node: usize) -> Vector {
-        let at = 3 * node;
-        std::array::from_fn(|d| self.nodes.coordinates[at + d])
+        self.files.error(place, keyword, message)
     }
 
     /// An error at the line of a node.
     pub(crate) fn node_error(&self, node: usize, message: impl std::fmt::Display) -> Error {
-        self.error(self.nodes.places[node], "NODE", message)
+        self.error(self.mesh.nodes.places[node], "NODE", message)
+    }
+
+    /// The dimension and idealisation common to all elements.
+    ///
+    /// # Errors
+    /// `Input` if there are no elements, or at the first element whose kind differs from that of
+    /// the first one.
+    pub(crate) fn space(&self) -> Result<Space> {
+        let elements = &self.mesh.elements;
+        let Some(first) = elements.types.first() else {
+            return Err(self.error(self.end, "ELEMENT", "the deck has no elements"));
+        };
+        let mut types = elements.types.iter();
+        match types.position(|other| other.space != first.space) {
+            Some(other) => {
+                let message = format!(
+                    "elements {} after others {}: a model is of plane strain (CPE), of plane \
+                     stress (CPS), axisymmetric (CAX) or solid (C3D): give types of one kind",
+                    elements.types[other].name(),
+                    first.name()
+                );
+                Err(self.error(elements.places[other], "ELEMENT", message))
+            }
+            None => Ok(first.space),
+        }
     }
 
     /// Whether no element has a type that CalculiX integrates in another way than fully, or for
     /// quadratic elements reduced. Other ways are one point with hourglass control and incompatible
     /// modes.
     pub fn is_fully_integrated(&self) -> bool {
-        let mut types = self.elements.types.iter();
+        let mut types = self.mesh.elements.types.iter();
         types.all(|of| of.shape.is_quadratic() || of.note.is_none())
     }
 
     /// Number of nodes of the deck.
     pub fn n_nodes(&self) -> usize {
-        self.nodes.labels.len()
+        self.mesh.n_nodes()
     }
 
     /// Number of elements of the deck.
     pub fn n_elements(&self) -> usize {
-        self.elements.labels.len()
+        self.mesh.n_elements()
     }
 }

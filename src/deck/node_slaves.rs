@@ -4,14 +4,14 @@
 //! Their contact is that of the faces around them which face the master surface, in which no other
 //! node may touch.
 
-use super::Deck;
 use super::adjust::SurfacePieces;
 use super::data::{ContactPair, SurfacePart};
 use super::facets::Face;
-use super::sets::What;
+use super::mesh::DeckMesh;
+use super::sets::{Lookup, What};
 use crate::classes::Classes;
 use crate::error::Result;
-use crate::space::{Vector, along, cross, difference, direction, dot};
+use crate::space::{direction, dot};
 use std::collections::{BTreeSet, HashMap};
 
 /// Cosine of the angle between the outward normals of two faces below which they face each other: a
@@ -26,22 +26,22 @@ pub(super) struct NodeSlaves {
     pub(super) faces: Vec<Face>,
 }
 
-impl Deck {
+impl Lookup<'_> {
     /// The slave nodes of a contact pair, in ascending order.
     ///
     /// # Errors
     /// `Input` for names and numbers that are not defined.
-    pub(super) fn slave_nodes(&self, pair: &ContactPair) -> Result<Vec<u32>> {
+    pub(super) fn slave_nodes(self, pair: &ContactPair) -> Result<Vec<u32>> {
         if let Some(nodes) = self.loose_slaves(&pair.slave)? {
             return Ok(nodes);
         }
         let faces = self.surface(&pair.slave, (pair.place, "CONTACT PAIR"))?;
-        Ok(self.nodes_of(&faces))
+        Ok(self.mesh.nodes_of(&faces))
     }
 
     /// The nodes of a surface, if it is given by nodes on the boundary not all of which make up
     /// whole faces, or which make up several pieces.
-    fn loose_slaves(&self, name: &str) -> Result<Option<Vec<u32>>> {
+    fn loose_slaves(self, name: &str) -> Result<Option<Vec<u32>>> {
         let mut nodes = Vec::new();
         for (part, place) in self.sets.surfaces.get(name).into_iter().flatten() {
             let SurfacePart::OfNodes(on) = part else {
@@ -54,38 +54,27 @@ impl Deck {
         }
         nodes.sort_unstable();
         nodes.dedup();
-        let faces = self.whole_free_faces_among(nodes.iter().copied());
-        let of_faces = self.nodes_of(&faces);
+        let faces = self.mesh.whole_free_faces_among(nodes.iter().copied());
+        let of_faces = self.mesh.nodes_of(&faces);
         let is_in = |of: &[u32], node: &u32| of.binary_search(node).is_ok();
-        let in_pieces = self.n_pieces(&faces) > 1;
+        let in_pieces = n_pieces(self.mesh, &faces) > 1;
         if nodes.iter().all(|node| is_in(&of_faces, node)) {
             return Ok(in_pieces.then_some(nodes));
         }
         // Nodes inside the body, which a set of all its nodes has too, touch nothing.
-        let boundary = self.nodes_of(&self.free_faces_at(nodes.iter().copied()));
+        let boundary = self
+            .mesh
+            .nodes_of(&self.mesh.free_faces_at(nodes.iter().copied()));
         nodes.retain(|node| is_in(&boundary, node));
         let are_all = nodes.iter().all(|node| is_in(&of_faces, node));
         Ok((!are_all || in_pieces).then_some(nodes))
     }
 
-    /// Number of pieces of a surface that share no node.
-    fn n_pieces(&self, faces: &[Face]) -> usize {
-        let mut classes = Classes::new(faces.len());
-        let mut face_at: HashMap<u32, usize> = HashMap::new();
-        for (number, face) in faces.iter().enumerate() {
-            for node in self.nodes_of(std::slice::from_ref(face)) {
-                classes.join(number, *face_at.entry(node).or_insert(number));
-            }
-        }
-        let firsts: BTreeSet<usize> = classes.firsts().into_iter().collect();
-        firsts.len()
-    }
-
     /// Whether a surface is given by nodes that make up no face at all. Contacts alone may have it
     /// then.
-    pub(super) fn is_of_nodes_alone(&self, name: &str) -> bool {
+    pub(super) fn is_of_nodes_alone(self, name: &str) -> bool {
         let slaves = self.loose_slaves(name).ok().flatten();
-        slaves.is_some_and(|nodes| self.free_faces_among(nodes).is_empty())
+        slaves.is_some_and(|nodes| self.mesh.free_faces_among(nodes).is_empty())
     }
 
     /// The slave nodes of a contact pair that do not make up whole faces, with the faces around
@@ -94,15 +83,15 @@ impl Deck {
     /// # Errors
     /// `Input` for names and numbers that are not defined, and if no face around the nodes faces
     /// the master surface.
-    pub(super) fn node_slaves(&self, pair: &ContactPair) -> Result<Option<NodeSlaves>> {
+    pub(super) fn node_slaves(self, pair: &ContactPair) -> Result<Option<NodeSlaves>> {
         let Some(mut nodes) = self.loose_slaves(&pair.slave)? else {
             return Ok(None);
         };
         let at = (pair.place, "CONTACT PAIR");
-        let master = SurfacePieces::new(self, &self.surface(&pair.master, at)?);
-        let mut faces = self.free_faces_at(nodes.iter().copied());
+        let master = SurfacePieces::new(self.mesh, &self.surface(&pair.master, at)?);
+        let mut faces = self.mesh.free_faces_at(nodes.iter().copied());
         faces.retain(|&face| {
-            let (center, outward) = self.center_and_normal(face);
+            let (center, outward) = self.mesh.center_and_normal(face);
             dot(outward, direction(master.nearest(center).1)) < FACING
         });
         if faces.is_empty() {
@@ -110,29 +99,23 @@ impl Deck {
                 "no face at the nodes of {} faces the surface {}: name nodes that look at it",
                 pair.slave, pair.master
             );
-            return Err(self.error(at.0, at.1, message));
+            return Err(self.error(at, message));
         }
-        let facing = self.nodes_of(&faces);
+        let facing = self.mesh.nodes_of(&faces);
         nodes.retain(|node| facing.binary_search(node).is_ok());
         Ok(Some(NodeSlaves { nodes, faces }))
     }
+}
 
-    /// The centre of the corners of a face, and the unit vector out of its element.
-    fn center_and_normal(&self, (element, local): Face) -> (Vector, Vector) {
-        let shape = self.shape(element as usize);
-        let n = shape.facet_reference(local as usize).n_corners;
-        let nodes = self.element_nodes(element as usize);
-        let own = shape.facet(local as usize)[..n].iter();
-        let x: Vec<Vector> = own.map(|&k| self.point(nodes[k] as usize)).collect();
-        let center = x
-            .iter()
-            .fold([0.0; 3], |sum, &x| along(sum, 1.0 / n as f64, x));
-        let outward = match x[..] {
-            [a, b] => [b[1] - a[1], a[0] - b[0], 0.0],
-            [a, b, c] => cross(difference(b, a), difference(c, a)),
-            [a, b, c, d, ..] => cross(difference(c, a), difference(d, b)),
-            _ => [0.0; 3],
-        };
-        (center, direction(outward))
+/// Number of pieces of a surface that share no node.
+fn n_pieces(mesh: &DeckMesh, faces: &[Face]) -> usize {
+    let mut classes = Classes::new(faces.len());
+    let mut face_at: HashMap<u32, usize> = HashMap::new();
+    for (number, face) in faces.iter().enumerate() {
+        for node in mesh.nodes_of(std::slice::from_ref(face)) {
+            classes.join(number, *face_at.entry(node).or_insert(number));
+        }
     }
+    let firsts: BTreeSet<usize> = classes.firsts().into_iter().collect();
+    firsts.len()
 }

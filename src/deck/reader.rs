@@ -1,6 +1,7 @@
 //! Reads a deck, keyword by keyword.
 
 mod amplitude;
+mod block;
 mod contact;
 mod history;
 mod mesh;
@@ -9,14 +10,23 @@ mod properties;
 mod rigid;
 mod volume;
 
+use super::Deck;
+use super::absent::leave_out_absent;
+use super::adjust::adjust;
 use super::assembly::{self, Assembled};
-use super::data::{Account, Condition, Rigid};
-use super::fields::LineFields;
+use super::data::{Account, Properties};
 use super::keyword::{Keyword, Use};
-use super::source::{DeckLines, Line};
-use super::{Deck, LinePlace};
+use super::mesh::DeckMesh;
+use super::source::{DeckLines, Files};
 use crate::error::Result;
 use crate::files;
+use amplitude::amplitude;
+use block::BlockReader;
+use contact::InteractionReader;
+use history::StepReader;
+use output::RequestReader;
+use properties::MaterialReader;
+use rigid::RigidReader;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -54,37 +64,27 @@ impl Deck {
 /// A deck that is being read.
 struct Reader<'t> {
     source: DeckLines<'t>,
+    account: Account,
+    contents: DeckContents,
+}
+
+/// What the keywords of a deck have given so far.
+#[derive(Default)]
+struct DeckContents {
     deck: Deck,
-    /// The material to which the next keywords belong.
-    material: Option<String>,
-    /// The surface interaction to which the next keywords belong.
-    interaction: Option<String>,
-    /// A coupling whose axes have not been read yet.
-    coupling: Option<Rigid>,
-    is_in_step: bool,
-    /// Whether output requests are for histories (`*OUTPUT, HISTORY`).
-    is_history: bool,
-    /// Displacements that are given before the first step, and are reached over the first step.
-    of_first_step: Vec<Condition>,
-    /// Number of conditions of the first step that were given before it.
-    n_before: usize,
-    /// Requests at time points, with the name of the points.
-    time_points_wanted: Vec<(Keyword, String)>,
+    materials: MaterialReader,
+    interactions: InteractionReader,
+    rigid: RigidReader,
+    steps: StepReader,
+    requests: RequestReader,
 }
 
 impl<'t> Reader<'t> {
-    pub(super) fn new(source: DeckLines<'t>) -> Self {
+    fn new(source: DeckLines<'t>) -> Self {
         Reader {
             source,
-            deck: Deck::default(),
-            material: None,
-            interaction: None,
-            coupling: None,
-            is_in_step: false,
-            is_history: false,
-            of_first_step: Vec::new(),
-            n_before: 0,
-            time_points_wanted: Vec::new(),
+            account: Account::default(),
+            contents: DeckContents::default(),
         }
     }
 
@@ -93,7 +93,7 @@ impl<'t> Reader<'t> {
     /// # Errors
     /// `Input` with file, line and keyword if the deck is damaged; `Unsupported` for elements that
     /// brinell does not have. Other effects that it does not have are listed in the account.
-    pub(super) fn read(mut self) -> Result<Deck> {
+    fn read(mut self) -> Result<Deck> {
         if let Some(line) = self.source.next_data()? {
             let place = self.source.files.show(line.place);
             return Err(crate::Error::input(format!(
@@ -105,173 +105,175 @@ impl<'t> Reader<'t> {
             let keyword = Keyword::read(&mut self.source, line)?;
             match assembly::frames(&keyword) {
                 true => self.flatten(keyword)?,
-                false => self.block(&keyword)?,
+                false => self.read_block(&keyword)?,
             }
         }
-        self.check_time_points();
-        let here = self.source.here();
-        self.deck.files = self.source.files;
-        self.deck.end = here;
-        for (name, place) in self.deck.take_faces_of_solids() {
-            let how =
-                format!("TYPE={name}: beside solids, without stiffness; sets of them are surfaces");
-            let list = &mut self.deck.account.taken;
-            Account::add(list, &self.deck.files, place, "ELEMENT", &how);
+        let end = self.source.here();
+        let mut deck = self.contents.finish(self.source.files, self.account);
+        deck.end = end;
+        take_faces_of_solids(&mut deck);
+        deck.mesh.index(&deck.files)?;
+        leave_out_absent(&mut deck)?;
+        adjust(&mut deck);
+        Ok(deck)
+    }
+
+    /// A keyword, to be read or remarked on.
+    fn block<'r>(&'r mut self, keyword: &'r Keyword) -> BlockReader<'r, 't> {
+        BlockReader {
+            keyword,
+            source: &mut self.source,
+            account: &mut self.account,
         }
-        self.deck.index()?;
-        self.deck.leave_out_absent()?;
-        self.deck.adjust();
-        Ok(self.deck)
     }
 
     /// Continues with the deck flattened: each instance of a part has nodes, elements, sets and
     /// surfaces of its own.
     fn flatten(&mut self, first: Keyword) -> Result<()> {
         let model = Assembled::read(&mut self.source, first)?;
-        let deck = &mut self.deck;
-        let labels = deck.nodes.labels.iter().chain(&deck.elements.labels);
-        deck.instances = model.instances(&self.source, labels.copied().max())?;
-        let anew = model.flat(&self.source, &deck.instances)?;
+        let DeckMesh {
+            nodes,
+            elements,
+            instances,
+            ..
+        } = &mut self.contents.deck.mesh;
+        let labels = nodes.labels.iter().chain(&elements.labels);
+        *instances = model.instances(&self.source, labels.copied().max())?;
+        let anew = model.flat(&self.source, instances)?;
+        let note = model.note(instances);
         for part in model.unused_parts() {
-            self.ignore(part, part.place, "no *INSTANCE is made of it");
+            self.block(part).ignore("no *INSTANCE is made of it");
         }
         for keyword in model.frame() {
-            self.understand(keyword);
+            self.block(keyword).understand();
         }
-        if let Some((keyword, how)) = model.note(&self.deck.instances) {
-            self.take(keyword, keyword.place, &how);
+        if let Some((keyword, how)) = note {
+            self.block(keyword).take(&how);
         }
         self.source.go_on_with(anew);
         Ok(())
     }
 
-    fn understand(&mut self, keyword: &Keyword) {
-        let files = &self.source.files;
-        let first = || (0, files.show(keyword.place));
-        let understood = &mut self.deck.account.understood;
-        let entry = understood.entry(keyword.name.clone());
-        entry.or_insert_with(first).0 += 1;
-    }
-
-    fn block(&mut self, keyword: &Keyword) -> Result<()> {
+    fn read_block(&mut self, keyword: &Keyword) -> Result<()> {
+        let block = &mut BlockReader {
+            keyword,
+            source: &mut self.source,
+            account: &mut self.account,
+        };
         match keyword.what_for() {
             Ok(Use::Read) => {
-                self.understand(keyword);
-                self.read_block(keyword)
+                block.understand();
+                self.contents.read(block)
             }
             Ok(Use::Ignored(why)) => {
-                self.ignore(keyword, keyword.place, why);
-                self.skip()
+                block.ignore(why);
+                block.skip()
             }
             Ok(Use::Refused(why)) => {
-                self.refuse(keyword, keyword.place, why);
-                self.skip()
+                block.refuse(why);
+                block.skip()
             }
-            Err(message) => Err(keyword.error(&self.source.files, message)),
+            Err(message) => Err(block.error(message)),
         }
-    }
-
-    fn read_block(&mut self, keyword: &Keyword) -> Result<()> {
-        match keyword.name.as_str() {
-            "HEADING" => self.heading(keyword),
-            "NODE" => self.nodes(keyword),
-            "ELEMENT" => self.elements(keyword),
-            "NSET" => self.set(keyword, "NSET"),
-            "ELSET" => self.set(keyword, "ELSET"),
-            "SURFACE" => self.surface(keyword),
-            "MATERIAL" => self.material(keyword),
-            "ELASTIC" => self.elastic(keyword),
-            "PLASTIC" => self.plastic(keyword),
-            "DENSITY" => self.density(keyword),
-            "EXPANSION" => self.expansion(keyword),
-            "TEMPERATURE" => self.temperature(keyword),
-            "SOLID SECTION" => self.section(keyword),
-            "SURFACE INTERACTION" => self.interaction(keyword),
-            "SURFACE BEHAVIOR" => self.behavior(keyword),
-            "FRICTION" => self.friction(keyword),
-            "CONTACT PAIR" => self.contact_pair(keyword),
-            "CLEARANCE" => self.clearance(keyword),
-            "CONTACT INTERFERENCE" => self.contact_interference(keyword),
-            "TIE" => self.tie(keyword),
-            "RIGID BODY" => self.rigid_body(keyword),
-            "COUPLING" => self.coupling(keyword),
-            "KINEMATIC" => self.kinematic(keyword),
-            "EQUATION" => self.equation(keyword),
-            "TRANSFORM" => self.transform(keyword),
-            "INITIAL CONDITIONS" => self.initial_conditions(keyword),
-            "AMPLITUDE" => self.amplitude(keyword),
-            "STEP" => self.step(keyword),
-            "STATIC" => self.statics(keyword),
-            "BOUNDARY" => self.boundary(keyword),
-            "CLOAD" => self.cload(keyword),
-            "MODEL CHANGE" => self.model_change(keyword),
-            "DLOAD" => self.dload(keyword),
-            "DSLOAD" => self.dsload(keyword),
-            "END STEP" => self.end_step(keyword),
-            "OUTPUT" => self.output(keyword),
-            "TIME POINTS" => self.time_points(keyword),
-            "NODE FILE" | "NODE OUTPUT" | "NODE PRINT" | "EL FILE" | "ELEMENT OUTPUT"
-            | "EL PRINT" | "CONTACT FILE" | "CONTACT OUTPUT" | "CONTACT PRINT"
-            | "SECTION PRINT" => self.request(keyword),
-            other => Err(crate::Error::internal(format!("nothing reads *{other}"))),
-        }
-    }
-
-    /// Skips the data lines of a keyword.
-    fn skip(&mut self) -> Result<()> {
-        while self.source.next_data()?.is_some() {}
-        Ok(())
-    }
-
-    /// Requires that a keyword has no more data lines.
-    fn no_more(&mut self, keyword: &Keyword) -> Result<()> {
-        match self.source.next_data()? {
-            Some(line) => {
-                let fields = fields(&self.source, keyword, line);
-                Err(fields.place.error("this line is one too many; take it out"))
-            }
-            None => Ok(()),
-        }
-    }
-
-    fn ignore(&mut self, keyword: &Keyword, place: LinePlace, why: &str) {
-        let list = &mut self.deck.account.ignored;
-        Account::add(list, &self.source.files, place, &keyword.name, why);
-    }
-
-    fn refuse(&mut self, keyword: &Keyword, place: LinePlace, why: &str) {
-        let list = &mut self.deck.account.refused;
-        Account::add(list, &self.source.files, place, &keyword.name, why);
-    }
-
-    fn take(&mut self, keyword: &Keyword, place: LinePlace, how: &str) {
-        let list = &mut self.deck.account.taken;
-        Account::add(list, &self.source.files, place, &keyword.name, how);
-    }
-
-    /// Reads the next data line, which is required.
-    fn one_line(&mut self, keyword: &Keyword, what: &str) -> Result<Line> {
-        self.source.next_data()?.ok_or_else(|| {
-            let message = format!("a line with {what} should follow; give it");
-            keyword.error(&self.source.files, message)
-        })
-    }
-
-    /// Reads the heading, whose first line is the title.
-    fn heading(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &[])?;
-        while let Some(line) = self.source.next_data()? {
-            let text = String::from_utf8_lossy(self.source.bytes(line)).into_owned();
-            self.deck.heading.push(text);
-        }
-        Ok(())
     }
 }
 
-/// The values of a data line.
-fn fields<'a>(source: &'a DeckLines, keyword: &'a Keyword, line: Line) -> LineFields<'a> {
-    LineFields::new(
-        source.bytes(line),
-        keyword.at(source.file(line), line.place),
-    )
+impl DeckContents {
+    /// The deck, before its numbers and names are looked up.
+    fn finish(self, files: Files, mut account: Account) -> Deck {
+        let (program, properties) = (self.steps.program, self.deck.properties);
+        (self.requests).check_time_points(&program.time_points, &files, &mut account);
+        Deck {
+            files,
+            account,
+            program,
+            nlgeom: self.steps.nlgeom,
+            properties: Properties {
+                materials: self.materials.all,
+                interactions: self.interactions.all,
+                rigid: self.rigid.bodies,
+                ..properties
+            },
+            ..self.deck
+        }
+    }
+
+    fn read(&mut self, block: &mut BlockReader) -> Result<()> {
+        let DeckContents {
+            deck,
+            materials,
+            interactions,
+            rigid,
+            steps,
+            requests,
+        } = self;
+        let (properties, mesh, sets) = (&mut deck.properties, &mut deck.mesh, &mut deck.sets);
+        match block.keyword.name.as_str() {
+            "HEADING" => heading(block, &mut deck.heading),
+            "NODE" => mesh::nodes(block, &mut mesh.nodes, &mut sets.nodes),
+            "ELEMENT" => mesh::elements(block, mesh, &mut deck.boundary, &mut sets.elements),
+            "NSET" => mesh::set(block, "NSET", sets),
+            "ELSET" => mesh::set(block, "ELSET", sets),
+            "SURFACE" => mesh::surface(block, &mut sets.surfaces),
+            "MATERIAL" => materials.material(block),
+            "ELASTIC" => materials.elastic(block),
+            "PLASTIC" => materials.plastic(block),
+            "DENSITY" => materials.density(block),
+            "EXPANSION" => materials.expansion(block),
+            "TEMPERATURE" => steps.temperature(block),
+            "SOLID SECTION" => properties::section(block, &mut properties.sections),
+            "SURFACE INTERACTION" => interactions.interaction(block),
+            "SURFACE BEHAVIOR" => interactions.behavior(block),
+            "FRICTION" => contact::friction(block),
+            "CONTACT PAIR" => contact::contact_pair(block, properties),
+            "CLEARANCE" => contact::clearance(block, &mut properties.clearances),
+            "CONTACT INTERFERENCE" => {
+                contact::contact_interference(block, steps.number(), &mut properties.resolved)
+            }
+            "TIE" => contact::tie(block, &mut properties.ties),
+            "RIGID BODY" => rigid.rigid_body(block),
+            "COUPLING" => rigid.coupling(block),
+            "KINEMATIC" => rigid.kinematic(block),
+            "EQUATION" => properties::equation(block, &mut properties.equations),
+            "TRANSFORM" => properties::transform(block, &mut properties.transforms),
+            "INITIAL CONDITIONS" => steps.initial_conditions(block),
+            "AMPLITUDE" => amplitude(block, &mut steps.program.amplitudes),
+            "STEP" => {
+                requests.is_history = false;
+                steps.step(block)
+            }
+            "STATIC" => steps.statics(block),
+            "BOUNDARY" => steps.boundary(block),
+            "CLOAD" => steps.cload(block),
+            "MODEL CHANGE" => steps.model_change(block),
+            "DLOAD" => steps.dload(block),
+            "DSLOAD" => steps.dsload(block),
+            "END STEP" => steps.end_step(block),
+            "OUTPUT" => requests.output(block, steps),
+            "TIME POINTS" => output::time_points(block, &mut steps.program.time_points),
+            "NODE FILE" | "NODE OUTPUT" | "NODE PRINT" | "EL FILE" | "ELEMENT OUTPUT"
+            | "EL PRINT" | "CONTACT FILE" | "CONTACT OUTPUT" | "CONTACT PRINT"
+            | "SECTION PRINT" => requests.request(block, steps),
+            other => Err(crate::Error::internal(format!("nothing reads *{other}"))),
+        }
+    }
+}
+
+/// Reads the heading, whose first line is the title.
+fn heading(block: &mut BlockReader, heading: &mut Vec<String>) -> Result<()> {
+    block.allow("")?;
+    while let Some(text) = block.text()? {
+        heading.push(text);
+    }
+    Ok(())
+}
+
+/// Turns plane elements beside solids into boundary elements, with a remark on each type.
+fn take_faces_of_solids(deck: &mut Deck) {
+    let (elements, sets) = (&mut deck.mesh.elements, &mut deck.sets.elements);
+    for (name, place) in deck.boundary.take_faces_of_solids(elements, sets) {
+        let how =
+            format!("TYPE={name}: beside solids, without stiffness; sets of them are surfaces");
+        deck.account.take(&deck.files, place, "ELEMENT", &how);
+    }
 }

@@ -13,11 +13,11 @@
 //! # Source
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, `*RIGID BODY`, `*KINEMATIC`.
 
-use super::Deck;
-use super::data::{EntitySelection, RigidNodes};
-use super::history::Key;
+use super::data::{EntitySelection, Rigid, RigidNodes};
+use super::facets::Key;
 use super::linear::{FreedomCoefficients, LinearRow};
-use super::sets::{At, What};
+use super::mesh::DeckMesh;
+use super::sets::{At, Lookup, What};
 use super::source::LinePlace;
 use crate::error::Result;
 use crate::space::difference;
@@ -35,31 +35,30 @@ pub(super) struct DeckRigidBody {
     keyword: &'static str,
 }
 
-impl Deck {
-    /// All rigid bodies of the deck.
+impl DeckRigidBody {
+    /// All rigid bodies of a deck.
     ///
     /// # Errors
     /// `Input` for undefined names and numbers, and for a reference that is not a single node.
-    pub(super) fn rigid_bodies(&self) -> Result<Vec<DeckRigidBody>> {
-        let all = self.properties.rigid.iter().enumerate();
+    pub(super) fn all(bodies: &[Rigid], lookup: Lookup) -> Result<Vec<DeckRigidBody>> {
+        let mesh = lookup.mesh;
+        let all = bodies.iter().enumerate();
         all.map(|(number, rigid)| {
             let at = (rigid.place, rigid.keyword);
-            let reference = self.one_node(&rigid.reference, at)?;
+            let reference = one_node(&rigid.reference, lookup, at)?;
             let rotation = match &rigid.rotation {
-                Some(node) => self.one_node(node, at)?,
-                None => (self.n_nodes() + number) as u32,
+                Some(node) => one_node(node, lookup, at)?,
+                None => (mesh.n_nodes() + number) as u32,
             };
+            let set = |name: &String| EntitySelection::Set(name.clone());
             let mut nodes = match &rigid.nodes {
-                RigidNodes::Set(name) => {
-                    self.indices(What::Nodes, &EntitySelection::Set(name.clone()), at)?
-                }
+                RigidNodes::Set(name) => lookup.indices(What::Nodes, &set(name), at)?,
                 RigidNodes::Elements(name) => {
-                    let elements =
-                        self.indices(What::Elements, &EntitySelection::Set(name.clone()), at)?;
-                    let nodes = elements.iter().map(|e| self.element_nodes(*e as usize));
+                    let elements = lookup.indices(What::Elements, &set(name), at)?;
+                    let nodes = elements.iter().map(|e| mesh.element_nodes(*e as usize));
                     nodes.flatten().copied().collect()
                 }
-                RigidNodes::Surface(name) => self.nodes_of(&self.surface(name, at)?),
+                RigidNodes::Surface(name) => mesh.nodes_of(&lookup.surface(name, at)?),
             };
             nodes.sort_unstable();
             nodes.dedup();
@@ -76,52 +75,12 @@ impl Deck {
         .collect()
     }
 
-    fn one_node(&self, target: &EntitySelection, at: At) -> Result<u32> {
-        match self.indices(What::Nodes, target, at)?[..] {
-            [node] => Ok(node),
-            ref nodes => {
-                let message = format!(
-                    "the reference is {} nodes; name one node, or a set of one",
-                    nodes.len()
-                );
-                Err(self.error(at.0, at.1, message))
-            }
-        }
-    }
-
-    /// The rotations among a range of degrees of freedom of some nodes: 4 to 6 of a reference node,
-    /// or 3 of a rotation node in the plane.
-    pub(super) fn rotations_among(
-        &self,
-        nodes: &[u32],
-        [first, last]: [usize; 2],
-    ) -> Result<Vec<Key>> {
-        let mut out = Vec::new();
-        if self.properties.rigid.is_empty() {
-            return Ok(out);
-        }
-        for body in self.rigid_bodies()? {
-            if nodes.contains(&body.reference) {
-                let freedoms = first.max(4)..=last.min(6);
-                out.extend(freedoms.map(|freedom| (body.rotation, freedom as u8 - 4)));
-            }
-            if self.dimension() == 2 && nodes.contains(&body.rotation) && first <= 3 && last >= 3 {
-                out.push((body.rotation, 2));
-            }
-        }
-        out.sort_unstable();
-        out.dedup();
-        Ok(out)
-    }
-}
-
-impl DeckRigidBody {
     /// The equations of the body's nodes along the axes of the model.
-    pub(super) fn rows(&self, deck: &Deck) -> impl Iterator<Item = (u32, usize, LinearRow)> {
-        let dimension = deck.dimension();
-        let origin = deck.point(self.reference as usize);
+    pub(super) fn rows(&self, mesh: &DeckMesh) -> impl Iterator<Item = (u32, usize, LinearRow)> {
+        let dimension = mesh.dimension();
+        let origin = mesh.point(self.reference as usize);
         self.nodes.iter().flat_map(move |&node| {
-            let r = difference(deck.point(node as usize), origin);
+            let r = difference(mesh.point(node as usize), origin);
             let axes = (0..dimension).filter(|axis| self.follows[*axis]);
             axes.map(move |axis| {
                 let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -143,4 +102,41 @@ impl DeckRigidBody {
             })
         })
     }
+}
+
+fn one_node(target: &EntitySelection, lookup: Lookup, at: At) -> Result<u32> {
+    match lookup.indices(What::Nodes, target, at)?[..] {
+        [node] => Ok(node),
+        ref nodes => {
+            let message = format!(
+                "the reference is {} nodes; name one node, or a set of one",
+                nodes.len()
+            );
+            Err(lookup.error(at, message))
+        }
+    }
+}
+
+/// The rotations of rigid bodies among a range of degrees of freedom of some nodes: 4 to 6 of a
+/// reference node, or 3 of a rotation node in the plane.
+pub(super) fn rotations_among(
+    bodies: &[Rigid],
+    lookup: Lookup,
+    nodes: &[u32],
+    [first, last]: [usize; 2],
+) -> Result<Vec<Key>> {
+    let mut out = Vec::new();
+    let is_plane = lookup.mesh.dimension() == 2;
+    for body in DeckRigidBody::all(bodies, lookup)? {
+        if nodes.contains(&body.reference) {
+            let freedoms = first.max(4)..=last.min(6);
+            out.extend(freedoms.map(|freedom| (body.rotation, freedom as u8 - 4)));
+        }
+        if is_plane && nodes.contains(&body.rotation) && first <= 3 && last >= 3 {
+            out.push((body.rotation, 2));
+        }
+    }
+    out.sort_unstable();
+    out.dedup();
+    Ok(out)
 }

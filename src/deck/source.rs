@@ -25,6 +25,17 @@ impl Files {
         format!("{}, line {}", self.name(place), place.line)
     }
 
+    /// An error at a line, for a keyword.
+    pub(super) fn error(
+        &self,
+        place: LinePlace,
+        keyword: &str,
+        message: impl std::fmt::Display,
+    ) -> Error {
+        let place = self.show(place);
+        Error::input(format!("{place}: *{keyword}: {message}"))
+    }
+
     /// The name of the deck's own file.
     pub(super) fn first(&self) -> &str {
         self.0.first().map_or("", String::as_str)

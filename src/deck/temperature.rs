@@ -3,8 +3,9 @@
 
 use super::Deck;
 use super::bodies::{Bodies, unsupported};
-use super::data::{ConditionKind, MaterialData};
+use super::data::{ConditionKind, DeckProgram, MaterialData};
 use super::expansion::Expansion;
+use super::history::histories;
 use super::series::{Series, are_alike};
 use super::source::LinePlace;
 use crate::error::Result;
@@ -54,57 +55,97 @@ impl OfNode {
     }
 }
 
-impl Deck {
-    /// The largest change of temperature at each node of an element, with the node's number.
-    ///
-    /// # Errors
-    /// `Input` for undefined sets and nodes.
-    pub(crate) fn node_temperatures(&self) -> Result<Vec<(u64, f64)>> {
-        let nodes = self.temperatures_of_nodes()?;
-        let bodies = self.bodies()?;
-        let mut out = BTreeMap::new();
-        for (element, &body) in bodies.of_element.iter().enumerate() {
-            let expansion = self.varying_expansion(&bodies, body as usize);
-            for &node in self.element_nodes(element) {
-                let of_node = &nodes[node as usize];
-                let value = match expansion {
-                    Some(expansion) => of_node.expanded(expansion, &self.step_ends()).largest(),
-                    None => of_node.change.largest(),
-                };
-                if *out.entry(node).or_insert(value) != value {
-                    let message = format!(
-                        "node {} belongs to two materials whose *EXPANSION differs by temperature, \
-                         and its body has several temperatures: give one *EXPANSION to both, or \
-                         each body its own nodes and a *TIE",
-                        self.node_name(node as usize)
-                    );
-                    let place = of_node.place.unwrap_or(self.end);
-                    return Err(unsupported(self.error(place, "TEMPERATURE", message)));
-                }
+/// The largest change of temperature at each node of an element, with the node's number.
+///
+/// # Errors
+/// `Input` for undefined sets and nodes.
+pub(crate) fn largest_changes(deck: &Deck) -> Result<Vec<(u64, f64)>> {
+    let nodes = of_nodes(deck)?;
+    let bodies = &Bodies::of(deck)?;
+    let program = &deck.program;
+    let mut out = BTreeMap::new();
+    for (element, &body) in bodies.of_element.iter().enumerate() {
+        let expansion = varying_expansion(deck, bodies, body as usize);
+        for &node in deck.mesh.element_nodes(element) {
+            let of_node = &nodes[node as usize];
+            let value = match expansion {
+                Some(expansion) => of_node.expanded(expansion, &program.step_ends()).largest(),
+                None => of_node.change.largest(),
+            };
+            if *out.entry(node).or_insert(value) != value {
+                let message = format!(
+                    "node {} belongs to two materials whose *EXPANSION differs by temperature, \
+                     and its body has several temperatures: give one *EXPANSION to both, or \
+                     each body its own nodes and a *TIE",
+                    deck.mesh.node_name(node as usize)
+                );
+                let place = of_node.place.unwrap_or(deck.end);
+                return Err(unsupported(deck.error(place, "TEMPERATURE", message)));
             }
         }
-        let value = |(node, value): (u32, f64)| (self.nodes.labels[node as usize], value);
-        Ok(out.into_iter().map(value).collect())
     }
+    let value = |(node, value): (u32, f64)| (deck.mesh.node_label(node as usize), value);
+    Ok(out.into_iter().map(value).collect())
+}
 
-    /// The expansion of a body's material, if it depends on temperature.
-    fn varying_expansion(&self, bodies: &Bodies, body: usize) -> Option<&Expansion> {
-        let section = bodies.sections.get(body).copied().flatten()?;
-        let material = &self.properties.sections.get(section)?.material;
-        let expansion = self
-            .properties
-            .materials
-            .get(material)?
-            .expansion
-            .as_ref()?;
-        (!expansion.is_constant()).then_some(expansion)
+/// The temperatures of each body of a deck.
+///
+/// # Errors
+/// `Unsupported` if temperatures within a body do not change in proportion to each other.
+pub(super) fn of_bodies(deck: &Deck, bodies: &Bodies) -> Result<Vec<OfBody>> {
+    let steps = deck.program.steps.iter().flat_map(|step| &step.conditions);
+    let mut conditions = deck.program.initial.iter().chain(steps);
+    if !conditions.any(|condition| condition.kind == ConditionKind::Temperature) {
+        let none = bodies.names.iter().map(|_| OfBody::none());
+        return Ok(none.collect());
     }
+    let nodes = of_nodes(deck)?;
+    let mut members: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); bodies.names.len()];
+    for (element, &body) in bodies.of_element.iter().enumerate() {
+        members[body as usize].extend(deck.mesh.element_nodes(element));
+    }
+    let names = bodies.names.iter().zip(&members);
+    let expansions = (0..).map(|body| varying_expansion(deck, bodies, body));
+    names
+        .zip(expansions)
+        .map(|((name, members), expansion)| {
+            of_body(deck, name, &expanded(deck, members, &nodes, expansion))
+        })
+        .collect()
+}
 
+fn of_nodes(deck: &Deck) -> Result<Vec<OfNode>> {
+    let mut initial: BTreeMap<u32, f64> = BTreeMap::new();
+    let given = deck.program.initial.iter();
+    for condition in given.filter(|condition| condition.kind == ConditionKind::Temperature) {
+        for (node, _) in condition.keys(deck)? {
+            initial.insert(node, condition.value);
+        }
+    }
+    let histories = histories(deck, ConditionKind::Temperature)?;
+    let of_node = |node: u32| {
+        let initial = initial.get(&node).copied().unwrap_or(0.0);
+        let mut change = Series::starting(0.0);
+        let entry = histories.get(&(node, 0));
+        if let Some(entry) = entry {
+            change = entry.series.clone();
+            change.add(&Series::starting(initial), -1.0);
+        }
+        OfNode {
+            initial,
+            change,
+            place: entry.map(|entry| entry.place),
+        }
+    };
+    Ok((0..deck.n_nodes() as u32).map(of_node).collect())
+}
+
+impl DeckProgram {
     /// The ends of all steps and of their increments.
     fn increment_ends(&self) -> Vec<f64> {
         let mut out = Vec::new();
         let mut begin = 0.0;
-        for (end, step) in self.step_ends().into_iter().zip(&self.program.steps) {
+        for (end, step) in self.step_ends().into_iter().zip(&self.steps) {
             let n = step.increments.clamp(1, MOST_INCREMENTS);
             let at = |k: usize| begin + (end - begin) * k as f64 / n as f64;
             out.extend((1..n).map(at));
@@ -113,125 +154,80 @@ impl Deck {
         }
         out
     }
+}
 
-    fn temperatures_of_nodes(&self) -> Result<Vec<OfNode>> {
-        let mut initial: BTreeMap<u32, f64> = BTreeMap::new();
-        let given = self.program.initial.iter();
-        for condition in given.filter(|condition| condition.kind == ConditionKind::Temperature) {
-            for (node, _) in self.keys(condition)? {
-                initial.insert(node, condition.value);
-            }
-        }
-        let histories = self.histories(ConditionKind::Temperature)?;
-        let of_node = |node: u32| {
-            let initial = initial.get(&node).copied().unwrap_or(0.0);
-            let mut change = Series::starting(0.0);
-            let entry = histories.get(&(node, 0));
-            if let Some(entry) = entry {
-                change = entry.series.clone();
-                change.add(&Series::starting(initial), -1.0);
-            }
-            OfNode {
-                initial,
-                change,
-                place: entry.map(|entry| entry.place),
-            }
-        };
-        Ok((0..self.n_nodes() as u32).map(of_node).collect())
-    }
+/// The expansion of a body's material, if it depends on temperature.
+fn varying_expansion<'d>(deck: &'d Deck, bodies: &Bodies, body: usize) -> Option<&'d Expansion> {
+    let section = bodies.sections.get(body).copied().flatten()?;
+    let properties = &deck.properties;
+    let material = &properties.sections.get(section)?.material;
+    let expansion = properties.materials.get(material)?.expansion.as_ref()?;
+    (!expansion.is_constant()).then_some(expansion)
+}
 
-    /// The temperatures of each body.
-    ///
-    /// # Errors
-    /// `Unsupported` if temperatures within a body do not change in proportion to each other.
-    pub(super) fn temperatures_of_bodies(&self, bodies: &Bodies) -> Result<Vec<OfBody>> {
-        let conditions = self.program.initial.iter();
-        let mut conditions =
-            conditions.chain(self.program.steps.iter().flat_map(|s| &s.conditions));
-        if !conditions.any(|condition| condition.kind == ConditionKind::Temperature) {
-            let none = bodies.names.iter().map(|_| OfBody::none());
-            return Ok(none.collect());
-        }
-        let nodes = self.temperatures_of_nodes()?;
-        let mut of_body: Vec<BTreeSet<u32>> = vec![BTreeSet::new(); bodies.names.len()];
-        for (element, &body) in bodies.of_element.iter().enumerate() {
-            of_body[body as usize].extend(self.element_nodes(element));
-        }
-        let names = bodies.names.iter().zip(&of_body);
-        let expansions = (0..).map(|body| self.varying_expansion(bodies, body));
-        names
-            .zip(expansions)
-            .map(|((name, of_body), expansion)| {
-                self.temperature_of_body(name, &self.expanded(of_body, &nodes, expansion))
-            })
-            .collect()
-    }
+/// The nodes of a body, with equivalent changes of temperature if the expansion depends on
+/// temperature.
+fn expanded<'a>(
+    deck: &Deck,
+    of_body: &BTreeSet<u32>,
+    nodes: &'a [OfNode],
+    expansion: Option<&Expansion>,
+) -> Vec<(u32, Cow<'a, OfNode>)> {
+    let members = || (of_body.iter()).map(|&node| (node, &nodes[node as usize]));
+    let Some(expansion) = expansion else {
+        let as_they_are = |(node, of_node)| (node, Cow::Borrowed(of_node));
+        return members().map(as_they_are).collect();
+    };
+    // Several different temperatures can stay in proportion only if no intermediate times are
+    // added.
+    let mut all = members().map(|(_, of_node)| (of_node.initial, of_node.change.bits()));
+    let first = all.next();
+    let times = match all.all(|other| Some(&other) == first.as_ref()) {
+        true => deck.program.increment_ends(),
+        false => deck.program.step_ends(),
+    };
+    let of = |(node, of_node): (u32, &OfNode)| {
+        let change = of_node.expanded(expansion, &times);
+        let place = of_node.place;
+        let initial = of_node.initial;
+        let of_node = OfNode {
+            initial,
+            change,
+            place,
+        };
+        (node, Cow::Owned(of_node))
+    };
+    members().map(of).collect()
+}
 
-    /// The nodes of a body, with equivalent changes of temperature if the expansion depends on
-    /// temperature.
-    fn expanded<'a>(
-        &self,
-        of_body: &BTreeSet<u32>,
-        nodes: &'a [OfNode],
-        expansion: Option<&Expansion>,
-    ) -> Vec<(u32, Cow<'a, OfNode>)> {
-        let members = || of_body.iter().map(|&node| (node, &nodes[node as usize]));
-        let Some(expansion) = expansion else {
-            let as_they_are = |(node, of_node)| (node, Cow::Borrowed(of_node));
-            return members().map(as_they_are).collect();
-        };
-        // Several different temperatures can stay in proportion only if no intermediate times are
-        // added.
-        let mut all = members().map(|(_, of_node)| (of_node.initial, of_node.change.bits()));
-        let first = all.next();
-        let times = match all.all(|other| Some(&other) == first.as_ref()) {
-            true => self.increment_ends(),
-            false => self.step_ends(),
-        };
-        let of = |(node, of_node): (u32, &OfNode)| {
-            let change = of_node.expanded(expansion, &times);
-            let place = of_node.place;
-            let initial = of_node.initial;
-            let of_node = OfNode {
-                initial,
-                change,
-                place,
-            };
-            (node, Cow::Owned(of_node))
-        };
-        members().map(of).collect()
+fn of_body(deck: &Deck, name: &str, nodes: &[(u32, Cow<OfNode>)]) -> Result<OfBody> {
+    let members = || nodes.iter().map(|(node, of_node)| (*node, &**of_node));
+    let size = |of_node: &OfNode| of_node.change.largest().abs();
+    let most = members().reduce(|a, b| if size(b.1) > size(a.1) { b } else { a });
+    let Some((first, most)) = most else {
+        return Ok(OfBody::none());
+    };
+    let shape = most.change.shape();
+    let is_in_proportion =
+        |of_node: &OfNode| of_node.change.is_zero() || are_alike(&of_node.change.shape(), &shape);
+    if let Some((node, other)) = members().find(|(_, of_node)| !is_in_proportion(of_node)) {
+        let label = |node: u32| deck.mesh.node_name(node as usize);
+        let message = format!(
+            "the temperatures of nodes {} and {} of body {name} do not change in proportion: \
+             those of a body do",
+            label(first),
+            label(node)
+        );
+        let place = other.place.or(most.place).unwrap_or(deck.end);
+        return Err(unsupported(deck.error(place, "TEMPERATURE", message)));
     }
-
-    fn temperature_of_body(&self, name: &str, nodes: &[(u32, Cow<OfNode>)]) -> Result<OfBody> {
-        let members = || nodes.iter().map(|(node, of_node)| (*node, &**of_node));
-        let size = |of_node: &OfNode| of_node.change.largest().abs();
-        let most = members().reduce(|a, b| if size(b.1) > size(a.1) { b } else { a });
-        let Some((first, most)) = most else {
-            return Ok(OfBody::none());
-        };
-        let shape = most.change.shape();
-        let is_in_proportion = |of_node: &OfNode| {
-            of_node.change.is_zero() || are_alike(&of_node.change.shape(), &shape)
-        };
-        if let Some((node, other)) = members().find(|(_, of_node)| !is_in_proportion(of_node)) {
-            let label = |node: u32| self.node_name(node as usize);
-            let message = format!(
-                "the temperatures of nodes {} and {} of body {name} do not change in proportion: \
-                 those of a body do",
-                label(first),
-                label(node)
-            );
-            let place = other.place.or(most.place).unwrap_or(self.end);
-            return Err(unsupported(self.error(place, "TEMPERATURE", message)));
-        }
-        let initial = members().next().map_or(0.0, |(_, of_node)| of_node.initial);
-        Ok(OfBody {
-            initial: (initial, members().all(|(_, n)| n.initial == initial)),
-            change: most.change.clone(),
-            is_uniform: members().all(|(_, n)| n.change.bits() == most.change.bits()),
-            place: members().find_map(|(_, of_node)| of_node.place),
-        })
-    }
+    let initial = members().next().map_or(0.0, |(_, of_node)| of_node.initial);
+    Ok(OfBody {
+        initial: (initial, members().all(|(_, n)| n.initial == initial)),
+        change: most.change.clone(),
+        is_uniform: members().all(|(_, n)| n.change.bits() == most.change.bits()),
+        place: members().find_map(|(_, of_node)| of_node.place),
+    })
 }
 
 impl MaterialData {

@@ -207,7 +207,10 @@ fn sets_in_a_circle_are_the_sum_of_their_members() {
     let deck = Deck::parse(text.as_bytes(), "a.inp").unwrap();
     let a = data::EntitySelection::Set("a".to_string());
     let at = (LinePlace::default(), "NSET");
-    assert_eq!(deck.indices(sets::What::Nodes, &a, at).unwrap(), [0, 2]);
+    assert_eq!(
+        deck.lookup().indices(sets::What::Nodes, &a, at).unwrap(),
+        [0, 2]
+    );
 }
 
 #[test]
@@ -238,9 +241,9 @@ fn instances_are_moved_then_turned() {
              *INSTANCE, NAME=I, PART=P\n{place}*END INSTANCE\n*END ASSEMBLY\n"
         );
         let deck = Deck::parse(text.as_bytes(), "a.inp").unwrap();
-        assert_eq!(deck.node_name(0), "7 of instance I");
+        assert_eq!(deck.mesh.node_name(0), "7 of instance I");
         let [axis, ways] = [0, 1].map(|index: usize| deck.properties.transforms[index].points);
-        (deck.point(0), axis, ways)
+        (deck.mesh.point(0), axis, ways)
     };
     let (x, axis, ways) = placed("");
     assert_eq!((x, axis[1]), ([1.0, 2.0, 3.0], [1.0, 2.0, 4.0]));

@@ -1,7 +1,7 @@
 //! Reads the mesh of a deck of Abaqus or CalculiX ([`crate::deck`]).
 
 use super::{Facet, Mesh, Surface};
-use crate::deck::{Deck, Options};
+use crate::deck::{Bodies, Deck, Geometry, Options};
 use crate::error::Result;
 use crate::space::Space;
 use std::path::Path;
@@ -28,9 +28,9 @@ pub fn mesh(deck: &Deck) -> Result<Mesh> {
     };
     let geometry = match deck.convert(options) {
         Ok(conversion) => conversion.geometry,
-        Err(_) => deck.geometry()?,
+        Err(_) => Geometry::of(deck)?,
     };
-    let bodies = deck.bodies()?;
+    let bodies = Bodies::of(deck)?;
     let mut mesh = Mesh {
         dimension: deck.space()?.dimension(),
         bodies: bodies.names,
@@ -41,8 +41,9 @@ pub fn mesh(deck: &Deck) -> Result<Mesh> {
     for (node, kept) in kept.iter_mut().enumerate() {
         if geometry.is_used[node] {
             *kept = mesh.node_labels.len() as u32;
-            mesh.node_labels.push(deck.node_label(node));
-            mesh.coordinates.extend(&deck.point(node)[..mesh.dimension]);
+            mesh.node_labels.push(deck.mesh.node_label(node));
+            mesh.coordinates
+                .extend(&deck.mesh.point(node)[..mesh.dimension]);
         }
     }
     if mesh.dimension == 2 {
@@ -56,12 +57,13 @@ pub fn mesh(deck: &Deck) -> Result<Mesh> {
     for (element, &body) in bodies.of_element.iter().enumerate() {
         nodes.clear();
         nodes.extend(
-            deck.element_nodes(element)
+            deck.mesh
+                .element_nodes(element)
                 .iter()
                 .map(|&node| kept[node as usize]),
         );
-        mesh.push_element(deck.shape(element), body as usize, &nodes);
-        mesh.element_labels.push(deck.element_label(element));
+        mesh.push_element(deck.mesh.shape(element), body as usize, &nodes);
+        mesh.element_labels.push(deck.mesh.element_label(element));
     }
     let nodes = |nodes: Vec<u32>| nodes.iter().map(|&n| kept[n as usize] as usize).collect();
     mesh.node_sets = (geometry.node_sets.into_iter())
@@ -86,10 +88,10 @@ pub fn mesh(deck: &Deck) -> Result<Mesh> {
 
 /// Checks that no node of an axisymmetric mesh lies beyond the axis.
 fn check_radii(deck: &Deck, is_used: &[bool]) -> Result<()> {
-    let is_beyond = |node: &usize| is_used[*node] && deck.point(*node)[0] < 0.0;
+    let is_beyond = |node: &usize| is_used[*node] && deck.mesh.point(*node)[0] < 0.0;
     match (0..deck.n_nodes()).find(is_beyond) {
         Some(node) => {
-            let (label, x) = (deck.node_label(node), deck.point(node)[0]);
+            let (label, x) = (deck.mesh.node_label(node), deck.mesh.point(node)[0]);
             let message = format!(
                 "node {label} lies at the negative radius {x}: of an axisymmetric model give the \
                  side x >= 0 of the axis"
@@ -106,17 +108,17 @@ fn check_plane(deck: &Deck, is_used: &[bool]) -> Result<()> {
     let Some(first) = nodes().next() else {
         return Ok(());
     };
-    let height = deck.point(first)[2];
+    let height = deck.mesh.point(first)[2];
     let extent = nodes().map(|node| {
-        let [x, y, _] = deck.point(node);
+        let [x, y, _] = deck.mesh.point(node);
         x.abs().max(y.abs())
     });
     let extent = extent.fold(0.0, f64::max);
     // The tolerance allows for coordinates written with about ten digits.
-    let is_off = |node: &usize| (deck.point(*node)[2] - height).abs() > 1e-9 * extent;
+    let is_off = |node: &usize| (deck.mesh.point(*node)[2] - height).abs() > 1e-9 * extent;
     match nodes().find(is_off) {
         Some(node) => {
-            let (label, z) = (deck.node_label(node), deck.point(node)[2]);
+            let (label, z) = (deck.mesh.node_label(node), deck.mesh.point(node)[2]);
             let message = format!(
                 "node {label} lies at z = {z}, others at {height}: a plane model lies in one plane"
             );

@@ -26,6 +26,7 @@ pub use crate::shape::{Integration, Shape};
 use crate::space::{Vector, in_words};
 pub use curve::Curve;
 pub use local_refinement::refined;
+pub(crate) use nearest::NearestNode;
 pub use round::{declared, lay_on};
 pub use subdivision::subdivided;
 pub use sweep::{extruded, revolved};

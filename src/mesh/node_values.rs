@@ -1,7 +1,7 @@
 //! Values at nodes read from a file, by node number.
 
 use super::gmsh::node_data;
-use crate::deck::{Deck, is_deck};
+use crate::deck::{Deck, is_deck, largest_changes};
 use crate::error::Result;
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use std::path::Path;
 /// The errors of reading the file.
 pub(crate) fn read(path: &Path) -> Result<Vec<(u64, f64)>> {
     match is_deck(path) {
-        true => Deck::read(path)?.node_temperatures(),
+        true => largest_changes(&Deck::read(path)?),
         false => node_data::read(path),
     }
 }

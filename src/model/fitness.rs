@@ -2,7 +2,7 @@
 
 use super::rigid::RigidBodies;
 use crate::error::{Error, Result};
-use crate::mesh::{self, Mesh};
+use crate::mesh::{self, Mesh, NearestNode};
 use crate::number::significant;
 use crate::scene::Scene;
 use crate::shape::{Integration, Shape};
@@ -92,7 +92,7 @@ fn check_dimension(scene: &Scene, mesh: &Mesh) -> Result<()> {
 fn check_places(scene: &Scene, mesh: &Mesh) -> Result<()> {
     for (index, entry) in scene.reference.iter().enumerate() {
         let Some(place) = entry.place() else { continue };
-        let Some(near) = mesh.nearest_node(entry.body.as_deref(), place) else {
+        let Some(near) = NearestNode::of(mesh, entry.body.as_deref(), place) else {
             continue;
         };
         if near.distance > near.edge {

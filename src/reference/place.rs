@@ -1,5 +1,6 @@
 //! Values at a place of a state: pressure, displacements and stresses at the nearest node.
 
+use crate::mesh::NearestNode;
 use crate::model::Model;
 use crate::results::{Results, State};
 use crate::scene::{PlaceQuantity, Reference};
@@ -14,7 +15,7 @@ pub(super) fn value(model: &Model, results: &Results, entry: &Reference) -> Opti
     if what == PlaceQuantity::Pressure {
         return pressure(state, at);
     }
-    let node = model.mesh.nearest_node(entry.body.as_deref(), at)?.node;
+    let node = NearestNode::of(&model.mesh, entry.body.as_deref(), at)?.node;
     let fields = state.fields.as_ref()?;
     let (values, component, n) = match what {
         PlaceQuantity::Displacement(axis) => (&fields.displacement, axis, model.mesh.dimension),

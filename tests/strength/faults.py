@@ -104,8 +104,8 @@ f(20, "deck/conversion/conditions.rs", "sum.series.add(&entry.series, share);",
   "sum.series.add(&entry.series, " + x(20, "axes[&node][global][axis as usize]", "share") + ");",
   "deck", "forces at nodes with *TRANSFORM are turned the wrong way round (transposed axes)",
   "decks (tilted_block, calculix), unit deck")
-f(21, "deck/conversion/equations.rs", "total: sum.largest() / self.thickness,",
-  "total: sum.largest() / " + x(21, "1.0", "self.thickness") + ",",
+f(21, "deck/conversion/held_planes.rs", "total: sum.largest() / draft.thickness,",
+  "total: sum.largest() / " + x(21, "1.0", "draft.thickness") + ",",
   "deck", "the force on a side held plane is not divided by the thickness of a plane model",
   "decks (held_plane, converted)")
 f(22, "model/loads.rs", ".map(|&i| (i, share.map(|f| f / n)))",

@@ -1,13 +1,13 @@
 //! Displacements along axes of a `*TRANSFORM` that a deck prescribes, or lets follow others.
 
+use super::super::constraints::LocalAxes;
 use super::super::history::{KeyHistory, Map};
 use super::super::linear::FreedomCoefficients;
 use super::super::series::Series;
 use super::super::source::LinePlace;
-use super::Draft;
+use super::draft::Draft;
 use crate::scene::{Direction, EquationTerm};
 use crate::space::{Vector, along};
-use std::collections::BTreeMap;
 
 /// Largest component of a unit vector that counts as round-off, after the sums of an elimination.
 const ROUND_OFF: f64 = 1e-12;
@@ -29,16 +29,32 @@ struct KnownAlong {
     shares: Vec<f64>,
 }
 
-impl Draft<'_> {
-    /// Prescribes the displacement of a node along some of its own axes, by Gaussian elimination:
-    /// a component along x, y or z is either known then, or follows others.
-    pub(super) fn move_along(
-        &mut self,
-        node: u32,
-        known: &[AlongAxis],
-        axes: &BTreeMap<u32, [Vector; 3]>,
-        boundary: &mut Map,
-    ) {
+/// What the displacement of a node is along some of its own axes.
+pub(super) struct NodeAlongAxes {
+    pub(super) node: u32,
+    pub(super) known: Vec<AlongAxis>,
+}
+
+impl NodeAlongAxes {
+    /// What is prescribed along the axes of a node, which is taken from the map.
+    pub(super) fn taken(node: u32, axes: &LocalAxes, boundary: &mut Map) -> Self {
+        let known = (0..3u8).filter_map(|axis| {
+            let entry = boundary.remove(&(node, axis))?;
+            Some(AlongAxis {
+                axis: axes[&node][axis as usize],
+                of: FreedomCoefficients::new(),
+                moved: entry.series,
+                place: entry.place,
+            })
+        });
+        let known = known.collect();
+        NodeAlongAxes { node, known }
+    }
+
+    /// Prescribes the displacement by Gaussian elimination: a component along x, y or z is either
+    /// known then, or follows others.
+    pub(super) fn prescribe(&self, draft: &mut Draft, axes: &LocalAxes, boundary: &mut Map) {
+        let (node, known) = (self.node, &self.known);
         for (row, pivot, place) in eliminated(known) {
             let mut moved = Series::starting(0.0);
             let mut of = FreedomCoefficients::new();
@@ -56,7 +72,7 @@ impl Draft<'_> {
                 boundary.insert((node, pivot as u8), KeyHistory::new(moved, place));
                 continue;
             }
-            let on = self.set_of_node(node);
+            let on = draft.set_of_node(node);
             let term = |axis: usize| EquationTerm {
                 on: on.clone(),
                 direction: Direction::ALL[axis],
@@ -64,9 +80,9 @@ impl Draft<'_> {
             };
             let mut terms: Vec<EquationTerm> = own.into_iter().map(term).collect();
             for (key, c) in of {
-                terms.extend(self.components_of(key, c, axes));
+                terms.extend(draft.components_of(key, c, axes));
             }
-            self.relate(terms, moved, place);
+            draft.relate(terms, moved, place);
         }
     }
 }

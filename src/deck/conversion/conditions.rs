@@ -4,16 +4,17 @@
 //! set have the same history. Other conditions are grouped by their history, on sets made for the
 //! purpose.
 
+use super::super::constraints::{LocalAxes, local_axes};
 use super::super::data::{Condition, ConditionKind, EntitySelection};
-use super::super::facets::Face;
-use super::super::history::{GivenDisplacements, Key, KeyHistory, Map};
-use super::super::linear::FreedomCoefficients;
+use super::super::facets::{Face, Key};
+use super::super::history::{GivenDisplacements, KeyHistory, Map, histories};
 use super::super::series::Series;
 use super::super::source::LinePlace;
-use super::along_axes::AlongAxis;
-use super::draft::{Draft, SumInSteps, made};
+use super::along_axes::NodeAlongAxes;
+use super::draft::{Draft, made};
+use super::in_steps::InSteps;
 use crate::error::Result;
-use crate::scene::{Displacement, Load, Support};
+use crate::scene::{Load, LooseNode, Support};
 use crate::space::Vector;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -24,26 +25,52 @@ const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 /// Members with the same history, by degree of freedom and history.
 type MemberGroups = BTreeMap<(u8, Vec<u64>), (Vec<u32>, Series, LinePlace)>;
 
-impl Draft<'_> {
-    pub(super) fn conditions(&mut self) -> Result<()> {
-        let GivenDisplacements {
-            whole: mut boundary,
-            mut in_steps,
-        } = self.deck.displacements()?;
-        let mut forces = self.deck.histories(ConditionKind::Force)?;
-        let planes = self.constrain(&mut boundary, &mut in_steps, &mut forces)?;
-        self.turn(&mut boundary, &mut forces)?;
-        self.hold_planes(planes, &mut boundary, &mut forces)?;
-        self.boundary(boundary)?;
-        self.boundary_in_steps(in_steps)?;
-        self.forces(forces)?;
-        let pressures = self.deck.histories(ConditionKind::Pressure)?;
-        self.pressures(pressures)
+/// Conditions of a deck on their way into a scene.
+pub(super) struct DeckConditions<'c, 'd> {
+    pub(super) draft: &'c mut Draft<'d>,
+    pub(super) axes: LocalAxes,
+    /// Displacements that are given in all steps.
+    pub(super) boundary: Map,
+    pub(super) forces: Map,
+    /// Sums of nodes without elements, by node number.
+    pub(super) loose: BTreeMap<u64, LooseNode>,
+}
+
+impl<'c, 'd> DeckConditions<'c, 'd> {
+    /// Adds the supports, forces, pressures and equations of a deck to a draft. Returns what the
+    /// displacements and forces of nodes without elements are, by node number.
+    pub(super) fn convert(draft: &'c mut Draft<'d>) -> Result<BTreeMap<u64, LooseNode>> {
+        let deck = draft.deck;
+        let GivenDisplacements { whole, in_steps } = GivenDisplacements::of(deck)?;
+        let mut conditions = DeckConditions {
+            draft,
+            boundary: whole,
+            forces: histories(deck, ConditionKind::Force)?,
+            axes: local_axes(&deck.properties.transforms, deck.lookup())?,
+            loose: BTreeMap::new(),
+        };
+        let (planes, in_steps) = conditions.constrain(in_steps)?;
+        conditions.turn_boundary(&in_steps);
+        conditions.turn_forces();
+        let DeckConditions {
+            draft,
+            boundary,
+            forces,
+            ..
+        } = &mut conditions;
+        for plane in planes {
+            plane.hold(draft, boundary, forces);
+        }
+        conditions.add_boundary()?;
+        in_steps.prescribe(conditions.draft, &conditions.axes);
+        conditions.add_forces()?;
+        conditions.add_pressures(histories(deck, ConditionKind::Pressure)?)?;
+        Ok(conditions.loose)
     }
 
     /// All conditions of a kind that are given for sets.
     fn lines_on_sets(&self, kind: ConditionKind) -> Vec<Condition> {
-        let program = &self.deck.program;
+        let program = &self.draft.deck.program;
         let steps = program.steps.iter().flat_map(|step| &step.conditions);
         let all = program.initial.iter().chain(steps);
         let of_kind = all.filter(|c| c.kind == kind && matches!(c.on, EntitySelection::Set(_)));
@@ -62,12 +89,12 @@ impl Draft<'_> {
             let EntitySelection::Set(name) = &condition.on else {
                 continue;
             };
-            let Some(name) = self.deck.sets.nodes.written(name) else {
+            let Some(name) = self.draft.deck.sets.nodes.written(name) else {
                 continue;
             };
             let mut by_axis: BTreeMap<u8, Vec<u32>> = BTreeMap::new();
-            for (node, axis) in self.deck.keys(&condition)? {
-                if self.geometry.uses(node) {
+            for (node, axis) in condition.keys(self.draft.deck)? {
+                if self.draft.geometry.uses(node) {
                     by_axis.entry(axis).or_default().push(node);
                 }
             }
@@ -90,24 +117,16 @@ impl Draft<'_> {
         Ok(out)
     }
 
-    /// Groups members by their history.
-    fn groups(map: Map) -> MemberGroups {
-        let mut out = MemberGroups::new();
-        for ((member, axis), entry) in map {
-            let key = (axis, entry.series.bits());
-            let new = || (Vec::new(), entry.series.clone(), entry.place);
-            out.entry(key).or_insert_with(new).0.push(member);
-        }
-        out
-    }
-
     /// Turns nodes held at zero into supports, and others into prescribed displacements.
-    fn boundary(&mut self, mut map: Map) -> Result<()> {
-        map.retain(|key, _| self.geometry.uses(key.0));
-        for (on, axis, series, place) in self.of_node_sets(ConditionKind::Boundary, &mut map)? {
+    fn add_boundary(&mut self) -> Result<()> {
+        let mut map = std::mem::take(&mut self.boundary);
+        map.retain(|key, _| self.draft.geometry.uses(key.0));
+        let of_sets = self.of_node_sets(ConditionKind::Boundary, &mut map)?;
+        let draft = &mut *self.draft;
+        for (on, axis, series, place) in of_sets {
             match series.is_zero() {
-                true => self.hold(&on, &[axis as usize], place),
-                false => self.displace(on, axis, KeyHistory::new(series, place)),
+                true => draft.hold(&on, &[axis as usize], place),
+                false => draft.displace(on, axis, KeyHistory::new(series, place)),
             }
         }
         // For each node, the axes along which it is held, as a mask.
@@ -128,71 +147,50 @@ impl Draft<'_> {
         }
         for (mask, (nodes, place)) in by_mask {
             let axes: Vec<usize> = (0..3).filter(|axis| mask & (1 << axis) != 0).collect();
-            let on = self.geometry.add_nodes(&made("boundary", place), nodes);
-            self.hold(&on, &axes, place);
+            let on = draft.geometry.add_nodes(&made("boundary", place), nodes);
+            draft.hold(&on, &axes, place);
         }
-        for ((axis, _), (nodes, series, place)) in Self::groups(map) {
-            let on = self.geometry.add_nodes(&made("boundary", place), nodes);
-            self.displace(on, axis, KeyHistory::new(series, place));
+        for ((axis, _), (nodes, series, place)) in groups(map) {
+            let on = draft.geometry.add_nodes(&made("boundary", place), nodes);
+            draft.displace(on, axis, KeyHistory::new(series, place));
         }
         Ok(())
     }
 
-    pub(super) fn displace(&mut self, on: String, axis: u8, entry: KeyHistory) {
-        let KeyHistory {
-            series,
-            place,
-            span,
-            ..
-        } = entry;
-        let value = |of: u8| (of == axis).then(|| series.largest().into());
-        let load = Load {
-            on,
-            displacement: Some(Displacement {
-                x: value(0),
-                y: value(1),
-                z: value(2),
-            }),
-            since: span.since,
-            until: span.until,
-            ..Load::default()
-        };
-        self.add_load("displacement", load, series, place);
-    }
-
     /// Adds forces. The deck gives the force on each node of a set, the scene the total on all
     /// nodes, shared equally.
-    fn forces(&mut self, mut map: Map) -> Result<()> {
+    fn add_forces(&mut self) -> Result<()> {
+        let mut map = std::mem::take(&mut self.forces);
         map.retain(|_, entry| !entry.series.is_zero());
-        let unused = map.iter().find(|(key, _)| !self.geometry.uses(key.0));
+        let unused = map.iter().find(|(key, _)| !self.draft.geometry.uses(key.0));
         if let Some((key, entry)) = unused {
-            let node = self.deck.node_name(key.0 as usize);
+            let node = self.draft.deck.mesh.node_name(key.0 as usize);
             let message = format!("a force acts on node {node}, which belongs to no element");
-            return Err(self.deck.error(entry.place, "CLOAD", message));
+            return Err(self.draft.deck.error(entry.place, "CLOAD", message));
         }
         for (on, axis, series, place) in self.of_node_sets(ConditionKind::Force, &mut map)? {
             self.push(on, axis, series, place);
         }
-        for ((axis, _), (nodes, series, place)) in Self::groups(map) {
-            let on = self.geometry.add_nodes(&made("cload", place), nodes);
+        for ((axis, _), (nodes, series, place)) in groups(map) {
+            let on = self.draft.geometry.add_nodes(&made("cload", place), nodes);
             self.push(on, axis, series, place);
         }
         Ok(())
     }
 
     fn push(&mut self, on: String, axis: u8, series: Series, place: LinePlace) {
-        let n = self.geometry.node_sets.get(&on).map_or(0, Vec::len);
+        let n = self.draft.geometry.node_sets.get(&on).map_or(0, Vec::len);
         let mut total: Vector = [0.0; 3];
-        total[axis as usize] = n as f64 * series.largest() / self.thickness;
+        total[axis as usize] = n as f64 * series.largest() / self.draft.thickness;
         let load = Load {
             on,
-            force: Some(self.components(total)),
+            force: Some(self.draft.components(total)),
             ..Load::default()
         };
-        self.add_load("force", load, series, place);
+        self.draft.add_load("force", load, series, place);
     }
 
-    fn pressures(&mut self, mut map: Map) -> Result<()> {
+    fn add_pressures(&mut self, mut map: Map) -> Result<()> {
         map.retain(|_, entry| !entry.series.is_zero());
         for condition in self.lines_on_sets(ConditionKind::Pressure) {
             let EntitySelection::Set(name) = &condition.on else {
@@ -201,7 +199,7 @@ impl Draft<'_> {
             if condition.range[0] != 0 {
                 continue;
             }
-            let faces = self.deck.keys(&condition)?;
+            let faces = condition.keys(self.draft.deck)?;
             let entries: Option<Vec<_>> = faces.iter().map(|face| map.get(face)).collect();
             let Some(entries) = entries else { continue };
             let Some(series) = entries.first().map(|first| first.series.clone()) else {
@@ -209,7 +207,7 @@ impl Draft<'_> {
             };
             if entries.iter().all(|entry| entry.series == series) {
                 faces.iter().for_each(|face| drop(map.remove(face)));
-                let on = self.geometry.surface_name(name);
+                let on = self.draft.geometry.surface_name(name);
                 self.press(on, series, condition.place);
             }
         }
@@ -220,7 +218,10 @@ impl Draft<'_> {
             groups.entry(key).or_insert_with(new).0.push(face);
         }
         for (faces, series, place) in groups.into_values() {
-            let on = self.geometry.add_surface(&made("dload", place), faces);
+            let on = self
+                .draft
+                .geometry
+                .add_surface(&made("dload", place), faces);
             self.press(on, series, place);
         }
         Ok(())
@@ -232,37 +233,29 @@ impl Draft<'_> {
             pressure: Some(series.largest().into()),
             ..Load::default()
         };
-        self.add_load("pressure", load, series, place);
+        self.draft.add_load("pressure", load, series, place);
     }
 
-    /// Converts conditions in local axes: zero displacements become supports along these axes, and
-    /// forces are resolved into global components.
-    fn turn(&mut self, boundary: &mut Map, forces: &mut Map) -> Result<()> {
-        let axes = self.deck.local_axes()?;
-        if axes.is_empty() {
-            return Ok(());
-        }
-        let turned: Vec<Key> = boundary
-            .keys()
-            .filter(|k| axes.contains_key(&k.0))
-            .copied()
-            .collect();
+    /// Converts displacements in local axes: zero displacements become supports along these axes.
+    fn turn_boundary(&mut self, in_steps: &InSteps) {
+        let (axes, boundary, draft) = (&self.axes, &mut self.boundary, &mut *self.draft);
+        let turned = boundary.keys().filter(|k| axes.contains_key(&k.0));
+        let turned: Vec<Key> = turned.copied().collect();
         let mut by_direction: BTreeMap<[u64; 3], (Vector, BTreeSet<u32>, LinePlace)> =
             BTreeMap::new();
-        let is_moved = |key: &Key| !boundary[key].series.is_zero() && self.geometry.uses(key.0);
+        let is_moved = |key: &Key| !boundary[key].series.is_zero() && draft.geometry.uses(key.0);
         let moved = turned.iter().filter(|k| is_moved(k)).map(|k| k.0);
-        let in_steps = self.in_steps.iter().flat_map(SumInSteps::nodes);
-        let in_steps = in_steps.filter(|node| axes.contains_key(node));
-        let moved: BTreeSet<u32> = moved.chain(in_steps).collect();
+        let of_sums = in_steps.nodes_of_sums();
+        let of_sums = of_sums.filter(|node| axes.contains_key(node));
+        let moved: BTreeSet<u32> = moved.chain(of_sums).collect();
         for &node in &moved {
-            let known: Vec<AlongAxis> = take_known(node, &axes[&node], boundary).collect();
-            self.move_along(node, &known, &axes, boundary);
+            NodeAlongAxes::taken(node, axes, boundary).prescribe(draft, axes, boundary);
         }
         for key in turned.into_iter().filter(|key| !moved.contains(&key.0)) {
             let Some(entry) = boundary.remove(&key) else {
                 continue;
             };
-            if !self.geometry.uses(key.0) {
+            if !draft.geometry.uses(key.0) {
                 continue;
             }
             let direction = axes[&key.0][key.1 as usize];
@@ -272,24 +265,22 @@ impl Draft<'_> {
         }
         for (direction, nodes, place) in by_direction.into_values() {
             let name = made("boundary", place);
-            let on = self.geometry.add_nodes(&name, nodes.into_iter().collect());
-            let direction = Some(self.components(direction));
+            let on = draft.geometry.add_nodes(&name, nodes.into_iter().collect());
             let support = Support {
                 on,
-                direction,
+                direction: Some(draft.components(direction)),
                 ..Support::default()
             };
-            self.add_support(support, place);
+            draft.add_support(support, place);
         }
-        let turned: Vec<Key> = forces
-            .keys()
-            .filter(|k| axes.contains_key(&k.0))
-            .copied()
-            .collect();
-        let turned: Vec<_> = turned
-            .into_iter()
-            .filter_map(|k| Some((k, forces.remove(&k)?)))
-            .collect();
+    }
+
+    /// Resolves forces in local axes into global components.
+    fn turn_forces(&mut self) {
+        let (axes, forces) = (&self.axes, &mut self.forces);
+        let all = std::mem::take(forces).into_iter();
+        let (turned, others): (Map, Map) = all.partition(|(key, _)| axes.contains_key(&key.0));
+        *forces = others;
         for ((node, axis), entry) in turned {
             let shares = axes[&node][axis as usize].iter().enumerate();
             for (global, &share) in shares.filter(|(_, share)| share.abs() > ROUND_OFF) {
@@ -299,24 +290,16 @@ impl Draft<'_> {
                 sum.series.add(&entry.series, share);
             }
         }
-        Ok(())
     }
 }
 
-/// What is prescribed along the axes of a node, which is taken from the map.
-pub(super) fn take_known<'m>(
-    node: u32,
-    axes: &[Vector; 3],
-    boundary: &'m mut Map,
-) -> impl Iterator<Item = AlongAxis> + use<'m> {
-    let axes = *axes;
-    (0..3u8).filter_map(move |axis| {
-        let entry = boundary.remove(&(node, axis))?;
-        Some(AlongAxis {
-            axis: axes[axis as usize],
-            of: FreedomCoefficients::new(),
-            moved: entry.series,
-            place: entry.place,
-        })
-    })
+/// Groups members by their history.
+fn groups(map: Map) -> MemberGroups {
+    let mut out = MemberGroups::new();
+    for ((member, axis), entry) in map {
+        let key = (axis, entry.series.bits());
+        let new = || (Vec::new(), entry.series.clone(), entry.place);
+        out.entry(key).or_insert_with(new).0.push(member);
+    }
+    out
 }

@@ -4,37 +4,36 @@
 //! gap as long as the model. A step that switches the pair applies or removes this gap gradually
 //! over its time.
 
+use super::super::Deck;
 use super::super::bodies::unsupported;
-use super::super::data::{Account, ContactChange, ContactPair};
+use super::super::data::{ContactChange, ContactPair};
 use super::super::series::Series;
 use super::super::source::LinePlace;
-use super::Draft;
+use super::contact::ScenePairs;
+use super::draft::Draft;
 use crate::error::Result;
 use crate::scene::{Contact, Load};
-use crate::space::{difference, length};
 
 const KEYWORD: &str = "MODEL CHANGE";
 
-impl Draft<'_> {
+impl ScenePairs {
     /// Adds a gap load for each pair that is switched.
     ///
     /// # Errors
     /// `Input` for pairs that are not defined; `Unsupported` if both surfaces belong to other pairs
     /// too, because the gap would then act on all of these pairs.
-    pub(super) fn contact_changes(&mut self, account: &mut Account) -> Result<()> {
-        let alike = |a: &str, b: &str| a.eq_ignore_ascii_case(b);
-        let pairs = &self.deck.properties.contacts;
+    pub(super) fn add_changes(&self, draft: &mut Draft) -> Result<()> {
+        let deck = draft.deck;
+        let pairs = &deck.properties.contacts;
         let mut changed: Vec<Option<(Series, LinePlace)>> = vec![None; pairs.len()];
-        let apart = self.length_of_model();
+        let apart = deck.mesh.diagonal();
         let mut time = 0.0;
-        for (number, step) in self.deck.program.steps.iter().enumerate() {
+        for (number, step) in deck.program.steps.iter().enumerate() {
             let end = time + step.period;
             for change in &step.contact_changes {
-                let is_it = |pair: &ContactPair| {
-                    alike(&pair.slave, &change.slave) && alike(&pair.master, &change.master)
-                };
+                let is_it = |pair: &ContactPair| pair.is_of(&change.slave, &change.master);
                 let Some(index) = pairs.iter().position(is_it) else {
-                    return Err(self.no_such_pair(change));
+                    return Err(no_such_pair(deck, change));
                 };
                 let value = if change.is_on { 0.0 } else { apart };
                 let at_first = if number == 0 { value } else { 0.0 };
@@ -50,8 +49,7 @@ impl Draft<'_> {
                     false if number == 0 => "the surfaces begin apart",
                     false => "the surfaces are taken apart over the step",
                 };
-                let list = &mut account.taken;
-                Account::add(list, &self.deck.files, change.place, KEYWORD, how);
+                draft.remark(change.place, KEYWORD, how);
             }
             time = end;
         }
@@ -60,52 +58,37 @@ impl Draft<'_> {
                 continue;
             };
             let load = Load {
-                on: self.own_surface(index, place)?,
+                on: self.own_surface(index).ok_or_else(|| shared(deck, place))?,
                 gap: Some(series.largest().into()),
                 ..Load::default()
             };
-            self.add_load("gap", load, series, place);
+            draft.add_load("gap", load, series, place);
         }
         Ok(())
     }
 
-    fn no_such_pair(&self, change: &ContactChange) -> crate::Error {
-        let message = format!(
-            "there is no *CONTACT PAIR with the slave {} and the master {}",
-            change.slave, change.master
-        );
-        self.deck.error(change.place, KEYWORD, message)
-    }
-
     /// A surface of a contact pair that belongs to no other pair.
-    fn own_surface(&self, index: usize, place: LinePlace) -> Result<String> {
-        let contact = &self.contacts[index];
+    fn own_surface(&self, index: usize) -> Option<String> {
         let has = |contact: &Contact, name: &str| contact.first == name || contact.second == name;
-        let others = || {
-            let all = self.contacts.iter().enumerate();
-            all.filter(move |(k, _)| *k != index)
-                .map(|(_, contact)| contact)
-        };
-        let own = [&contact.first, &contact.second];
-        let own = own
-            .into_iter()
-            .find(|&name| !others().any(|other| has(other, name)));
-        own.cloned().ok_or_else(|| {
-            let message = "both surfaces belong to other contact pairs too, which would be \
-                           switched with it; define a surface for this pair alone";
-            unsupported(self.deck.error(place, KEYWORD, message))
-        })
+        let (before, rest) = self.contacts.split_at(index);
+        let (contact, after) = rest.split_first()?;
+        let others = || before.iter().chain(after);
+        let mut own = [&contact.first, &contact.second].into_iter();
+        let own = own.find(|name| !others().any(|other| has(other, name)));
+        own.cloned()
     }
+}
 
-    /// The diagonal of the bounding box of all nodes.
-    fn length_of_model(&self) -> f64 {
-        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-        for node in 0..self.deck.nodes.labels.len() {
-            for (d, x) in self.deck.point(node).into_iter().enumerate() {
-                low[d] = low[d].min(x);
-                high[d] = high[d].max(x);
-            }
-        }
-        length(difference(high, low))
-    }
+fn shared(deck: &Deck, place: LinePlace) -> crate::Error {
+    let message = "both surfaces belong to other contact pairs too, which would be switched with \
+                   it; define a surface for this pair alone";
+    unsupported(deck.error(place, KEYWORD, message))
+}
+
+fn no_such_pair(deck: &Deck, change: &ContactChange) -> crate::Error {
+    let message = format!(
+        "there is no *CONTACT PAIR with the slave {} and the master {}",
+        change.slave, change.master
+    );
+    deck.error(change.place, KEYWORD, message)
 }

@@ -25,6 +25,70 @@ pub(crate) struct Geometry {
 }
 
 impl Geometry {
+    /// The sets that the deck names. A surface that shares the name of a node set is renamed.
+    ///
+    /// # Errors
+    /// `Input` for undefined names and numbers in the sets.
+    pub(crate) fn of(deck: &Deck) -> Result<Geometry> {
+        let (mesh, lookup, boundary) = (&deck.mesh, deck.lookup(), &deck.boundary);
+        let mut out = Geometry {
+            is_used: vec![false; mesh.n_nodes()],
+            ..Geometry::default()
+        };
+        mesh.connectivity
+            .iter()
+            .for_each(|&node| out.is_used[node as usize] = true);
+        for (name, members) in deck.sets.nodes.iter() {
+            let Some((_, place)) = members.first() else {
+                continue;
+            };
+            let set = EntitySelection::Set(name.to_string());
+            let nodes = out.used(lookup.indices(What::Nodes, &set, (*place, "NSET"))?);
+            if !nodes.is_empty() {
+                out.node_sets.insert(name.to_string(), nodes);
+            }
+        }
+        for (name, _) in deck.sets.elements.iter() {
+            let lines = lookup.boundary_of(&EntitySelection::Set(name.to_string()));
+            let faces = boundary.faces_of(&lines, mesh);
+            let is_free = deck.sets.surfaces.get(name).is_none();
+            // Curves of a solid are no faces: their set is one of nodes.
+            if faces.is_empty() && is_free && !out.node_sets.contains_key(name) {
+                let nodes = out.used(boundary.nodes_of(&lines, mesh));
+                if !nodes.is_empty() {
+                    out.node_sets.insert(name.to_string(), sorted(nodes));
+                }
+            }
+            if is_free && !faces.is_empty() {
+                out.add_named_surface(name, faces);
+            }
+        }
+        for (name, parts) in deck.sets.surfaces.iter() {
+            let Some((_, place)) = parts.first() else {
+                continue;
+            };
+            if lookup.is_of_nodes_alone(name) {
+                continue;
+            }
+            let faces = lookup.surface(name, (*place, "SURFACE"))?;
+            if mesh.look_both_ways(&faces) && !presses_on(deck, name) {
+                out.left_out.push((name.to_string(), *place));
+                continue;
+            }
+            let own = out.add_named_surface(name, faces);
+            out.surface_names.insert(name.to_uppercase(), own);
+        }
+        Ok(out)
+    }
+
+    /// Adds a surface that the deck names, renamed if a set of nodes has its name.
+    fn add_named_surface(&mut self, name: &str, faces: Vec<Face>) -> String {
+        match self.node_sets.contains_key(name) {
+            true => self.add_surface(&format!("{name}_surface"), faces),
+            false => self.add_surface(name, faces),
+        }
+    }
+
     /// The name in the mesh of a surface of the deck.
     pub(super) fn surface_name(&self, name: &str) -> String {
         let found = self.surface_names.get(&name.to_uppercase());
@@ -79,102 +143,18 @@ fn sorted(mut nodes: Vec<u32>) -> Vec<u32> {
     nodes
 }
 
-impl Deck {
-    /// Whether the given faces include both sides of a face between two elements.
-    fn looks_both_ways(&self, faces: &[Face]) -> bool {
-        let mut corners: Vec<Vec<u32>> = faces.iter().map(|face| self.corners_of(*face)).collect();
-        corners.sort_unstable();
-        corners.windows(2).any(|pair| pair[0] == pair[1])
-    }
-
-    /// The corners of a face, in ascending order.
-    fn corners_of(&self, (element, local): Face) -> Vec<u32> {
-        let shape = self.shape(element as usize);
-        let n = shape.facet_reference(local as usize).n_corners;
-        let nodes = self.element_nodes(element as usize);
-        let own = shape.facet(local as usize)[..n].iter();
-        let mut corners: Vec<u32> = own.map(|&k| nodes[k]).collect();
-        corners.sort_unstable();
-        corners
-    }
-
-    /// Whether a contact, a tie or a pressure refers to a surface.
-    fn presses_on(&self, surface: &str) -> bool {
-        let is_it = |name: &str| name.eq_ignore_ascii_case(surface);
-        let properties = &self.properties;
-        let contacts = properties.contacts.iter().map(|c| [&c.slave, &c.master]);
-        let ties = properties.ties.iter().map(|t| [&t.slave, &t.master]);
-        let of_pairs = contacts.chain(ties).flatten().any(|name| is_it(name));
-        let steps = self.program.steps.iter().flat_map(|step| &step.conditions);
-        let mut all = self.program.initial.iter().chain(steps);
-        of_pairs
-            || all.any(|c| {
-                c.kind == ConditionKind::Pressure
-                    && matches!(&c.on, EntitySelection::Set(name) if is_it(name))
-            })
-    }
-
-    /// The sets that the deck names. A surface that shares the name of a node set is renamed.
-    ///
-    /// # Errors
-    /// `Input` for undefined names and numbers in the sets.
-    pub(crate) fn geometry(&self) -> Result<Geometry> {
-        let mut out = Geometry {
-            is_used: vec![false; self.n_nodes()],
-            ..Geometry::default()
-        };
-        self.connectivity
-            .iter()
-            .for_each(|&node| out.is_used[node as usize] = true);
-        for (name, members) in self.sets.nodes.iter() {
-            let Some((_, place)) = members.first() else {
-                continue;
-            };
-            let set = EntitySelection::Set(name.to_string());
-            let nodes = out.used(self.indices(What::Nodes, &set, (*place, "NSET"))?);
-            if !nodes.is_empty() {
-                out.node_sets.insert(name.to_string(), nodes);
-            }
-        }
-        for (name, _) in self.sets.elements.iter() {
-            let boundary = self.boundary_of(&EntitySelection::Set(name.to_string()));
-            let faces = self.faces_of_boundary(&boundary);
-            let is_free = self.sets.surfaces.get(name).is_none();
-            // Curves of a solid are no faces: their set is one of nodes.
-            if faces.is_empty() && is_free && !out.node_sets.contains_key(name) {
-                let nodes = out.used(self.nodes_of_boundary(&boundary));
-                if !nodes.is_empty() {
-                    out.node_sets.insert(name.to_string(), sorted(nodes));
-                }
-            }
-            if is_free && !faces.is_empty() {
-                let own = match out.node_sets.contains_key(name) {
-                    true => format!("{name}_surface"),
-                    false => name.to_string(),
-                };
-                out.add_surface(&own, faces);
-            }
-        }
-        for (name, parts) in self.sets.surfaces.iter() {
-            let Some((_, place)) = parts.first() else {
-                continue;
-            };
-            if self.is_of_nodes_alone(name) {
-                continue;
-            }
-            let faces = self.surface(name, (*place, "SURFACE"))?;
-            if self.looks_both_ways(&faces) && !self.presses_on(name) {
-                out.left_out.push((name.to_string(), *place));
-                continue;
-            }
-            let clashes = out.node_sets.contains_key(name);
-            let own = match clashes {
-                true => format!("{name}_surface"),
-                false => name.to_string(),
-            };
-            let own = out.add_surface(&own, faces);
-            out.surface_names.insert(name.to_uppercase(), own);
-        }
-        Ok(out)
-    }
+/// Whether a contact, a tie or a pressure refers to a surface.
+fn presses_on(deck: &Deck, surface: &str) -> bool {
+    let is_it = |name: &str| name.eq_ignore_ascii_case(surface);
+    let properties = &deck.properties;
+    let contacts = properties.contacts.iter().map(|c| [&c.slave, &c.master]);
+    let ties = properties.ties.iter().map(|t| [&t.slave, &t.master]);
+    let of_pairs = contacts.chain(ties).flatten().any(|name| is_it(name));
+    let steps = deck.program.steps.iter().flat_map(|step| &step.conditions);
+    let mut all = deck.program.initial.iter().chain(steps);
+    of_pairs
+        || all.any(|c| {
+            c.kind == ConditionKind::Pressure
+                && matches!(&c.on, EntitySelection::Set(name) if is_it(name))
+        })
 }

@@ -3,11 +3,14 @@
 //!
 //! Conditions on reference nodes and along the axes of a `*TRANSFORM` are sums of displacements.
 
+use super::super::Deck;
 use super::super::bodies::unsupported;
-use super::super::history::{Key, KeyHistory};
+use super::super::constraints::LocalAxes;
+use super::super::facets::Key;
+use super::super::history::KeyHistory;
 use super::super::linear::{FreedomCoefficients, Reduced};
 use super::super::series::Series;
-use super::draft::{Draft, SumInSteps, made};
+use super::draft::{Draft, made};
 use crate::error::Result;
 use crate::scene::span::Span;
 use crate::scene::{Direction, EquationTerm, Load, Relative, Support};
@@ -28,27 +31,41 @@ fn bits(span: Span) -> SpanBits {
     [since, span.until.map(|until| until.map(f64::to_bits))]
 }
 
-impl Draft<'_> {
+/// The condition that a sum of displacements along x, y and z has a value over some steps.
+struct SumInSteps {
+    terms: FreedomCoefficients,
+    entry: KeyHistory,
+}
+
+/// Displacements that are given in some steps only.
+pub(super) struct InSteps {
+    /// Displacements of nodes with elements, along x, y or z or an axis of the node.
+    single: Vec<(Key, KeyHistory)>,
+    sums: Vec<SumInSteps>,
+}
+
+impl InSteps {
     /// Separates conditions in steps into those on a single displacement along x, y or z, and sums:
     /// of nodes without elements, of displacements that follow others, and along axes of nodes.
     ///
     /// # Errors
     /// `Unsupported` for a displacement that is coupled to others without elements.
-    pub(super) fn sums_in_steps(
-        &mut self,
+    pub(super) fn of(
+        in_steps: Vec<(Key, KeyHistory)>,
         reduced: &Reduced,
-        in_steps: &mut Vec<(Key, KeyHistory)>,
-    ) -> Result<()> {
-        let axes = self.deck.local_axes()?;
+        axes: &LocalAxes,
+        draft: &Draft,
+    ) -> Result<Self> {
+        let geometry = &draft.geometry;
         let is_moved = |entry: &KeyHistory| !entry.stays && !is_at_rest(entry);
         let moved = in_steps.iter().filter(|(_, entry)| is_moved(entry));
         let moved: BTreeSet<u32> = moved.map(|(key, _)| key.0).collect();
-        let mut single = Vec::new();
-        for (key, entry) in std::mem::take(in_steps) {
+        let (mut single, mut sums) = (Vec::new(), Vec::new());
+        for (key, entry) in in_steps {
             let mut all = reduced.loose.iter().chain(&reduced.others);
             let of = match all.find(|follows| follows.key == key) {
                 Some(follows) => follows.of.clone(),
-                None if !self.geometry.uses(key.0) => continue,
+                None if !geometry.uses(key.0) => continue,
                 None => FreedomCoefficients::from([(key, 1.0)]),
             };
             let is_alone = of.len() == 1;
@@ -64,8 +81,8 @@ impl Draft<'_> {
                     single.push((key, entry));
                 }
                 _ => {
-                    if of.is_empty() || of.keys().any(|key| !self.geometry.uses(key.0)) {
-                        return Err(self.coupled(key, &entry));
+                    if of.is_empty() || of.keys().any(|key| !geometry.uses(key.0)) {
+                        return Err(coupled(draft.deck, key, &entry));
                     }
                     let mut terms = FreedomCoefficients::new();
                     for ((node, axis), c) in of {
@@ -76,37 +93,30 @@ impl Draft<'_> {
                         }
                     }
                     terms.retain(|_, c| c.abs() > ROUND_OFF);
-                    self.in_steps.push(SumInSteps { terms, entry });
+                    sums.push(SumInSteps { terms, entry });
                 }
             }
         }
-        *in_steps = single;
-        Ok(())
+        Ok(InSteps { single, sums })
     }
 
-    fn coupled(&self, key: Key, entry: &KeyHistory) -> crate::Error {
-        let node = self.deck.node_name(key.0 as usize);
-        let message = format!(
-            "node {node} is held along {} only in some steps, and is coupled to nodes without \
-             elements that are held otherwise: hold it in all steps",
-            key.1 + 1
-        );
-        unsupported(self.deck.error(entry.place, "BOUNDARY", message))
+    /// Nodes of which sums of displacements are given.
+    pub(super) fn nodes_of_sums(&self) -> impl Iterator<Item = u32> {
+        let keys = self.sums.iter().flat_map(|sum| sum.terms.keys());
+        keys.map(|key| key.0)
     }
 
-    /// Turns conditions that begin or end in a later step into supports and prescribed
-    /// displacements.
-    pub(super) fn boundary_in_steps(&mut self, in_steps: Vec<(Key, KeyHistory)>) -> Result<()> {
-        let axes = self.deck.local_axes()?;
+    /// Turns the conditions into supports and prescribed displacements.
+    pub(super) fn prescribe(self, draft: &mut Draft, axes: &LocalAxes) {
         let mut groups: BTreeMap<Done, (Vec<u32>, KeyHistory)> = BTreeMap::new();
-        for ((node, axis), entry) in in_steps {
+        for ((node, axis), entry) in self.single {
             if let Some(axes) = axes.get(&node) {
-                let on = self.set_of_node(node);
+                let on = draft.set_of_node(node);
                 let support = Support {
-                    direction: Some(self.components(axes[axis as usize])),
+                    direction: Some(draft.components(axes[axis as usize])),
                     ..Support::over(on, entry.span)
                 };
-                self.add_support(support, entry.place);
+                draft.add_support(support, entry.place);
                 continue;
             }
             let key = (axis, bits(entry.span), entry.stays, entry.series.bits());
@@ -115,60 +125,66 @@ impl Draft<'_> {
         }
         for ((axis, ..), (nodes, entry)) in groups {
             let name = made("boundary", entry.place);
-            let on = self.geometry.add_nodes(&name, nodes);
+            let on = draft.geometry.add_nodes(&name, nodes);
             if entry.stays || is_at_rest(&entry) {
                 let support = Support {
                     fix: vec![Direction::ALL[axis as usize]],
                     ..Support::over(on, entry.span)
                 };
-                self.add_support(support, entry.place);
+                draft.add_support(support, entry.place);
             } else {
-                self.displace(on, axis, entry);
+                draft.displace(on, axis, entry);
             }
         }
-        for sum in std::mem::take(&mut self.in_steps) {
-            self.relate_over_span(sum);
+        for sum in self.sums {
+            sum.relate(draft);
         }
-        Ok(())
     }
+}
 
+impl SumInSteps {
     /// Adds a sum as a prescribed difference between the displacement that has the largest
     /// coefficient and the others.
-    fn relate_over_span(&mut self, sum: SumInSteps) {
-        let largest = sum
-            .terms
-            .iter()
-            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    fn relate(self, draft: &mut Draft) {
+        let terms = self.terms.iter();
+        let largest = terms.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         let Some((&pivot, &c)) = largest else { return };
-        let others = sum.terms.into_iter().filter(|(key, _)| *key != pivot);
+        let others = self.terms.into_iter().filter(|(key, _)| *key != pivot);
         let terms = others.map(|((node, axis), own)| EquationTerm {
-            on: self.set_of_node(node),
+            on: draft.set_of_node(node),
             direction: Direction::ALL[axis as usize],
             coefficient: -own / c,
         });
         let terms = terms.collect();
-        let KeyHistory {
-            series,
-            place,
-            span,
-            stays,
-            ..
-        } = sum.entry;
+        let entry = self.entry;
         // What stays has no values over time.
-        let series = if stays { Series::default() } else { series };
+        let series = match entry.stays {
+            true => Series::default(),
+            false => entry.series,
+        };
         let load = Load {
-            on: self.set_of_node(pivot.0),
+            on: draft.set_of_node(pivot.0),
             relative: Some(Relative {
                 direction: Direction::ALL[pivot.1 as usize],
                 value: series.largest() / c,
                 terms,
             }),
-            since: span.since,
-            until: span.until,
+            since: entry.span.since,
+            until: entry.span.until,
             ..Load::default()
         };
-        self.add_load("relative", load, series, place);
+        draft.add_load("relative", load, series, entry.place);
     }
+}
+
+fn coupled(deck: &Deck, key: Key, entry: &KeyHistory) -> crate::Error {
+    let node = deck.mesh.node_name(key.0 as usize);
+    let message = format!(
+        "node {node} is held along {} only in some steps, and is coupled to nodes without \
+         elements that are held otherwise: hold it in all steps",
+        key.1 + 1
+    );
+    unsupported(deck.error(entry.place, "BOUNDARY", message))
 }
 
 /// Whether a node is held from the start, where it is in the mesh.

@@ -2,18 +2,28 @@
 //! those of other nodes, which are recorded here for the tables that list them.
 
 use super::super::constraints::HeldPlane;
-use super::super::history::{Key, Map};
+use super::super::facets::Key;
+use super::super::history::{Map, sum_of};
 use super::super::linear::{FreedomCoefficients, LinearRow, Reduced};
-use super::Draft;
-use super::system::series_of;
-use crate::scene::LooseAxis;
+use super::super::mesh::DeckMesh;
+use super::Geometry;
+use crate::scene::{LooseAxis, LooseNode};
+use std::collections::BTreeMap;
 
-impl Draft<'_> {
+/// Nodes without elements, with the sums that their displacements and forces are.
+pub(super) struct LooseNodes<'c> {
+    pub(super) mesh: &'c DeckMesh,
+    pub(super) geometry: &'c Geometry,
+    /// The sums by node number.
+    pub(super) sums: BTreeMap<u64, LooseNode>,
+}
+
+impl LooseNodes<'_> {
     /// Records the forces of nodes without elements. With the row `sum c_k u_k = 0`, whose first
     /// term `i` is of a node with elements, the force on a node `l` without elements is
     /// `-c_l / c_i f_i`. In the rows of a rigid body these are the sums of the forces on its nodes
     /// and of their moments.
-    pub(super) fn forces_of_loose(&mut self, planes: &[HeldPlane], rows: &[LinearRow]) {
+    pub(super) fn record_forces(&mut self, planes: &[HeldPlane], rows: &[LinearRow]) {
         for row in rows {
             let Some(first) = row.first.filter(|first| self.geometry.uses(first.0)) else {
                 continue;
@@ -21,7 +31,7 @@ impl Draft<'_> {
             let c = row.terms.get(&first).copied().unwrap_or(0.0);
             if c != 0.0 {
                 for (key, of) in &row.terms {
-                    self.follows_loose(*key, first, -of / c);
+                    self.add_force(*key, first, -of / c);
                 }
             }
         }
@@ -29,62 +39,55 @@ impl Draft<'_> {
             let followers = plane.nodes.iter().filter(|node| self.geometry.uses(**node));
             let followers: Vec<Key> = followers.map(|&node| (node, plane.leader.1)).collect();
             for follower in followers {
-                self.follows_loose(plane.leader, follower, 1.0);
+                self.add_force(plane.leader, follower, 1.0);
             }
         }
     }
 
-    fn follows_loose(&mut self, key: Key, (node, axis): Key, share: f64) {
-        let label = self.deck.node_label(node as usize);
-        if let Some(loose) = self.loose_axis(key) {
+    fn add_force(&mut self, key: Key, (node, axis): Key, share: f64) {
+        let label = self.mesh.node_label(node as usize);
+        if let Some(loose) = self.axis(key) {
             loose.force.push((label, axis, share));
         }
     }
 
     /// Records the displacements of nodes without elements, after the reduction of the equations
     /// in which they occur.
-    pub(super) fn displacements_of_loose(
+    pub(super) fn record_displacements(
         &mut self,
         planes: &[HeldPlane],
         reduced: &Reduced,
         boundary: &Map,
     ) {
+        let alone = |key: Key| FreedomCoefficients::from([(key, 1.0)]);
         for plane in planes {
             let key = plane.leader;
             for &node in plane.nodes.iter().filter(|node| **node != key.0) {
-                self.displace_loose(
-                    (node, key.1),
-                    &FreedomCoefficients::from([(key, 1.0)]),
-                    boundary,
-                );
+                self.displace((node, key.1), &alone(key), boundary);
             }
             let follower = plane.nodes.iter().find(|node| self.geometry.uses(**node));
-            if let Some(&follower) = follower.filter(|_| !boundary.contains_key(&key)) {
-                self.displace_loose(
-                    key,
-                    &FreedomCoefficients::from([((follower, key.1), 1.0)]),
-                    boundary,
-                );
-            } else {
-                self.displace_loose(key, &FreedomCoefficients::from([(key, 1.0)]), boundary);
-            }
+            let of = match follower.filter(|_| !boundary.contains_key(&key)) {
+                Some(&follower) => (follower, key.1),
+                None => key,
+            };
+            self.displace(key, &alone(of), boundary);
         }
         for key in boundary.keys() {
-            self.displace_loose(*key, &FreedomCoefficients::from([(*key, 1.0)]), boundary);
+            self.displace(*key, &alone(*key), boundary);
         }
         for follows in &reduced.loose {
-            self.displace_loose(follows.key, &follows.of, boundary);
+            self.displace(follows.key, &follows.of, boundary);
         }
     }
 
-    fn displace_loose(&mut self, key: Key, terms: &FreedomCoefficients, boundary: &Map) {
-        let prescribed = series_of(terms, boundary);
+    fn displace(&mut self, key: Key, terms: &FreedomCoefficients, boundary: &Map) {
+        let prescribed = sum_of(terms, boundary);
         let free = terms.iter().filter(|(key, _)| !boundary.contains_key(key));
         let free: Vec<(u64, u8, f64)> = free
             .filter(|(key, _)| self.geometry.uses(key.0))
-            .map(|(&(node, axis), c)| (self.deck.node_label(node as usize), axis, *c))
+            .map(|(&(node, axis), c)| (self.mesh.node_label(node as usize), axis, *c))
             .collect();
-        if let Some(loose) = self.loose_axis(key) {
+        if let Some(loose) = self.axis(key) {
             loose.displacement = free;
             loose.prescribed = prescribed.rows().to_vec();
         }
@@ -92,13 +95,13 @@ impl Draft<'_> {
 
     /// The sums of a node along an axis; `None` if it belongs to an element, or if it is the
     /// rotation of a reference node, which has no number.
-    fn loose_axis(&mut self, (node, axis): Key) -> Option<&mut LooseAxis> {
-        let is_node = (node as usize) < self.deck.n_nodes();
+    fn axis(&mut self, (node, axis): Key) -> Option<&mut LooseAxis> {
+        let is_node = (node as usize) < self.mesh.n_nodes();
         if !is_node || self.geometry.uses(node) {
             return None;
         }
-        let label = self.deck.node_label(node as usize);
-        self.loose
+        let label = self.mesh.node_label(node as usize);
+        self.sums
             .entry(label)
             .or_default()
             .axes

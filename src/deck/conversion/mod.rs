@@ -5,8 +5,8 @@ mod conditions;
 mod contact;
 mod contact_changes;
 mod draft;
-mod equations;
 mod geometry;
+mod held_planes;
 mod in_steps;
 mod loose;
 mod outputs;
@@ -16,21 +16,26 @@ mod volume_loads;
 pub(crate) use geometry::Geometry;
 
 use super::Deck;
+use super::adjust::any_interference;
 use super::bodies::{Bodies, unsupported};
 use super::data::{Account, Note, Section};
 use super::element_type::has_two_rules;
 use super::series::are_alike;
-use super::temperature::OfBody;
+use super::temperature::{self, OfBody};
 use crate::error::{Error, ErrorKind, Result};
 use crate::interpolation::interpolate;
 use crate::number::exact;
 use crate::scene::{Body, History, Scene, Stepping, Support, Target};
 use crate::shape::Integration;
 use crate::space::Space;
+use conditions::DeckConditions;
+use contact::ScenePairs;
 use draft::Draft;
+use outputs::requests;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use volume_loads::BodyLoads;
 
 /// Options for the conversion of a deck.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -77,39 +82,44 @@ impl Deck {
             ));
         }
         let space = self.space()?;
-        let bodies = self.bodies()?;
+        let bodies = Bodies::of(self)?;
         if let Some(section) = bodies.sections.iter().position(Option::is_none) {
             let message = format!("body {} has no section", bodies.names[section]);
             return Err(self.error(self.end, "SOLID SECTION", message));
         }
-        let geometry = self.geometry()?;
+        let geometry = Geometry::of(self)?;
         for (name, place) in &geometry.left_out {
             let text = format!("{name} looks both ways, and is there for results alone");
-            Account::add(&mut account.ignored, &self.files, *place, "SURFACE", &text);
+            account.ignore(&self.files, *place, "SURFACE", &text);
         }
-        let mut draft = Draft::new(self, geometry, self.thickness(space, &mut account)?);
-        draft.conditions()?;
-        draft.contacts(&mut account)?;
-        draft.contact_changes(&mut account)?;
-        draft.ties()?;
-        draft.volume_loads(space, &bodies)?;
-        let temperatures = self.temperatures_of_bodies(&bodies)?;
+        let thickness = self.thickness(space, &mut account)?;
+        let mut draft = Draft::new(self, account, geometry, thickness);
+        let loose = DeckConditions::convert(&mut draft)?;
+        let mut pairs = ScenePairs::default();
+        pairs.add_contacts(&mut draft)?;
+        pairs.add_changes(&mut draft)?;
+        pairs.add_ties(&mut draft)?;
+        let loads = BodyLoads {
+            space,
+            bodies: &bodies,
+        };
+        loads.add_volume_loads(&mut draft)?;
+        let temperatures = temperature::of_bodies(self, &bodies)?;
         let mut scene = self.empty_scene(space);
         self.add_bodies(&bodies, &temperatures, &mut scene, &mut draft.places)?;
-        self.add_integration(&bodies, &mut scene, &mut account);
-        draft.temperatures(&bodies, temperatures, &mut account)?;
-        scene.requests = self.requests((space, draft.thickness), options, &mut account)?;
+        self.add_integration(&bodies, &mut scene, &mut draft.account);
+        loads.add_temperatures(&mut draft, temperatures)?;
+        let of_plane = (space, draft.thickness);
+        scene.requests = requests(self, of_plane, options.increments, &mut draft.account)?;
         scene.requests.large = large;
-        scene.requests.loose = Arc::new(std::mem::take(&mut draft.loose));
+        scene.requests.loose = Arc::new(loose);
         self.add_loads(&mut draft, &mut scene);
-        self.choose_stepping(&draft, &mut scene);
-        scene.support = std::mem::take(&mut draft.supports);
-        scene.contact = std::mem::take(&mut draft.contacts);
-        scene.tie = std::mem::take(&mut draft.ties);
-        scene.equation = std::mem::take(&mut draft.equations);
+        self.choose_stepping(&mut scene);
+        (scene.support, scene.equation) = (draft.supports, draft.equations);
+        (scene.contact, scene.tie) = (pairs.contacts, pairs.ties);
         Ok(Conversion {
             scene,
-            account,
+            account: draft.account,
             geometry: draft.geometry,
             places: draft.places,
         })
@@ -126,7 +136,7 @@ impl Deck {
                 "NLGEOM: strains and displacements are taken to be small; the run measures them"
             }
         };
-        Account::add(&mut account.taken, &self.files, place, "STEP", text);
+        account.take(&self.files, place, "STEP", text);
         (!options.small_strain).then(|| self.files.show(place))
     }
 
@@ -156,13 +166,7 @@ impl Deck {
                 "forces are per unit thickness: those of the deck over {}",
                 exact(first)
             );
-            Account::add(
-                &mut account.taken,
-                &self.files,
-                section.place,
-                "SOLID SECTION",
-                &text,
-            );
+            account.take(&self.files, section.place, "SOLID SECTION", &text);
         }
         Ok(first)
     }
@@ -234,7 +238,7 @@ impl Deck {
     /// Sets the integration of bodies: a body with any fully integrated element is fully integrated
     /// as a whole.
     fn add_integration(&self, bodies: &Bodies, scene: &mut Scene, account: &mut Account) {
-        let types = &self.elements.types;
+        let types = &self.mesh.elements.types;
         let is_full = |element: usize| types[element].integration == Integration::Full;
         for (element, &body) in bodies.of_element.iter().enumerate() {
             if let Some(body) = scene.bodies.get_mut(&bodies.names[body as usize])
@@ -251,21 +255,21 @@ impl Deck {
                 && !is_full(element)
                 && (scene.bodies.get(name)).is_some_and(|body| !body.integration.is_reduced());
             if is_mixed && !std::mem::replace(&mut is_said[body as usize], true) {
-                let label = self.element_name(element);
+                let label = self.mesh.element_name(element);
                 let text = format!(
                     "element {label}: reduced integration there; here full, as of others in body \
                      {name}: give it a section of its own"
                 );
-                let place = self.elements.places[element];
-                Account::add(&mut account.taken, &self.files, place, "ELEMENT", &text);
+                let place = self.mesh.elements.places[element];
+                account.take(&self.files, place, "ELEMENT", &text);
             }
         }
     }
 
     /// Chooses equal increments if there is no contact, hence no event to step to: at least as many
     /// per step as the deck's first increments suggest.
-    fn choose_stepping(&self, draft: &Draft, scene: &mut Scene) {
-        if draft.contacts.is_empty() && scene.any_can_yield() {
+    fn choose_stepping(&self, scene: &mut Scene) {
+        if self.properties.contacts.is_empty() && scene.any_can_yield() {
             let steps = self.program.steps.iter().enumerate();
             let each = steps.map(|(number, step)| {
                 let moments = scene.requests.moments.iter();
@@ -287,7 +291,7 @@ impl Deck {
     /// proportional to each other and change only from step end to step end, load factors are
     /// multiples of the loads; otherwise they are times.
     fn add_loads(&self, draft: &mut Draft, scene: &mut Scene) {
-        let ends = self.step_ends();
+        let ends = self.program.step_ends();
         let shapes: Vec<_> = draft
             .loads
             .iter()
@@ -303,7 +307,7 @@ impl Deck {
             start[1] == 0.0 && rest.iter().all(|row| ends.contains(&row[0]))
         };
         // An interference grows over the first step and stays.
-        let interferes = self.any_interference();
+        let interferes = any_interference(self);
         if interferes {
             scene.program.interference_until = ends.first().copied();
         }

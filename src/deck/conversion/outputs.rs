@@ -1,11 +1,12 @@
 //! The results that each step requests.
 
 use super::super::Deck;
+use super::super::constraints::local_axes;
 use super::super::data::{
-    Account, ContactPair, DeckStep, EntitySelection, Group, OutputRequest, Schedule,
+    Account, DeckStep, EntitySelection, Group, Named, OutputRequest, Properties, Schedule,
+    TimePoints,
 };
 use super::super::sets::What;
-use super::Options;
 use crate::error::Result;
 use crate::scene::{FileRequest, Moment, NamedSet, Print, Requests, ResultItem};
 use crate::space::Space;
@@ -38,88 +39,17 @@ impl<'d> InForce<'d> {
             self.schedule = schedule.clone();
         }
     }
-}
-
-impl Deck {
-    /// The requested results, increment by increment.
-    pub(super) fn requests(
-        &self,
-        (space, thickness): (Space, f64),
-        options: Options,
-        account: &mut Account,
-    ) -> Result<Requests> {
-        let is_plane = matches!(space, Space::PlaneStrain | Space::PlaneStress);
-        let mut out = Requests {
-            heading: self.heading.clone(),
-            materials: self.material_names(),
-            thickness: is_plane.then_some(thickness),
-            ..Requests::default()
-        };
-        let mut sets = RequestedSets {
-            deck: self,
-            account,
-            known: BTreeMap::new(),
-        };
-        let mut in_force = InForce {
-            requests: Vec::new(),
-            schedule: Schedule::Every(1),
-        };
-        let mut start = 0.0;
-        for (number, (step, end)) in self.program.steps.iter().zip(self.step_ends()).enumerate() {
-            in_force.renew(step);
-            let instants = match options.increments && self.is_nonlinear() {
-                true => self.instants(step, &in_force.schedule, start),
-                false => vec![(1, step.period)],
-            };
-            for (index, &(increment, step_time)) in instants.iter().enumerate() {
-                let is_last = index + 1 == instants.len();
-                let mut moment = Moment {
-                    step: number + 1,
-                    increment,
-                    time: Some(if is_last { end } else { start + step_time }),
-                    step_time,
-                    ..Moment::default()
-                };
-                for request in &in_force.requests {
-                    add(request, sets.of(request)?, &mut moment);
-                }
-                // Section prints come after all other prints.
-                let prints = &mut moment.prints;
-                prints.sort_by_key(|print| print.item == ResultItem::Section);
-                moment.file.sort_by_key(|request| request.item);
-                out.moments.push(moment);
-            }
-            if options.increments && out.moments.len() > MOST_MOMENTS {
-                let message = format!(
-                    "results at more than {MOST_MOMENTS} increments are asked for; give a FREQUENCY"
-                );
-                return Err(self.error(step.place, "STEP", message));
-            }
-            start = end;
-        }
-        let needs_points = |moment: &Moment| {
-            let of_file = moment.file.iter().map(|request| request.item);
-            let mut items = of_file.chain(moment.prints.iter().map(|print| print.item));
-            items.any(ResultItem::needs_points)
-        };
-        let axes = self.local_axes()?.into_iter();
-        let axes = axes.map(|(node, axes)| (self.node_label(node as usize), axes));
-        out.axes = Arc::new(axes.collect());
-        out.point_values = out.moments.iter().any(needs_points);
-        Ok(out)
-    }
-
-    /// Whether a step takes more than one linear solution.
-    fn is_nonlinear(&self) -> bool {
-        let mut materials = self.properties.materials.iter();
-        !self.properties.contacts.is_empty() || materials.any(|(_, of)| !of.plastic.is_empty())
-    }
 
     /// Increments of a step at which results are requested: number and time within the step; the
     /// last is the end of the step.
-    fn instants(&self, step: &DeckStep, schedule: &Schedule, start: f64) -> Vec<(usize, f64)> {
+    fn instants(
+        &self,
+        step: &DeckStep,
+        start: f64,
+        time_points: &Named<TimePoints>,
+    ) -> Vec<(usize, f64)> {
         let mut out = Vec::new();
-        match schedule {
+        match &self.schedule {
             Schedule::Every(every) => {
                 let Some(time) = step.fixed else {
                     return vec![(1, step.period)];
@@ -132,7 +62,7 @@ impl Deck {
                 out.push((n, step.period));
             }
             Schedule::At(name) => {
-                let points = self.program.time_points.get(name).into_iter();
+                let points = time_points.get(name).into_iter();
                 let times = points.flat_map(|points| {
                     let shift = if points.is_total { start } else { 0.0 };
                     points.times.iter().map(move |time| time - shift)
@@ -144,13 +74,89 @@ impl Deck {
         }
         out
     }
+}
+
+/// The results that a deck requests, by increments if these leave states and not steps alone.
+pub(super) fn requests(
+    deck: &Deck,
+    (space, thickness): (Space, f64),
+    by_increments: bool,
+    account: &mut Account,
+) -> Result<Requests> {
+    let program = &deck.program;
+    let is_plane = matches!(space, Space::PlaneStrain | Space::PlaneStress);
+    let mut out = Requests {
+        heading: deck.heading.clone(),
+        materials: deck.properties.material_names(),
+        thickness: is_plane.then_some(thickness),
+        ..Requests::default()
+    };
+    let mut sets = RequestedSets {
+        deck,
+        account,
+        known: BTreeMap::new(),
+    };
+    let mut in_force = InForce {
+        requests: Vec::new(),
+        schedule: Schedule::Every(1),
+    };
+    let mut start = 0.0;
+    for (number, (step, end)) in program.steps.iter().zip(program.step_ends()).enumerate() {
+        in_force.renew(step);
+        let instants = match by_increments && deck.properties.is_nonlinear() {
+            true => in_force.instants(step, start, &program.time_points),
+            false => vec![(1, step.period)],
+        };
+        for (index, &(increment, step_time)) in instants.iter().enumerate() {
+            let is_last = index + 1 == instants.len();
+            let mut moment = Moment {
+                step: number + 1,
+                increment,
+                time: Some(if is_last { end } else { start + step_time }),
+                step_time,
+                ..Moment::default()
+            };
+            for request in &in_force.requests {
+                add(request, sets.of(request)?, &mut moment);
+            }
+            // Section prints come after all other prints.
+            let prints = &mut moment.prints;
+            prints.sort_by_key(|print| print.item == ResultItem::Section);
+            moment.file.sort_by_key(|request| request.item);
+            out.moments.push(moment);
+        }
+        if by_increments && out.moments.len() > MOST_MOMENTS {
+            let message = format!(
+                "results at more than {MOST_MOMENTS} increments are asked for; give a FREQUENCY"
+            );
+            return Err(deck.error(step.place, "STEP", message));
+        }
+        start = end;
+    }
+    let needs_points = |moment: &Moment| {
+        let of_file = moment.file.iter().map(|request| request.item);
+        let mut items = of_file.chain(moment.prints.iter().map(|print| print.item));
+        items.any(ResultItem::needs_points)
+    };
+    let axes = local_axes(&deck.properties.transforms, deck.lookup())?.into_iter();
+    let axes = axes.map(|(node, axes)| (deck.mesh.node_label(node as usize), axes));
+    out.axes = Arc::new(axes.collect());
+    out.point_values = out.moments.iter().any(needs_points);
+    Ok(out)
+}
+
+impl Properties {
+    /// Whether a step takes more than one linear solution.
+    fn is_nonlinear(&self) -> bool {
+        let mut materials = self.materials.iter();
+        !self.contacts.is_empty() || materials.any(|(_, of)| !of.plastic.is_empty())
+    }
 
     /// Names of materials and surface interactions, in the order of the deck.
     fn material_names(&self) -> Vec<String> {
-        let properties = &self.properties;
-        let materials = properties.materials.iter();
+        let materials = self.materials.iter();
         let mut out: Vec<_> = materials.map(|(name, of)| (of.place, name)).collect();
-        let interactions = properties.interactions.iter();
+        let interactions = self.interactions.iter();
         out.extend(interactions.map(|(name, of)| (of.place, name)));
         out.sort();
         out.into_iter().map(|(_, name)| name.to_string()).collect()
@@ -261,10 +267,12 @@ impl RequestedSets<'_, '_> {
             return Ok(On::Set(set.clone()));
         }
         let target = EntitySelection::Set(name.clone());
-        let found = deck.indices(what, &target, (request.place, keyword))?;
+        let found = deck
+            .lookup()
+            .indices(what, &target, (request.place, keyword))?;
         let label = |index: &u32| match what {
-            What::Nodes => deck.node_label(*index as usize),
-            What::Elements => deck.element_label(*index as usize),
+            What::Nodes => deck.mesh.node_label(*index as usize),
+            What::Elements => deck.mesh.element_label(*index as usize),
         };
         let labels = Arc::new(found.iter().map(label).collect());
         let set = NamedSet { name, labels };
@@ -282,8 +290,9 @@ impl RequestedSets<'_, '_> {
             self.remark(request, keyword, &text);
             return Ok(On::Nothing);
         }
-        let found = deck.surface(&name, (request.place, keyword))?;
-        let label = |&(element, local): &(u32, u8)| (deck.element_label(element as usize), local);
+        let found = deck.lookup().surface(&name, (request.place, keyword))?;
+        let label =
+            |&(element, local): &(u32, u8)| (deck.mesh.element_label(element as usize), local);
         let faces: Vec<(u64, u8)> = found.iter().map(label).collect();
         let mut labels: Vec<u64> = faces.iter().map(|(element, _)| *element).collect();
         labels.dedup();
@@ -295,11 +304,8 @@ impl RequestedSets<'_, '_> {
     /// remark; a request without surfaces gives an empty set.
     fn contact(&mut self, request: &OutputRequest) -> On {
         let [slave, master] = request.contact.clone().unwrap_or_default();
-        let pairs = &self.deck.properties.contacts;
-        let is_it = |pair: &ContactPair| {
-            pair.slave.eq_ignore_ascii_case(&slave) && pair.master.eq_ignore_ascii_case(&master)
-        };
-        let number = pairs.iter().position(is_it);
+        let mut pairs = self.deck.properties.contacts.iter();
+        let number = pairs.position(|pair| pair.is_of(&slave, &master));
         let [slave, master] = [slave, master].map(|name| name.to_uppercase());
         if number.is_none() && request.contact.is_some() {
             let text = format!(
@@ -316,7 +322,7 @@ impl RequestedSets<'_, '_> {
     }
 
     fn remark(&mut self, request: &OutputRequest, keyword: &str, text: &str) {
-        let list = &mut self.account.taken;
-        Account::add(list, &self.deck.files, request.place, keyword, text);
+        self.account
+            .take(&self.deck.files, request.place, keyword, text);
     }
 }

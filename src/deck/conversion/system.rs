@@ -1,55 +1,48 @@
 //! All kinds of constraints as equations of the scene: chains of equations, terms in local axes,
 //! rigid bodies, nodes without elements.
 
+use super::super::Deck;
 use super::super::bodies::unsupported;
 use super::super::constraints::HeldPlane;
 use super::super::data::LinearEquation;
-use super::super::history::{Key, KeyHistory, Map};
+use super::super::facets::Key;
+use super::super::history::{KeyHistory, Map, sum_of};
 use super::super::linear::{self, Follows, FreedomCoefficients, LinearRow, Reduced};
+use super::super::rigid::{DeckRigidBody, rotations_among};
 use super::super::series::Series;
 use super::super::sets::What;
 use super::super::source::LinePlace;
-use super::Draft;
-use super::along_axes::AlongAxis;
-use super::conditions::take_known;
+use super::along_axes::{AlongAxis, NodeAlongAxes};
+use super::conditions::DeckConditions;
+use super::draft::{GLOBAL, ROUND_OFF};
+use super::in_steps::InSteps;
+use super::loose::LooseNodes;
 use crate::error::Result;
-use crate::scene::{self, Direction, EquationTerm, Load, Relative};
-use crate::space::Vector;
 use std::collections::BTreeMap;
 
-/// Fraction of its terms up to which a sum of displacements counts as zero.
-const ROUND_OFF: f64 = 1e-9;
-
-impl Draft<'_> {
+impl DeckConditions<'_, '_> {
     /// Converts all equations into equations of the scene, except those of planes that are held by
-    /// nothing else; these planes are returned. Nodes without elements are eliminated: conditions
-    /// and forces on such a node are passed on to the nodes that are coupled to it.
+    /// nothing else; these planes are returned, and displacements that are given in some steps.
+    /// Nodes without elements are eliminated: conditions and forces on such a node are passed on to
+    /// the nodes that are coupled to it.
     pub(super) fn constrain(
         &mut self,
-        boundary: &mut Map,
-        in_steps: &mut Vec<(Key, KeyHistory)>,
-        forces: &mut Map,
-    ) -> Result<Vec<HeldPlane>> {
-        let axes = self.deck.local_axes()?;
-        let (planes, others) = self.deck.held_planes()?;
+        in_steps: Vec<(Key, KeyHistory)>,
+    ) -> Result<(Vec<HeldPlane>, InSteps)> {
+        let deck = self.draft.deck;
+        let (planes, others) = HeldPlane::among(&deck.properties.equations, deck.lookup())?;
         let mut rows = Vec::new();
         for equation in others {
-            self.rows_of(equation, &mut rows)?;
+            rows_of(equation, deck, &mut rows)?;
         }
-        self.rows_of_bodies(&axes, &mut rows)?;
-        self.forces_of_loose(&planes, &rows);
-        let (simple, joined) = apart(planes, &rows, |plane| {
-            let is_own = |node: &u32| {
-                let changes = in_steps
-                    .iter()
-                    .any(|(key, _)| *key == (*node, plane.leader.1));
-                changes || axes.contains_key(node)
-            };
-            let (leader, axis) = plane.leader;
-            let mut followers = plane.nodes.iter().filter(|node| **node != leader);
-            plane.nodes.iter().any(is_own)
-                || followers.any(|node| boundary.contains_key(&(*node, axis)))
-        });
+        self.rows_of_bodies(&mut rows)?;
+        let mut loose = LooseNodes {
+            mesh: &deck.mesh,
+            geometry: &self.draft.geometry,
+            sums: BTreeMap::new(),
+        };
+        loose.record_forces(&planes, &rows);
+        let (simple, joined) = apart(planes, &rows, |plane| self.is_joined(plane, &in_steps));
         for plane in joined {
             let followers = plane.nodes.iter().filter(|node| **node != plane.leader.0);
             rows.extend(followers.map(|&node| LinearRow {
@@ -62,52 +55,39 @@ impl Draft<'_> {
                 keyword: "EQUATION",
             }));
         }
-        let of_rows: Vec<Key> = rows
-            .iter()
-            .flat_map(|row| row.terms.keys().copied())
-            .collect();
-        let reduced = self.reduced(rows, boundary);
-        self.displacements_of_loose(&simple, &reduced, boundary);
-        self.sums_in_steps(&reduced, in_steps)?;
-        self.move_forces(&reduced, &of_rows, boundary, forces)?;
-        self.check_known(&reduced.known, boundary)?;
-        let known = boundary.clone();
-        // A displacement along an axis of its node is combined with all others of the node.
-        let is_known = |follows: &Follows| follows.of.keys().all(|key| known.contains_key(key));
-        let mut turned: BTreeMap<u32, Vec<&Follows>> = BTreeMap::new();
-        for follows in &reduced.others {
-            match axes.contains_key(&follows.key.0) && !is_known(follows) {
-                true => turned.entry(follows.key.0).or_default().push(follows),
-                false => self.follow(follows, &known, boundary, &axes)?,
-            }
-        }
-        for (node, of_node) in turned {
-            let mut along: Vec<AlongAxis> = take_known(node, &axes[&node], boundary).collect();
-            for follows in of_node {
-                let (of, moved) = self.apart_from_loose(follows, &known);
-                along.push(AlongAxis {
-                    axis: axes[&node][follows.key.1 as usize],
-                    of,
-                    moved,
-                    place: follows.place,
-                });
-            }
-            self.move_along(node, &along, &axes, boundary);
-        }
-        let is_loose = |key: &Key| !self.geometry.uses(key.0);
-        boundary.retain(|key, _| !(is_loose(key) && of_rows.contains(key)));
-        Ok(simple)
+        let of_rows = rows.iter().flat_map(|row| row.terms.keys().copied());
+        let of_rows: Vec<Key> = of_rows.collect();
+        let reduced = self.reduced(rows);
+        loose.record_displacements(&simple, &reduced, &self.boundary);
+        self.loose = loose.sums;
+        let in_steps = InSteps::of(in_steps, &reduced, &self.axes, self.draft)?;
+        self.move_forces(&reduced, &of_rows)?;
+        self.check_known(&reduced.known)?;
+        self.follow_all(&reduced.others);
+        let geometry = &self.draft.geometry;
+        let is_loose = |key: &Key| !geometry.uses(key.0);
+        (self.boundary).retain(|key, _| !(is_loose(key) && of_rows.contains(key)));
+        Ok((simple, in_steps))
+    }
+
+    /// Whether a held plane is subject to other conditions, so that it is not converted alone.
+    fn is_joined(&self, plane: &HeldPlane, in_steps: &[(Key, KeyHistory)]) -> bool {
+        let (leader, axis) = plane.leader;
+        let is_own = |node: &u32| {
+            let changes = in_steps.iter().any(|(key, _)| *key == (*node, axis));
+            changes || self.axes.contains_key(node)
+        };
+        let mut followers = plane.nodes.iter().filter(|node| **node != leader);
+        plane.nodes.iter().any(is_own)
+            || followers.any(|node| self.boundary.contains_key(&(*node, axis)))
     }
 
     /// Adds the rows of rigid bodies, of displacements along the axes of their nodes.
-    fn rows_of_bodies(
-        &self,
-        axes: &BTreeMap<u32, [Vector; 3]>,
-        rows: &mut Vec<LinearRow>,
-    ) -> Result<()> {
-        for body in self.deck.rigid_bodies()? {
-            for (node, axis, mut row) in body.rows(self.deck) {
-                let own = axes.get(&node).copied().unwrap_or(GLOBAL);
+    fn rows_of_bodies(&self, rows: &mut Vec<LinearRow>) -> Result<()> {
+        let deck = self.draft.deck;
+        for body in DeckRigidBody::all(&deck.properties.rigid, deck.lookup())? {
+            for (node, axis, mut row) in body.rows(&deck.mesh) {
+                let own = self.axes.get(&node).copied().unwrap_or(GLOBAL);
                 for (of, local) in own.iter().enumerate() {
                     *row.terms.entry((node, of as u8)).or_insert(0.0) += local[axis];
                 }
@@ -119,81 +99,29 @@ impl Draft<'_> {
     }
 
     /// Reduces the rows to independent ones, after removing displacements that are held at zero.
-    fn reduced(&self, mut rows: Vec<LinearRow>, boundary: &Map) -> Reduced {
-        let dimension = self.deck.dimension();
+    fn reduced(&self, mut rows: Vec<LinearRow>) -> Reduced {
+        let (geometry, boundary) = (&self.draft.geometry, &self.boundary);
+        let dimension = self.draft.deck.mesh.dimension();
         let is_zero = |key: &Key| {
-            let out_of_plane = key.1 as usize >= dimension && self.geometry.uses(key.0);
-            out_of_plane
-                || boundary
-                    .get(key)
-                    .is_some_and(|entry| entry.series.is_zero())
+            let out_of_plane = key.1 as usize >= dimension && geometry.uses(key.0);
+            let entry = || boundary.get(key);
+            out_of_plane || entry().is_some_and(|entry| entry.series.is_zero())
         };
         for row in &mut rows {
             row.terms.retain(|key, _| !is_zero(key));
         }
         linear::reduce(
             rows,
-            |key| !self.geometry.uses(key.0),
+            |key| !geometry.uses(key.0),
             |key| boundary.contains_key(key),
         )
     }
 
-    /// The rows of an equation, one for each node of its first set.
-    fn rows_of(&self, equation: &LinearEquation, rows: &mut Vec<LinearRow>) -> Result<()> {
-        let (deck, at) = (self.deck, (equation.place, "EQUATION"));
-        let refused = |message: String| deck.error(at.0, at.1, message);
-        let mut terms = Vec::new();
-        for (on, freedom, coefficient) in &equation.terms {
-            let nodes = deck.indices(What::Nodes, on, at)?;
-            let keys: Vec<Key> = match freedom {
-                1..=3 => nodes
-                    .iter()
-                    .map(|&node| (node, *freedom as u8 - 1))
-                    .collect(),
-                _ => deck.rotations_among(&nodes, [*freedom; 2])?,
-            };
-            if keys.is_empty() {
-                let message = format!(
-                    "degree of freedom {freedom} is none of a node here: 1 to {}",
-                    deck.dimension()
-                );
-                return Err(unsupported(refused(message)));
-            }
-            terms.push((keys, *coefficient));
-        }
-        let n = terms.first().map_or(0, |(keys, _)| keys.len());
-        if let Some((keys, _)) = terms.iter().find(|(keys, _)| ![1, n].contains(&keys.len())) {
-            let message = format!(
-                "a term is on {} nodes, the first on {n}: give it as many, or one",
-                keys.len()
-            );
-            return Err(refused(message));
-        }
-        for k in 0..n {
-            let mut sum = FreedomCoefficients::new();
-            let key_of = |keys: &Vec<Key>| if keys.len() == 1 { keys[0] } else { keys[k] };
-            for (keys, coefficient) in &terms {
-                *sum.entry(key_of(keys)).or_insert(0.0) += coefficient;
-            }
-            rows.push(LinearRow {
-                terms: sum,
-                first: terms.first().map(|(keys, _)| key_of(keys)),
-                place: equation.place,
-                keyword: "EQUATION",
-            });
-        }
-        Ok(())
-    }
-
     /// Transfers the force on a node without elements to the nodes that it follows. A force on a
     /// node that is held goes into the support.
-    fn move_forces(
-        &self,
-        reduced: &Reduced,
-        of_rows: &[Key],
-        boundary: &Map,
-        forces: &mut Map,
-    ) -> Result<()> {
+    fn move_forces(&mut self, reduced: &Reduced, of_rows: &[Key]) -> Result<()> {
+        let (deck, geometry) = (self.draft.deck, &self.draft.geometry);
+        let (boundary, forces) = (&self.boundary, &mut self.forces);
         for follows in &reduced.loose {
             let Some(entry) = forces.remove(&follows.key) else {
                 continue;
@@ -202,40 +130,32 @@ impl Draft<'_> {
                 if boundary.contains_key(key) {
                     continue;
                 }
-                if !self.geometry.uses(key.0) && !entry.series.is_zero() {
-                    return Err(self.pressed_loose(follows.key, entry.place));
+                if !geometry.uses(key.0) && !entry.series.is_zero() {
+                    return Err(pressed_loose(deck, follows.key, entry.place));
                 }
                 let new = || KeyHistory::new(Series::starting(0.0), entry.place);
                 let sum = forces.entry(*key).or_insert_with(new);
                 sum.series.add(&entry.series, *share);
             }
         }
-        let is_left = |key: &Key| !self.geometry.uses(key.0) && of_rows.contains(key);
+        let is_left = |key: &Key| !geometry.uses(key.0) && of_rows.contains(key);
         let left: Vec<Key> = forces.keys().filter(|key| is_left(key)).copied().collect();
         for key in left {
             if let Some(entry) = forces.remove(&key)
                 && !boundary.contains_key(&key)
                 && !entry.series.is_zero()
             {
-                return Err(self.pressed_loose(key, entry.place));
+                return Err(pressed_loose(deck, key, entry.place));
             }
         }
         Ok(())
     }
 
-    fn pressed_loose(&self, key: Key, place: LinePlace) -> crate::Error {
-        let node = self.deck.node_name(key.0 as usize);
-        let message = format!(
-            "a force acts on node {node} along {}, which no node of an element follows alone",
-            key.1 + 1
-        );
-        self.deck.error(place, "CLOAD", message)
-    }
-
     /// Checks that rows between displacements that are all prescribed hold.
-    fn check_known(&self, rows: &[LinearRow], boundary: &Map) -> Result<()> {
+    fn check_known(&self, rows: &[LinearRow]) -> Result<()> {
+        let boundary = &self.boundary;
         for row in rows {
-            let sum = series_of(&row.terms, boundary);
+            let sum = sum_of(&row.terms, boundary);
             let sizes = row.terms.iter().map(|(key, c)| {
                 let given = boundary
                     .get(key)
@@ -244,118 +164,120 @@ impl Draft<'_> {
             });
             if sum.largest().abs() > ROUND_OFF * sizes.fold(0.0, f64::max) {
                 let message = "what is held or moved does not agree with it: take one of them out";
-                return Err(self.deck.error(row.place, row.keyword, message));
+                return Err(self.draft.deck.error(row.place, row.keyword, message));
             }
         }
         Ok(())
     }
 
+    /// Prescribes the displacements that follow others, or makes them equations.
+    fn follow_all(&mut self, others: &[Follows]) {
+        let known = self.boundary.clone();
+        // A displacement along an axis of its node is combined with all others of the node.
+        let is_known = |follows: &Follows| follows.of.keys().all(|key| known.contains_key(key));
+        let mut turned: BTreeMap<u32, Vec<&Follows>> = BTreeMap::new();
+        for follows in others {
+            match self.axes.contains_key(&follows.key.0) && !is_known(follows) {
+                true => turned.entry(follows.key.0).or_default().push(follows),
+                false => self.follow(follows, &known),
+            }
+        }
+        for (node, of_node) in turned {
+            let mut along = NodeAlongAxes::taken(node, &self.axes, &mut self.boundary);
+            for follows in of_node {
+                let (of, moved) = self.apart_from_loose(follows, &known);
+                along.known.push(AlongAxis {
+                    axis: self.axes[&node][follows.key.1 as usize],
+                    of,
+                    moved,
+                    place: follows.place,
+                });
+            }
+            along.prescribe(self.draft, &self.axes, &mut self.boundary);
+        }
+    }
+
     /// Holds or moves a displacement that follows prescribed ones only; any other becomes an
     /// equation.
-    fn follow(
-        &mut self,
-        follows: &Follows,
-        known: &Map,
-        boundary: &mut Map,
-        axes: &BTreeMap<u32, [Vector; 3]>,
-    ) -> Result<()> {
+    fn follow(&mut self, follows: &Follows, known: &Map) {
         if follows.of.keys().all(|key| known.contains_key(key)) {
-            let series = series_of(&follows.of, known);
-            boundary.insert(follows.key, KeyHistory::new(series, follows.place));
-            return Ok(());
+            let entry = KeyHistory::new(sum_of(&follows.of, known), follows.place);
+            self.boundary.insert(follows.key, entry);
+            return;
         }
         let (of, moved) = self.apart_from_loose(follows, known);
         let all = std::iter::once((follows.key, -1.0)).chain(of);
         let mut terms = Vec::new();
         for (key, coefficient) in all {
-            terms.extend(self.components_of(key, coefficient, axes));
+            terms.extend(self.draft.components_of(key, coefficient, &self.axes));
         }
-        self.relate(terms, moved, follows.place);
-        Ok(())
+        self.draft.relate(terms, moved, follows.place);
     }
 
     /// The displacements of nodes with elements that a displacement follows, and the part that
     /// nodes without elements prescribe.
     fn apart_from_loose(&self, follows: &Follows, known: &Map) -> (FreedomCoefficients, Series) {
+        let is_loose = |key: &Key| !self.draft.geometry.uses(key.0);
         let (loose, of): (FreedomCoefficients, FreedomCoefficients) =
-            (follows.of.iter()).partition(|(key, _)| !self.geometry.uses(key.0));
-        (of, series_of(&loose, known))
-    }
-
-    /// The terms along x, y and z of a displacement along an axis of its node; the largest comes
-    /// first.
-    pub(super) fn components_of(
-        &mut self,
-        (node, axis): Key,
-        coefficient: f64,
-        axes: &BTreeMap<u32, [Vector; 3]>,
-    ) -> Vec<EquationTerm> {
-        let own = axes.get(&node).unwrap_or(&GLOBAL)[axis as usize];
-        let parts = own.map(|x| coefficient * x).into_iter().enumerate();
-        let mut parts: Vec<(usize, f64)> = parts.collect();
-        parts.retain(|(_, c)| c.abs() > ROUND_OFF * coefficient.abs());
-        parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        let on = self.set_of_node(node);
-        let term = |(axis, coefficient): (usize, f64)| EquationTerm {
-            on: on.clone(),
-            direction: Direction::ALL[axis],
-            coefficient,
-        };
-        parts.into_iter().map(term).collect()
-    }
-
-    /// Adds the equation that a sum of terms and a value over time is zero. If the value is not, it
-    /// is a load.
-    pub(super) fn relate(&mut self, terms: Vec<EquationTerm>, moved: Series, place: LinePlace) {
-        if moved.is_zero() {
-            let key = format!("equation.{}", self.equations.len());
-            self.places.insert(key, self.deck.files.show(place));
-            self.equations.push(scene::Equation { terms });
-            return;
-        }
-        let Some((first, rest)) = terms.split_first() else {
-            return;
-        };
-        let over_first = |term: &EquationTerm| EquationTerm {
-            coefficient: -term.coefficient / first.coefficient,
-            ..term.clone()
-        };
-        let load = Load {
-            on: first.on.clone(),
-            relative: Some(Relative {
-                direction: first.direction,
-                value: -moved.largest() / first.coefficient,
-                terms: rest.iter().map(over_first).collect(),
-            }),
-            ..Load::default()
-        };
-        self.add_load("relative", load, moved, place);
-    }
-
-    /// The name of a set with this node only.
-    pub(super) fn set_of_node(&mut self, node: u32) -> String {
-        let known = self.sets_of_nodes.get(&node);
-        if let Some(name) = known {
-            return name.clone();
-        }
-        let name = format!("node-{}", self.deck.node_label(node as usize));
-        let name = self.geometry.add_nodes(&name, vec![node]);
-        self.sets_of_nodes.insert(node, name.clone());
-        name
+            (follows.of.iter()).partition(|(key, _)| is_loose(key));
+        (of, sum_of(&loose, known))
     }
 }
 
-const GLOBAL: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
-/// The sum of known displacements multiplied by coefficients.
-pub(super) fn series_of(terms: &FreedomCoefficients, known: &Map) -> Series {
-    let mut sum = Series::starting(0.0);
-    for (key, c) in terms {
-        if let Some(entry) = known.get(key) {
-            sum.add(&entry.series, *c);
+/// The rows of an equation, one for each node of its first set.
+fn rows_of(equation: &LinearEquation, deck: &Deck, rows: &mut Vec<LinearRow>) -> Result<()> {
+    let (lookup, at) = (deck.lookup(), (equation.place, "EQUATION"));
+    let refused = |message: String| lookup.error(at, message);
+    let mut terms = Vec::new();
+    for (on, freedom, coefficient) in &equation.terms {
+        let nodes = lookup.indices(What::Nodes, on, at)?;
+        let keys: Vec<Key> = match freedom {
+            1..=3 => nodes
+                .iter()
+                .map(|&node| (node, *freedom as u8 - 1))
+                .collect(),
+            _ => rotations_among(&deck.properties.rigid, lookup, &nodes, [*freedom; 2])?,
+        };
+        if keys.is_empty() {
+            let message = format!(
+                "degree of freedom {freedom} is none of a node here: 1 to {}",
+                deck.mesh.dimension()
+            );
+            return Err(unsupported(refused(message)));
         }
+        terms.push((keys, *coefficient));
     }
-    sum
+    let n = terms.first().map_or(0, |(keys, _)| keys.len());
+    if let Some((keys, _)) = terms.iter().find(|(keys, _)| ![1, n].contains(&keys.len())) {
+        let message = format!(
+            "a term is on {} nodes, the first on {n}: give it as many, or one",
+            keys.len()
+        );
+        return Err(refused(message));
+    }
+    for k in 0..n {
+        let mut sum = FreedomCoefficients::new();
+        let key_of = |keys: &Vec<Key>| if keys.len() == 1 { keys[0] } else { keys[k] };
+        for (keys, coefficient) in &terms {
+            *sum.entry(key_of(keys)).or_insert(0.0) += coefficient;
+        }
+        rows.push(LinearRow {
+            terms: sum,
+            first: terms.first().map(|(keys, _)| key_of(keys)),
+            place: equation.place,
+            keyword: "EQUATION",
+        });
+    }
+    Ok(())
+}
+
+fn pressed_loose(deck: &Deck, key: Key, place: LinePlace) -> crate::Error {
+    let node = deck.mesh.node_name(key.0 as usize);
+    let message = format!(
+        "a force acts on node {node} along {}, which no node of an element follows alone",
+        key.1 + 1
+    );
+    deck.error(place, "CLOAD", message)
 }
 
 /// Separates planes that share no displacement with other planes or rows from planes that do, or

@@ -1,10 +1,11 @@
 //! Loads on the volumes of bodies: weight, rotation, and change of temperature.
 
 use super::super::bodies::{Bodies, unsupported};
-use super::super::data::{Account, ConditionKind, VolumeLoad};
+use super::super::data::{ConditionKind, VolumeLoad};
+use super::super::history::histories;
 use super::super::source::LinePlace;
 use super::super::temperature::OfBody;
-use super::Draft;
+use super::draft::Draft;
 use crate::error::Result;
 use crate::scene::{Field, Load, NodalField, Rotation};
 use crate::space::Space;
@@ -13,27 +14,34 @@ use std::f64::consts::PI;
 /// Tolerance for the direction of a unit vector, given with the digits of a deck.
 const ALIGNED: f64 = 1e-6;
 
-impl Draft<'_> {
-    pub(super) fn volume_loads(&mut self, space: Space, bodies: &Bodies) -> Result<()> {
-        for ((body, index), entry) in self.deck.histories(ConditionKind::Volume)? {
+/// Loads on the bodies of a deck.
+pub(super) struct BodyLoads<'b> {
+    pub(super) space: Space,
+    pub(super) bodies: &'b Bodies,
+}
+
+impl BodyLoads<'_> {
+    /// Adds weight and rotation.
+    pub(super) fn add_volume_loads(&self, draft: &mut Draft) -> Result<()> {
+        for ((body, index), entry) in histories(draft.deck, ConditionKind::Volume)? {
             if entry.series.is_zero() {
                 continue;
             }
-            let on = bodies.names[body as usize].clone();
+            let on = self.bodies.names[body as usize].clone();
             let largest = entry.series.largest();
-            let load = match self.deck.program.volume_loads[index as usize] {
+            let load = match draft.deck.program.volume_loads[index as usize] {
                 VolumeLoad::Acceleration(way) => Load {
                     on,
-                    acceleration: Some(self.components(way.map(|x| x * largest))),
+                    acceleration: Some(draft.components(way.map(|x| x * largest))),
                     ..Load::default()
                 },
                 VolumeLoad::Rotation(axis) => Load {
                     on,
-                    rotation: Some(self.rotation(space, axis, largest, entry.place)?),
+                    rotation: Some(self.rotation(draft, axis, (largest, entry.place))?),
                     ..Load::default()
                 },
             };
-            self.add_load("volume", load, entry.series, entry.place);
+            draft.add_load("volume", load, entry.series, entry.place);
         }
         Ok(())
     }
@@ -42,12 +50,12 @@ impl Draft<'_> {
     /// axis if it is axisymmetric.
     fn rotation(
         &self,
-        space: Space,
+        draft: &Draft,
         [point, way]: [[f64; 3]; 2],
-        square: f64,
-        place: LinePlace,
+        (square, place): (f64, LinePlace),
     ) -> Result<Rotation> {
         let is_along = |axis: usize| way[axis].abs() > 1.0 - ALIGNED;
+        let space = self.space;
         let fits = match space {
             Space::Solid => true,
             Space::Axisymmetric => is_along(1) && point[0] == 0.0,
@@ -56,12 +64,12 @@ impl Draft<'_> {
         if !fits {
             let message = "CENTRIF turns plane models about an axis along z, axisymmetric ones \
                            about their own, y";
-            return Err(unsupported(self.deck.error(place, "DLOAD", message)));
+            return Err(unsupported(draft.deck.error(place, "DLOAD", message)));
         }
         let is_axisymmetric = space == Space::Axisymmetric;
         Ok(Rotation {
             rpm: 30.0 / PI * square.sqrt(),
-            center: (!is_axisymmetric).then(|| self.components(point)),
+            center: (!is_axisymmetric).then(|| draft.components(point)),
             axis: space.is_solid().then_some(way),
         })
     }
@@ -71,14 +79,14 @@ impl Draft<'_> {
     ///
     /// # Errors
     /// `Input` if temperatures without effect are the only loads.
-    pub(super) fn temperatures(
-        &mut self,
-        bodies: &Bodies,
+    pub(super) fn add_temperatures(
+        &self,
+        draft: &mut Draft,
         temperatures: Vec<OfBody>,
-        account: &mut Account,
     ) -> Result<()> {
         let mut idle = None;
-        let properties = &self.deck.properties;
+        let (deck, bodies) = (draft.deck, self.bodies);
+        let properties = &deck.properties;
         let of_bodies = bodies.names.iter().zip(&bodies.sections).zip(temperatures);
         for ((name, section), of_body) in of_bodies {
             let section = &properties.sections[section.unwrap_or(0)];
@@ -89,7 +97,7 @@ impl Draft<'_> {
                 let field = match of_body.is_uniform {
                     true => Field::Uniform(of_body.change.largest()),
                     false => Field::Nodal(NodalField {
-                        file: self.deck.file_name(),
+                        file: deck.file_name(),
                     }),
                 };
                 let load = Load {
@@ -97,19 +105,18 @@ impl Draft<'_> {
                     temperature: Some(field),
                     ..Load::default()
                 };
-                self.add_load("temperature", load, of_body.change, place);
+                draft.add_load("temperature", load, of_body.change, place);
             } else if !of_body.change.is_zero() {
                 let name = &section.material;
                 let text = format!("material {name} has no *EXPANSION: temperatures do nothing");
-                let list = &mut account.taken;
-                Account::add(list, &self.deck.files, place, "TEMPERATURE", &text);
+                draft.remark(place, "TEMPERATURE", &text);
                 idle = Some((place, text));
             }
         }
         match idle {
-            Some((place, text)) if self.loads.is_empty() && self.contacts.is_empty() => {
+            Some((place, text)) if draft.loads.is_empty() && properties.contacts.is_empty() => {
                 let message = format!("{text}, and nothing else loads the bodies; give it one");
-                Err(self.deck.error(place, "TEMPERATURE", message))
+                Err(deck.error(place, "TEMPERATURE", message))
             }
             _ => Ok(()),
         }

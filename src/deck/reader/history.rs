@@ -1,13 +1,14 @@
 //! Reading of steps and the conditions of each step.
 
+use super::block::BlockReader;
 use super::mesh::{face, target};
 use super::volume::{OnVolume, volume_load};
-use super::{Reader, fields};
 use crate::deck::bodies::unsupported;
-use crate::deck::data::{Condition, ConditionKind, ContactChange, DeckStep, EntitySelection};
+use crate::deck::data::{
+    Condition, ConditionKind, ContactChange, DeckProgram, DeckStep, EntitySelection,
+};
 use crate::deck::fields::LineFields;
-use crate::deck::keyword::Keyword;
-use crate::deck::source::Line;
+use crate::deck::source::LinePlace;
 use crate::error::Result;
 use crate::number::exact;
 
@@ -23,95 +24,80 @@ const NAMED_SUPPORTS: [(&str, &[[usize; 2]]); 5] = [
     ("ENCASTRE", &[[1, 6]]),
 ];
 
-impl Reader<'_> {
-    pub(super) fn step(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        let known = [
-            "INC",
-            "INCF",
-            "NLGEOM",
-            "NAME",
-            "AMPLITUDE",
-            "PERTURBATION",
-            "THERMALNETWORK",
-            "EXTRAPOLATION",
-            "UNSYMM",
-            "SHEARINCR",
-            "SOLVER",
-            "CONVERTSDI",
-        ];
-        keyword.allow(files, &known)?;
+/// Reads steps and their conditions.
+#[derive(Default)]
+pub(super) struct StepReader {
+    pub(super) program: DeckProgram,
+    /// First place at which large deformation is requested.
+    pub(super) nlgeom: Option<LinePlace>,
+    is_in_step: bool,
+    /// Displacements that are given before the first step, and are reached over the first step.
+    of_first_step: Vec<Condition>,
+    /// Number of conditions of the first step that were given before it.
+    n_before: usize,
+}
+
+impl StepReader {
+    /// Begins a step.
+    pub(super) fn step(&mut self, block: &mut BlockReader) -> Result<()> {
+        let keyword = block.keyword;
+        let known = "INC INCF NLGEOM NAME AMPLITUDE PERTURBATION THERMALNETWORK EXTRAPOLATION \
+                     UNSYMM SHEARINCR SOLVER CONVERTSDI";
+        block.allow(known)?;
         if self.is_in_step {
             let message = "the step before has no *END STEP; put it in front of this line";
-            return Err(keyword.error(files, message));
+            return Err(block.error(message));
         }
         if keyword.has("PERTURBATION") {
-            self.refuse(
-                keyword,
-                keyword.place,
-                "PERTURBATION: steps go on where the one before ended",
-            );
+            block.refuse("PERTURBATION: steps go on where the one before ended");
         }
         let nlgeom = keyword.has("NLGEOM") && !keyword.get("NLGEOM").is_some_and(is_no);
-        if nlgeom && self.deck.nlgeom.is_none() {
-            self.deck.nlgeom = Some(keyword.place);
+        if nlgeom && self.nlgeom.is_none() {
+            self.nlgeom = Some(keyword.place);
         }
-        if keyword.choice(&self.source.files, "AMPLITUDE", &["RAMP", "STEP"])? == "STEP" {
+        if block.choice("AMPLITUDE", &["RAMP", "STEP"])? == "STEP" {
             let how =
                 "AMPLITUDE=STEP: what changes is ramped over the step; only its end is the same";
-            self.take(keyword, keyword.place, how);
+            block.take(how);
         }
-        (self.is_in_step, self.is_history) = (true, false);
+        self.is_in_step = true;
         let given_before = std::mem::take(&mut self.of_first_step);
         self.n_before = given_before.len();
-        self.deck.program.steps.push(DeckStep {
+        self.program.steps.push(DeckStep {
             place: keyword.place,
             period: 1.0,
             conditions: given_before,
             ..DeckStep::default()
         });
         // A line of text may follow, which describes the step.
-        self.skip()
+        block.skip()
     }
 
-    pub(super) fn statics(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        keyword.allow(
-            files,
-            &[
-                "DIRECT",
-                "SOLVER",
-                "EXPLICIT",
-                "TIMERESET",
-                "TOTALTIMEATSTART",
-                "STABILIZE",
-                "FACTOR",
-                "ALLSDTOL",
-                "CONTINUE",
-            ],
+    pub(super) fn statics(&mut self, block: &mut BlockReader) -> Result<()> {
+        let keyword = block.keyword;
+        block.allow(
+            "DIRECT SOLVER EXPLICIT TIMERESET TOTALTIMEATSTART STABILIZE FACTOR ALLSDTOL CONTINUE",
         )?;
         for key in ["FACTOR", "ALLSDTOL", "CONTINUE"] {
             if keyword.has(key) && !keyword.has("STABILIZE") {
                 let message = format!("{key} belongs to STABILIZE; take it out, or add STABILIZE");
-                return Err(keyword.error(files, message));
+                return Err(block.error(message));
             }
         }
         for key in ["TIMERESET", "TOTALTIMEATSTART"] {
             if keyword.has(key) {
-                return Err(keyword.error(
-                    files,
-                    format!("{key}: time runs on from step to step; take it out"),
-                ));
+                return Err(block.error(format!(
+                    "{key}: time runs on from step to step; take it out"
+                )));
             }
         }
-        let Some(step) = self.current_step() else {
-            return Err(keyword.error(&self.source.files, "it stands in no *STEP; put it in one"));
+        let Some(step) = self.current() else {
+            return Err(block.error("it stands in no *STEP; put it in one"));
         };
         let mut period = 1.0;
         let mut increments = 1.0;
         let mut fixed = None;
-        if let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
+        if let Some((_, mut row)) = block.row()? {
             let first = row.number_or("the first increment", 1.0)?;
             if !row.is_at_end() {
                 period = row.number_or("the time of the step", 1.0)?;
@@ -138,62 +124,50 @@ impl Reader<'_> {
                 fixed = is_fixed.then_some(first);
             }
         }
-        self.deck.program.steps[step].period = period;
-        self.deck.program.steps[step].increments = increments as usize;
-        self.deck.program.steps[step].fixed = fixed;
-        self.skip()
+        step.period = period;
+        step.increments = increments as usize;
+        step.fixed = fixed;
+        block.skip()
     }
 
-    pub(super) fn end_step(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &[])?;
+    pub(super) fn end_step(&mut self, block: &mut BlockReader) -> Result<()> {
+        block.allow("")?;
         if !self.is_in_step {
-            return Err(keyword.error(
-                &self.source.files,
-                "there is no *STEP that it ends; take it out",
-            ));
+            return Err(block.error("there is no *STEP that it ends; take it out"));
         }
         self.is_in_step = false;
-        self.no_more(keyword)
+        block.no_more()
     }
 
     /// The index of the current step; `None` outside of steps.
-    pub(super) fn current_step(&self) -> Option<usize> {
-        self.deck
-            .program
-            .steps
-            .len()
-            .checked_sub(1)
-            .filter(|_| self.is_in_step)
+    pub(super) fn number(&self) -> Option<usize> {
+        let last = self.program.steps.len().checked_sub(1);
+        last.filter(|_| self.is_in_step)
     }
 
-    /// Reads the parameters that are common to all conditions, and returns the name of the
-    /// amplitude.
-    pub(super) fn conditions(
-        &mut self,
-        keyword: &Keyword,
-        kind: ConditionKind,
-    ) -> Result<Option<String>> {
-        let files = &self.source.files;
-        let known = [
-            "OP",
-            "AMPLITUDE",
-            "FIXED",
-            "TYPE",
-            "FOLLOWER",
-            "CONSTANTRESULTANT",
-        ];
+    /// The current step; `None` outside of steps.
+    pub(super) fn current(&mut self) -> Option<&mut DeckStep> {
+        let last = self.program.steps.last_mut();
+        last.filter(|_| self.is_in_step)
+    }
+
+    /// Reads the parameters of a keyword of conditions, and returns what its lines have in common.
+    fn conditions(&mut self, block: &mut BlockReader, kind: ConditionKind) -> Result<Condition> {
+        let keyword = block.keyword;
         // Where displacements are small, loads neither turn with the bodies nor grow with them.
-        let n_known = match kind {
-            ConditionKind::Force | ConditionKind::Pressure => known.len(),
-            _ => known.len() - 2,
+        let known = match kind {
+            ConditionKind::Force | ConditionKind::Pressure => {
+                "OP AMPLITUDE FIXED TYPE FOLLOWER CONSTANTRESULTANT"
+            }
+            _ => "OP AMPLITUDE FIXED TYPE",
         };
-        keyword.allow(files, &known[..n_known])?;
-        let is_new = keyword.choice(files, "OP", &["MOD", "NEW"])? == "NEW";
-        keyword.choice(files, "TYPE", &["DISPLACEMENT"])?;
+        block.allow(known)?;
+        let is_new = block.choice("OP", &["MOD", "NEW"])? == "NEW";
+        block.choice("TYPE", &["DISPLACEMENT"])?;
         let amplitude = keyword.get("AMPLITUDE").map(str::to_string);
-        match self.current_step() {
+        let is_fixed = kind == ConditionKind::Boundary && keyword.has("FIXED");
+        match self.program.steps.last_mut().filter(|_| self.is_in_step) {
             Some(step) => {
-                let step = &mut self.deck.program.steps[step];
                 let is_first = !std::mem::replace(&mut step.is_begun[kind as usize], true);
                 if is_new && is_first {
                     step.renewed[kind as usize] = Some(keyword.place);
@@ -206,20 +180,24 @@ impl Reader<'_> {
                 } else if is_new && step.renewed[kind as usize].is_none() {
                     let how = "OP=NEW has no effect behind others of its kind in the step, as in \
                                CalculiX: give it to the first";
-                    self.take(keyword, keyword.place, how);
+                    block.take(how);
                 }
             }
             None if kind != ConditionKind::Boundary => {
-                return Err(keyword.error(files, "it stands in no *STEP; put it in one"));
+                return Err(block.error("it stands in no *STEP; put it in one"));
             }
             _ => {}
         }
-        Ok(amplitude)
+        Ok(Condition {
+            amplitude,
+            is_fixed,
+            ..Condition::of_keyword(kind, keyword.place)
+        })
     }
 
-    pub(super) fn add(&mut self, condition: Condition) {
-        match self.current_step() {
-            Some(step) => self.deck.program.steps[step].conditions.push(condition),
+    fn add(&mut self, condition: Condition) {
+        match self.current() {
+            Some(step) => step.conditions.push(condition),
             None => {
                 // A displacement given before the first step is reached over that step, unless a
                 // later line holds the node.
@@ -231,38 +209,28 @@ impl Reader<'_> {
                     self.of_first_step.push(condition.clone());
                 }
                 if is_support || condition.kind != ConditionKind::Boundary {
-                    self.deck.program.initial.push(condition);
+                    self.program.initial.push(condition);
                 }
             }
         }
     }
 
-    pub(super) fn boundary(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, ConditionKind::Boundary)?;
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
+    pub(super) fn boundary(&mut self, block: &mut BlockReader) -> Result<()> {
+        let common = self.conditions(block, ConditionKind::Boundary)?;
+        while let Some((place, mut row)) = block.row()? {
             let on = target(&mut row)?;
             let (ranges, value) = freedoms(&mut row)?;
             row.end()?;
             for range in ranges {
-                self.add(Condition {
-                    kind: ConditionKind::Boundary,
-                    on: on.clone(),
-                    range,
-                    value,
-                    amplitude: amplitude.clone(),
-                    is_fixed: keyword.has("FIXED"),
-                    place: line.place,
-                });
+                self.add(common.line(on.clone(), range, value, place));
             }
         }
         Ok(())
     }
 
-    pub(super) fn cload(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, ConditionKind::Force)?;
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
+    pub(super) fn cload(&mut self, block: &mut BlockReader) -> Result<()> {
+        let common = self.conditions(block, ConditionKind::Force)?;
+        while let Some((place, mut row)) = block.row()? {
             let on = target(&mut row)?;
             let freedom = row.label("the degree of freedom")? as usize;
             let value = row.number("the force")?;
@@ -273,23 +241,14 @@ impl Reader<'_> {
                      and 6 of a reference node; heat flows do not"
                 )));
             }
-            self.add(Condition {
-                kind: ConditionKind::Force,
-                on,
-                range: [freedom; 2],
-                value,
-                amplitude: amplitude.clone(),
-                is_fixed: false,
-                place: line.place,
-            });
+            self.add(common.line(on, [freedom; 2], value, place));
         }
         Ok(())
     }
 
-    pub(super) fn dload(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, ConditionKind::Pressure)?;
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
+    pub(super) fn dload(&mut self, block: &mut BlockReader) -> Result<()> {
+        let common = self.conditions(block, ConditionKind::Pressure)?;
+        while let Some((place, mut row)) = block.row()? {
             let mut ahead = row;
             // Nothing in front of a load on volumes stands for all elements.
             let on = match ahead.word().is_empty() && !ahead.is_at_end() {
@@ -307,11 +266,11 @@ impl Reader<'_> {
                 }
                 OnVolume::Face => {}
                 OnVolume::Refused(why) => {
-                    self.refuse(keyword, line.place, &why);
+                    block.refuse_at(place, &why);
                     continue;
                 }
                 OnVolume::Load(load, value) => {
-                    let loads = &mut self.deck.program.volume_loads;
+                    let loads = &mut self.program.volume_loads;
                     let known = loads.iter().position(|known| *known == load);
                     let index = known.unwrap_or(loads.len());
                     if known.is_none() {
@@ -323,12 +282,7 @@ impl Reader<'_> {
                     }
                     self.add(Condition {
                         kind: ConditionKind::Volume,
-                        on,
-                        range: [index; 2],
-                        value,
-                        amplitude: amplitude.clone(),
-                        is_fixed: false,
-                        place: line.place,
+                        ..common.line(on, [index; 2], value, place)
                     });
                     continue;
                 }
@@ -336,85 +290,81 @@ impl Reader<'_> {
             let face = face(&mut row, b'P')?;
             let value = row.number("the pressure")?;
             row.end()?;
-            self.add_pressure(on, face, value, &amplitude, line);
+            self.add(common.line(on, [face; 2], value, place));
         }
         Ok(())
     }
 
-    pub(super) fn dsload(&mut self, keyword: &Keyword) -> Result<()> {
-        let amplitude = self.conditions(keyword, ConditionKind::Pressure)?;
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
+    pub(super) fn dsload(&mut self, block: &mut BlockReader) -> Result<()> {
+        let common = self.conditions(block, ConditionKind::Pressure)?;
+        while let Some((place, mut row)) = block.row()? {
             let on = EntitySelection::Set(row.text("the surface")?);
             let what = row.text("the kind of load")?;
             if !what.eq_ignore_ascii_case("P") {
                 let why = format!("{what}: of loads on surfaces only pressures, P, are there");
-                self.refuse(keyword, line.place, &why);
+                block.refuse_at(place, &why);
                 continue;
             }
             let value = row.number("the pressure")?;
             row.end()?;
-            self.add_pressure(on, 0, value, &amplitude, line);
+            self.add(common.line(on, [0; 2], value, place));
         }
         Ok(())
     }
 
-    pub(super) fn model_change(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        keyword.allow(files, &["TYPE", "ADD", "REMOVE"])?;
-        if keyword.choice(files, "TYPE", &["ELEMENT", "CONTACT PAIR"])? == "ELEMENT" {
+    pub(super) fn model_change(&mut self, block: &mut BlockReader) -> Result<()> {
+        let keyword = block.keyword;
+        block.allow("TYPE ADD REMOVE")?;
+        if block.choice("TYPE", &["ELEMENT", "CONTACT PAIR"])? == "ELEMENT" {
             let why = "elements are the same in all steps; of *MODEL CHANGE there is \
                        TYPE=CONTACT PAIR";
-            self.refuse(keyword, keyword.place, why);
-            return self.skip();
+            block.refuse(why);
+            return block.skip();
         }
         let is_on = keyword.has("ADD");
         if is_on == keyword.has("REMOVE") {
-            return Err(keyword.error(files, "give either ADD or REMOVE"));
+            return Err(block.error("give either ADD or REMOVE"));
         }
-        let Some(step) = self.current_step() else {
-            return Err(keyword.error(files, "it stands in no *STEP; put it in one"));
+        let Some(step) = self.current() else {
+            return Err(block.error("it stands in no *STEP; put it in one"));
         };
-        let mut changes = Vec::new();
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
-            let slave = row.text("the slave surface")?;
-            let master = row.text("the master surface")?;
-            row.end()?;
-            changes.push(ContactChange {
-                slave,
-                master,
-                is_on,
-                place: line.place,
-            });
-        }
-        if changes.is_empty() {
-            let message = "a line with the slave and the master surface should follow; give it";
-            return Err(keyword.error(&self.source.files, message));
-        }
-        self.deck.program.steps[step]
-            .contact_changes
-            .extend(changes);
+        let pairs = block.pairs()?.into_iter();
+        let changes = pairs.map(|(place, [slave, master])| ContactChange {
+            slave,
+            master,
+            is_on,
+            place,
+        });
+        step.contact_changes.extend(changes);
         Ok(())
     }
 
-    fn add_pressure(
-        &mut self,
-        on: EntitySelection,
-        face: usize,
-        value: f64,
-        amplitude: &Option<String>,
-        line: Line,
-    ) {
-        self.add(Condition {
-            kind: ConditionKind::Pressure,
-            on,
-            range: [face; 2],
-            value,
-            amplitude: amplitude.clone(),
-            is_fixed: false,
-            place: line.place,
-        });
+    pub(super) fn temperature(&mut self, block: &mut BlockReader) -> Result<()> {
+        let common = self.conditions(block, ConditionKind::Temperature)?;
+        self.temperatures(block, common)
+    }
+
+    /// Reads lines of nodes and their temperatures.
+    fn temperatures(&mut self, block: &mut BlockReader, common: Condition) -> Result<()> {
+        while let Some((place, mut row)) = block.row()? {
+            let on = target(&mut row)?;
+            let value = row.number("the temperature")?;
+            row.end()?;
+            self.add(common.line(on, [1; 2], value, place));
+        }
+        Ok(())
+    }
+
+    pub(super) fn initial_conditions(&mut self, block: &mut BlockReader) -> Result<()> {
+        match block.keyword.get("TYPE").map(str::to_uppercase).as_deref() {
+            Some("TEMPERATURE") => {
+                block.allow("TYPE")?;
+                let common = Condition::of_keyword(ConditionKind::Temperature, block.keyword.place);
+                return self.temperatures(block, common);
+            }
+            _ => block.refuse("bodies begin without stress and strain"),
+        }
+        block.skip()
     }
 }
 

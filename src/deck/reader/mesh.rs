@@ -1,140 +1,150 @@
 //! Reading of nodes, elements, sets and surfaces.
 
-use super::{Reader, fields};
-use crate::deck::boundary::nodes_of_boundary;
-use crate::deck::data::{DeckElements, EntitySelection, Member, Nodes, SurfacePart};
+use super::block::BlockReader;
+use crate::deck::boundary::{BoundaryElements, nodes_of_boundary};
+use crate::deck::data::{EntitySelection, Member, Members, Named, Sets, SurfacePart};
 use crate::deck::element_type::ElementType;
 use crate::deck::fields::LineFields;
-use crate::deck::instances::Instances;
-use crate::deck::keyword::Keyword;
-use crate::deck::source::{DeckLines, Line};
+use crate::deck::mesh::{DeckMesh, Nodes};
+use crate::deck::source::LinePlace;
 use crate::error::{Error, ErrorKind, Result};
 use crate::shape::MAX_NODES;
 
-impl Reader<'_> {
-    pub(super) fn nodes(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &["NSET"])?;
-        let nodes = &mut self.deck.nodes;
-        let first = nodes.labels.len();
-        read_nodes(&mut self.source, keyword, nodes)?;
-        let last = nodes.labels.len();
-        if let Some(name) = keyword.get("NSET") {
-            let set = self.deck.sets.nodes.entry(name);
-            set.push((Member::Rows(first, last), keyword.place));
-        }
-        Ok(())
+/// Reads nodes.
+pub(super) fn nodes(
+    block: &mut BlockReader,
+    nodes: &mut Nodes,
+    sets: &mut Named<Members>,
+) -> Result<()> {
+    let keyword = block.keyword;
+    block.allow("NSET")?;
+    let first = nodes.labels.len();
+    read_nodes(block, nodes)?;
+    let last = nodes.labels.len();
+    if let Some(name) = keyword.get("NSET") {
+        let set = sets.entry(name);
+        set.push((Member::Rows(first, last), keyword.place));
     }
+    Ok(())
+}
 
-    pub(super) fn elements(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        keyword.allow(files, &["TYPE", "ELSET"])?;
-        let name = keyword.require(files, "TYPE")?;
-        if let Some(n) = nodes_of_boundary(name) {
-            return self.boundary_elements(keyword, n);
-        }
-        let element_type = ElementType::from_name(name).map_err(|why| {
-            let error = keyword.error(files, why);
-            Error::new(ErrorKind::Unsupported, error.message())
-        })?;
-        let elements = &mut self.deck.elements;
-        let first = elements.labels.len();
-        let instances = &self.deck.instances;
-        read_elements(&mut self.source, keyword, element_type, elements, instances)?;
-        let last = elements.labels.len();
-        if let Some(name) = keyword.get("ELSET") {
-            let set = self.deck.sets.elements.entry(name);
-            set.push((Member::Rows(first, last), keyword.place));
-        }
-        if let Some(note) = element_type.note {
-            let how = format!("TYPE={name}: {note}");
-            self.take(keyword, keyword.place, &how);
-        }
-        Ok(())
+/// Reads elements, or boundary elements, by their type.
+pub(super) fn elements(
+    block: &mut BlockReader,
+    mesh: &mut DeckMesh,
+    boundary: &mut BoundaryElements,
+    sets: &mut Named<Members>,
+) -> Result<()> {
+    let keyword = block.keyword;
+    block.allow("TYPE ELSET")?;
+    let name = block.require("TYPE")?;
+    if let Some(n) = nodes_of_boundary(name) {
+        return boundary_elements(block, n, boundary, sets);
     }
-
-    /// Reads boundary elements, which are lines or shells, with `n` nodes each.
-    fn boundary_elements(&mut self, keyword: &Keyword, n: usize) -> Result<()> {
-        let name = keyword.require(&self.source.files, "TYPE")?;
-        self.deck.boundary.note_type(name, keyword.place);
-        while let Some(line) = self.source.next_data()? {
-            let mut fields = fields(&self.source, keyword, line);
-            let label = fields.label("the element number")?;
-            let mut nodes = Vec::with_capacity(n);
-            for _ in 0..n {
-                nodes.push(fields.label("a node number")?);
-            }
-            // Beams may have an additional node that orients the cross-section.
-            if !fields.is_at_end() {
-                fields.label("a node number")?;
-            }
-            fields.end()?;
-            self.deck.boundary.add(label, nodes);
-            if let Some(set) = keyword.get("ELSET") {
-                let set = self.deck.sets.elements.entry(set);
-                set.push((Member::Of(EntitySelection::Label(label)), line.place));
-            }
-        }
-        let how = format!("TYPE={name}: without stiffness; sets of them are surfaces");
-        self.take(keyword, keyword.place, &how);
-        Ok(())
+    let element_type = ElementType::from_name(name).map_err(|why| {
+        let error = block.error(why);
+        Error::new(ErrorKind::Unsupported, error.message())
+    })?;
+    let first = mesh.elements.labels.len();
+    read_elements(block, element_type, mesh)?;
+    let last = mesh.elements.labels.len();
+    if let Some(name) = keyword.get("ELSET") {
+        let set = sets.entry(name);
+        set.push((Member::Rows(first, last), keyword.place));
     }
+    if let Some(note) = element_type.note {
+        let how = format!("TYPE={name}: {note}");
+        block.take(&how);
+    }
+    Ok(())
+}
 
-    /// Reads a set of nodes or elements.
-    pub(super) fn set(&mut self, keyword: &Keyword, key: &str) -> Result<()> {
-        let known: &[&str] = match key {
-            "NSET" => &["NSET", "GENERATE", "ELSET", "UNSORTED", "INTERNAL"],
-            _ => &["ELSET", "GENERATE", "INTERNAL"],
+/// Reads boundary elements, which are lines or shells, with `n` nodes each.
+fn boundary_elements(
+    block: &mut BlockReader,
+    n: usize,
+    boundary: &mut BoundaryElements,
+    sets: &mut Named<Members>,
+) -> Result<()> {
+    let keyword = block.keyword;
+    let name = block.require("TYPE")?;
+    boundary.note_type(name, keyword.place);
+    while let Some((place, mut fields)) = block.row()? {
+        let label = fields.label("the element number")?;
+        let mut nodes = Vec::with_capacity(n);
+        for _ in 0..n {
+            nodes.push(fields.label("a node number")?);
+        }
+        // Beams may have an additional node that orients the cross-section.
+        if !fields.is_at_end() {
+            fields.label("a node number")?;
+        }
+        fields.end()?;
+        boundary.add(label, nodes);
+        if let Some(set) = keyword.get("ELSET") {
+            let set = sets.entry(set);
+            set.push((Member::Of(EntitySelection::Label(label)), place));
+        }
+    }
+    let how = format!("TYPE={name}: without stiffness; sets of them are surfaces");
+    block.take(&how);
+    Ok(())
+}
+
+/// Reads a set of nodes or elements.
+pub(super) fn set(block: &mut BlockReader, key: &str, sets: &mut Sets) -> Result<()> {
+    let keyword = block.keyword;
+    let known = match key {
+        "NSET" => "NSET GENERATE ELSET UNSORTED INTERNAL",
+        _ => "ELSET GENERATE INTERNAL",
+    };
+    block.allow(known)?;
+    let name = block.require(key)?;
+    let set = match key {
+        "NSET" => sets.nodes.entry(name),
+        _ => sets.elements.entry(name),
+    };
+    if let Some(of) = keyword.get("ELSET").filter(|_| key == "NSET") {
+        set.push((Member::NodesOf(of.to_string()), keyword.place));
+        return block.skip();
+    }
+    while let Some((place, mut fields)) = block.row()? {
+        if keyword.has("GENERATE") {
+            set.push((range(&mut fields)?, place));
+            continue;
+        }
+        while !fields.is_at_end() {
+            set.push((Member::Of(target(&mut fields)?), place));
+        }
+    }
+    Ok(())
+}
+
+/// Reads a surface.
+pub(super) fn surface(
+    block: &mut BlockReader,
+    surfaces: &mut Named<Vec<(SurfacePart, LinePlace)>>,
+) -> Result<()> {
+    block.allow("NAME TYPE INTERNAL")?;
+    let name = block.require("NAME")?;
+    let of_nodes = block.choice("TYPE", &["ELEMENT", "NODE"])? == "NODE";
+    if surfaces.get(name).is_some() {
+        return Err(block.error(format!("a second surface {name}; rename one of them")));
+    }
+    let surface = surfaces.entry(name);
+    while let Some((place, mut fields)) = block.row()? {
+        let on = target(&mut fields)?;
+        let part = if of_nodes {
+            // A weight may follow, which is not used.
+            SurfacePart::OfNodes(on)
+        } else if fields.is_at_end() {
+            SurfacePart::Free(on)
+        } else {
+            SurfacePart::Face(on, face(&mut fields, b'S')?)
         };
-        keyword.allow(&self.source.files, known)?;
-        let name = keyword.require(&self.source.files, key)?;
-        let set = match key {
-            "NSET" => self.deck.sets.nodes.entry(name),
-            _ => self.deck.sets.elements.entry(name),
-        };
-        if let Some(of) = keyword.get("ELSET").filter(|_| key == "NSET") {
-            set.push((Member::NodesOf(of.to_string()), keyword.place));
-            return self.skip();
-        }
-        while let Some(line) = self.source.next_data()? {
-            let mut fields = fields(&self.source, keyword, line);
-            if keyword.has("GENERATE") {
-                set.push((range(&mut fields)?, line.place));
-                continue;
-            }
-            while !fields.is_at_end() {
-                set.push((Member::Of(target(&mut fields)?), line.place));
-            }
-        }
-        Ok(())
+        surface.push((part, place));
     }
-
-    pub(super) fn surface(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        keyword.allow(files, &["NAME", "TYPE", "INTERNAL"])?;
-        let name = keyword.require(files, "NAME")?;
-        let of_nodes = keyword.choice(files, "TYPE", &["ELEMENT", "NODE"])? == "NODE";
-        if self.deck.sets.surfaces.get(name).is_some() {
-            return Err(keyword.error(
-                files,
-                format!("a second surface {name}; rename one of them"),
-            ));
-        }
-        let surface = self.deck.sets.surfaces.entry(name);
-        while let Some(line) = self.source.next_data()? {
-            let mut fields = fields(&self.source, keyword, line);
-            let on = target(&mut fields)?;
-            let part = if of_nodes {
-                // A weight may follow, which is not used.
-                SurfacePart::OfNodes(on)
-            } else if fields.is_at_end() {
-                SurfacePart::Free(on)
-            } else {
-                SurfacePart::Face(on, face(&mut fields, b'S')?)
-            };
-            surface.push((part, line.place));
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 /// Reads a number, or the name of a set.
@@ -188,9 +198,8 @@ fn range(fields: &mut LineFields) -> Result<Member> {
 }
 
 /// Reads node numbers and coordinates.
-fn read_nodes(source: &mut DeckLines, keyword: &Keyword, nodes: &mut Nodes) -> Result<()> {
-    while let Some(line) = source.next_data()? {
-        let mut fields = fields(source, keyword, line);
+fn read_nodes(block: &mut BlockReader, nodes: &mut Nodes) -> Result<()> {
+    while let Some((place, mut fields)) = block.row()? {
         let label = fields.label("the node number")?;
         let mut x = [0.0; 3];
         for (x, what) in x.iter_mut().zip(["x", "y", "z"]) {
@@ -202,7 +211,7 @@ fn read_nodes(source: &mut DeckLines, keyword: &Keyword, nodes: &mut Nodes) -> R
         fields.end()?;
         nodes.labels.push(label);
         nodes.coordinates.extend_from_slice(&x);
-        nodes.places.push(line.place);
+        nodes.places.push(place);
     }
     Ok(())
 }
@@ -210,45 +219,41 @@ fn read_nodes(source: &mut DeckLines, keyword: &Keyword, nodes: &mut Nodes) -> R
 /// Reads element numbers and their nodes, which continue in the next line if a line ends with a
 /// comma.
 fn read_elements(
-    source: &mut DeckLines,
-    keyword: &Keyword,
+    block: &mut BlockReader,
     element_type: ElementType,
-    elements: &mut DeckElements,
-    instances: &Instances,
+    mesh: &mut DeckMesh,
 ) -> Result<()> {
+    let (elements, instances) = (&mut mesh.elements, &mesh.instances);
     let n = element_type.shape.n_nodes();
     if elements.offsets.is_empty() {
         elements.offsets.push(0);
     }
-    while let Some(line) = source.next_data()? {
+    while let Some((place, mut row)) = block.row()? {
         let mut nodes = [0; MAX_NODES];
-        let mut at: Line = line;
-        let mut of_line = fields(source, keyword, at);
-        let label = of_line.label("the element number")?;
+        let label = row.label("the element number")?;
         let mut read = 0;
         loop {
-            while read < n && !of_line.is_at_end() {
-                nodes[read] = of_line.label("a node number")?;
+            while read < n && !row.is_at_end() {
+                nodes[read] = row.label("a node number")?;
                 read += 1;
             }
-            of_line.end()?;
+            row.end()?;
             if read == n {
                 break;
             }
             let label = instances.shown(label);
             let why = format!("element {label} has {read} nodes, {n} of them are needed");
-            let error = of_line.place.error(why);
-            if !of_line.ends_with_comma() {
+            let error = row.place.error(why);
+            if !row.ends_with_comma() {
                 return Err(error);
             }
-            at = source.next_data()?.ok_or(error)?;
-            of_line = fields(source, keyword, at);
+            (_, row) = block.row()?.ok_or(error)?;
         }
         elements.labels.push(label);
         elements.types.push(element_type);
         elements.nodes.extend_from_slice(&nodes[..n]);
         elements.offsets.push(elements.nodes.len());
-        elements.places.push(line.place);
+        elements.places.push(place);
     }
     Ok(())
 }

@@ -1,66 +1,71 @@
 //! Reading of rigid bodies and couplings.
 
-use super::{Reader, fields};
+use super::block::BlockReader;
 use crate::deck::data::{EntitySelection, Rigid, RigidNodes};
-use crate::deck::keyword::Keyword;
 use crate::error::Result;
 
-impl Reader<'_> {
-    pub(super) fn rigid_body(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        keyword.allow(files, &["NSET", "ELSET", "REFNODE", "ROTNODE"])?;
+/// Reads rigid bodies and couplings.
+#[derive(Default)]
+pub(super) struct RigidReader {
+    pub(super) bodies: Vec<Rigid>,
+    /// A coupling whose axes have not been read yet.
+    open: Option<Rigid>,
+}
+
+impl RigidReader {
+    pub(super) fn rigid_body(&mut self, block: &mut BlockReader) -> Result<()> {
+        let keyword = block.keyword;
+        block.allow("NSET ELSET REFNODE ROTNODE")?;
         let nodes = match (keyword.get("NSET"), keyword.get("ELSET")) {
             (Some(name), _) => RigidNodes::Set(name.to_string()),
             (None, Some(name)) => RigidNodes::Elements(name.to_string()),
             (None, None) => {
                 let message = "no nodes are named; write NSET=... or ELSET=...";
-                return Err(keyword.error(files, message));
+                return Err(block.error(message));
             }
         };
         let rigid = Rigid {
             nodes,
-            reference: node_or_set(keyword.require(files, "REFNODE")?),
+            reference: node_or_set(block.require("REFNODE")?),
             rotation: keyword.get("ROTNODE").map(node_or_set),
             follows: [true; 3],
             place: keyword.place,
             keyword: "RIGID BODY",
         };
-        self.deck.properties.rigid.push(rigid);
-        self.no_more(keyword)
+        self.bodies.push(rigid);
+        block.no_more()
     }
 
     /// Reads a coupling: the surface follows the reference node along the axes that a later
     /// `*KINEMATIC` gives.
-    pub(super) fn coupling(&mut self, keyword: &Keyword) -> Result<()> {
-        let files = &self.source.files;
-        let known = ["REFNODE", "SURFACE", "CONSTRAINTNAME", "ORIENTATION"];
-        keyword.allow(files, &known)?;
-        if keyword.has("ORIENTATION") {
+    pub(super) fn coupling(&mut self, block: &mut BlockReader) -> Result<()> {
+        let known = "REFNODE SURFACE CONSTRAINTNAME ORIENTATION";
+        block.allow(known)?;
+        if block.keyword.has("ORIENTATION") {
             let why = "ORIENTATION: displacements follow along x, y, z here";
-            self.refuse(keyword, keyword.place, why);
-            return self.skip();
+            block.refuse(why);
+            return block.skip();
         }
-        self.coupling = Some(Rigid {
-            nodes: RigidNodes::Surface(keyword.require(files, "SURFACE")?.to_string()),
-            reference: node_or_set(keyword.require(files, "REFNODE")?),
+        self.open = Some(Rigid {
+            nodes: RigidNodes::Surface(block.require("SURFACE")?.to_string()),
+            reference: node_or_set(block.require("REFNODE")?),
             rotation: None,
             follows: [false; 3],
-            place: keyword.place,
+            place: block.keyword.place,
             keyword: "COUPLING",
         });
-        self.no_more(keyword)
+        block.no_more()
     }
 
     /// Reads the first and last axis that follow, line by line; without lines all axes follow.
-    pub(super) fn kinematic(&mut self, keyword: &Keyword) -> Result<()> {
-        keyword.allow(&self.source.files, &[])?;
-        let Some(mut rigid) = self.coupling.take() else {
+    pub(super) fn kinematic(&mut self, block: &mut BlockReader) -> Result<()> {
+        block.allow("")?;
+        let Some(mut rigid) = self.open.take() else {
             let message = "it belongs to no *COUPLING; put it below one";
-            return Err(keyword.error(&self.source.files, message));
+            return Err(block.error(message));
         };
         let mut is_given = false;
-        while let Some(line) = self.source.next_data()? {
-            let mut row = fields(&self.source, keyword, line);
+        while let Some((_, mut row)) = block.row()? {
             let first = row.label("the first degree of freedom")? as usize;
             let last = match row.is_at_end() {
                 true => first,
@@ -74,7 +79,7 @@ impl Reader<'_> {
         if !is_given {
             rigid.follows = [true; 3];
         }
-        self.deck.properties.rigid.push(rigid);
+        self.bodies.push(rigid);
         Ok(())
     }
 }
