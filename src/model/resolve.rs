@@ -81,7 +81,7 @@ pub(super) fn model(scene: &Scene, mut mesh: Mesh, origin: Origin) -> Result<Mod
     let rigid = fitness::prepare(scene, &mut mesh, origin.mesh_file(scene))?;
     let mut warnings = scene.warnings.clone();
     warnings.extend(std::mem::take(&mut mesh.notes));
-    warnings.extend(scene.beyond_rows());
+    warnings.extend(plausible::of_temperatures(scene));
     let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
     warnings.extend(plausible::of_materials(scene));
     fitness::warn_of_locking(scene, &mesh, &may_yield, &mut warnings);

@@ -129,7 +129,7 @@ fn parse(source: &SceneSource<'_>, made_from: Option<&BTreeMap<String, String>>)
     scene.warnings = warnings;
     complete::check(&scene, root.get_ref(), &scene.places)?;
     listed_materials::fill_in(&mut scene)?;
-    let problems = validate::problems(&scene);
+    let problems = validate::all_problems(&scene);
     if !problems.is_empty() {
         let lines = problems.iter().map(|problem| {
             let place = scene.places.of(&problem.key).unwrap_or(source.name);
