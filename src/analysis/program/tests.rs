@@ -2,8 +2,7 @@
 //! first yield, loads that fall or turn, yielding far from the contact.
 
 use super::assembled::Analysis;
-use super::position::Purpose;
-use super::position::Start;
+use super::position::{Purpose, Start, TargetSearch};
 use super::run::Run;
 use crate::analysis::structure::record::knows;
 use crate::analysis::structure::solver::Solver;
@@ -264,7 +263,9 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
             }
             Ok(solver.at.alpha - 0.9)
         };
-        run.search(Box::new(monitor), 0.6, true, 1.0);
+        run.monitor = Some(Box::new(monitor));
+        let alpha = run.solver.at.alpha;
+        run.position.search = Some(TargetSearch::new(alpha, 0.6, true, 1.0));
         while run.position.search.is_some() {
             run.next()?;
         }
