@@ -11,6 +11,7 @@ use super::run::Run;
 use super::stopwatch::TimeRow;
 use crate::analysis::choice::zone_choice;
 use crate::analysis::choice::zone_fit::{Expected, ZoneFit};
+use crate::analysis::figures::measure::{ContactFigures, total_load_size};
 use crate::analysis::increments::drive::Drive;
 use crate::analysis::increments::elastic::ElasticDrive;
 use crate::analysis::increments::plastic::PlasticDrive;
@@ -359,12 +360,12 @@ impl<'m, 'o> Run<'m, 'o> {
     /// The history row of an accepted increment.
     fn row(&self, report: &IncrementReport) -> HistoryRow {
         let solver = &self.solver;
-        let figures = solver.contact_figures();
+        let figures = ContactFigures::of(solver);
         let (plastic_points, strain) = solver.zone.extent();
         HistoryRow {
             increment: self.results.history.len() + 1,
             alpha: solver.at.alpha,
-            load: solver.total_load_size(),
+            load: total_load_size(solver),
             max_pressure: figures.max_pressure,
             half_width: figures.half_width,
             contact_force: figures.force * solver.structure.model.symmetry,

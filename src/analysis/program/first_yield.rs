@@ -4,6 +4,7 @@ use super::position::{DOUBLINGS, Purpose};
 use super::run::{Run, ZONE_ATTEMPTS};
 use crate::analysis::choice::zone_choice::{self, Choice};
 use crate::analysis::choice::zone_fit::ZoneFit;
+use crate::analysis::figures::reading::Reading;
 use crate::analysis::increments::elastic::ElasticDrive;
 use crate::analysis::increments::step::{Arrival, stopped};
 use crate::analysis::increments::yield_load::{peak_here, secant_yield_load};
@@ -99,7 +100,7 @@ impl<'r, 'm, 'o> YieldSearch<'r, 'm, 'o> {
             } = &mut *self.run;
             position.first_yield.record(solver, peak);
             if self.run.purpose == Purpose::YieldLoad {
-                self.run.at_yield = Some(self.run.solver.reading().quality_here()?);
+                self.run.at_yield = Some(Reading::of(&mut self.run.solver).quality_here()?);
             }
             let unit_is_yield = scene.program.unit == Unit::Yield;
             let unit = if unit_is_yield { 1.0 } else { alpha };

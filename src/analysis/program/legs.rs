@@ -12,6 +12,7 @@ use super::run::Run;
 use super::stopwatch::TimeRow;
 use crate::analysis::choice::zone_choice::{self, Choice};
 use crate::analysis::choice::zone_fit::{Expected, ZoneFit};
+use crate::analysis::figures::reading::Reading;
 use crate::analysis::structure::solver::{Scales, Solver};
 use crate::analysis::structure::starting;
 use crate::analysis::structure::state::State;
@@ -160,7 +161,7 @@ fn run_leg(mut run: Run) -> Result<Leg> {
 /// # Errors
 /// Errors of [`Model::next_leg`].
 fn next_model(solver: &mut Solver, at: f64) -> Result<(Model, Vec<Vector>)> {
-    let fields = solver.reading().figures("", true)?.state.fields;
+    let fields = Reading::of(solver).figures("", true)?.state.fields;
     let fields = fields.ok_or_else(|| Error::internal("a state without its fields"))?;
     let model = solver.structure.model;
     let vectors = |values: &[f64]| -> Vec<Vector> {
@@ -190,7 +191,7 @@ fn note_on_dents(solver: &Solver) -> Option<String> {
 
 /// Checks that the leg begins in the state in which the last one ended.
 fn check_same_state(solver: &mut Solver, before: &[Vector]) -> Result<()> {
-    let u = solver.reading().displacements()?.total;
+    let u = Reading::of(solver).displacements()?.total;
     let model = solver.structure.model;
     let here = model.nodal(&u, &solver.at.factors);
     let sizes = before.iter().map(|u| length(*u));

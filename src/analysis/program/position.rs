@@ -3,6 +3,7 @@
 use super::cycles::CycleRecord;
 use super::stopwatch::Stopwatch;
 use crate::analysis::figures::deformation::Deformation;
+use crate::analysis::figures::measure::{ContactFigures, total_load_size};
 use crate::analysis::increments::drive::Drive;
 use crate::analysis::stress::recovery::{RecoveredPeak, Watched};
 use crate::analysis::structure::solver::Solver;
@@ -144,11 +145,11 @@ pub(super) struct FirstYield {
 impl FirstYield {
     /// Records that the material yields in the current state.
     pub(super) fn record(&mut self, solver: &Solver, peak: RecoveredPeak) {
-        let figures = solver.contact_figures();
+        let figures = ContactFigures::of(solver);
         self.is_behind = true;
         self.point.get_or_insert(YieldPoint {
             alpha: solver.at.alpha,
-            load: solver.total_load_size(),
+            load: total_load_size(solver),
             max_pressure: figures.max_pressure,
             half_width: figures.half_width,
             half_width_reading: figures.half_width_reading,

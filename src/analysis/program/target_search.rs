@@ -2,6 +2,8 @@
 
 use super::awaited::Awaited;
 use super::position::TargetSearch;
+use crate::analysis::figures::measure::ContactFigures;
+use crate::analysis::figures::reading::Reading;
 use crate::analysis::increments::step::{MONITOR_ACCURACY, Monitor};
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, Result};
@@ -39,7 +41,7 @@ impl<'m> Goal<'m> {
                 ))
             })?;
             return Ok(Box::new(move |solver: &mut Solver| {
-                Ok(solver.contact_figures().half_width / goal - 1.0)
+                Ok(ContactFigures::of(solver).half_width / goal - 1.0)
             }));
         }
         if let Some(awaited) = Awaited::of(self.model, self.target)? {
@@ -54,7 +56,7 @@ impl<'m> Goal<'m> {
         let nodes = nodes
             .ok_or_else(|| Error::input(format!("target `{label}`: the mesh has no set `{on}`")))?;
         Ok(Box::new(move |solver: &mut Solver| {
-            let u = solver.reading().displacements()?.total;
+            let u = Reading::of(solver).displacements()?.total;
             let (freedoms, factors) = (&solver.structure.model.freedoms, &solver.at.factors);
             let along = |&n: &usize| freedoms.displacement(n, &u, factors)[direction];
             let mean = nodes.iter().map(along).sum::<f64>() / nodes.len() as f64;
@@ -162,7 +164,7 @@ impl<'m> Goal<'m> {
             }
             (None, None) => {
                 let off = self.monitor(1.0)?(solver)?;
-                let width = solver.contact_figures().half_width;
+                let width = ContactFigures::of(solver).half_width;
                 ("half_width".to_string(), width, width / (1.0 + off))
             }
         };

@@ -5,6 +5,7 @@ use super::run::{Run, ZONE_ATTEMPTS};
 use super::stopwatch::TimeRow;
 use crate::analysis::check::seconds::gaps_are_alike;
 use crate::analysis::choice::zone_choice;
+use crate::analysis::figures::reading::Reading;
 use crate::analysis::increments::step::Arrival;
 use crate::analysis::stress::recovery::Watched;
 use crate::error::{Error, ErrorKind, Result};
@@ -106,7 +107,7 @@ impl Run<'_, '_> {
         let goal = self.goal();
         let (target, label) = (goal.target, &goal.label);
         let mut figures = self.timed(TimeRow::States, |run| {
-            let figures = run.solver.reading().figures(label, target.fields)?;
+            let figures = Reading::of(&mut run.solver).figures(label, target.fields)?;
             let seconds = &mut run.position.seconds;
             seconds.hand_over(figures.stress_seconds, TimeRow::Stresses);
             Ok::<_, Error>(figures)

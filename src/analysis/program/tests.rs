@@ -4,6 +4,7 @@
 use super::assembled::Analysis;
 use super::position::{Purpose, Start, TargetSearch};
 use super::run::Run;
+use crate::analysis::increments::tangent::solve_tangent;
 use crate::analysis::structure::record::knows;
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, ErrorKind};
@@ -399,7 +400,7 @@ targets = [{ load_factor = 1.0 }, { load_factor = 1.3 }]
     let mut residual = zeros.clone();
     let values = residual.zone.iter_mut().enumerate();
     values.for_each(|(i, r)| *r = ((i * i) as f64).sin());
-    let direction = solver.solve_tangent(&residual, 1e-10, 1.0);
+    let direction = solve_tangent(solver, &residual, 1e-10, 1.0);
     solver.zone.softening_times(&direction.u, &mut taken);
     let mut left = direction.initial.load.clone();
     left.add(-1.0, &taken);
