@@ -205,6 +205,33 @@ impl ContactBasis {
         out.into_iter().collect()
     }
 
+    /// Converts the sum that the displacement of a node along a direction is to control points. The
+    /// middle of an edge moves by `w q + sum w_e q_e`, so its own control point moves by the sum
+    /// less `w_e q_e` of the edge's ends, over `w`.
+    pub(super) fn at_control_point(
+        &self,
+        node: usize,
+        direction: Vector,
+        mut terms: Vec<(usize, Vector)>,
+    ) -> Vec<(usize, Vector)> {
+        if self.ends(node).is_none() {
+            return self.share_of(terms);
+        }
+        terms = self.share_of(terms);
+        let mut own = 1.0;
+        self.each_control(node, |control, weight| {
+            if control == node {
+                own = weight;
+            } else {
+                terms.push((control, direction.map(|x| -weight * x)));
+            }
+        });
+        terms
+            .into_iter()
+            .map(|(control, v)| (control, v.map(|x| x / own)))
+            .collect()
+    }
+
     /// Converts gaps, interferences and areas of node-to-node pairs from nodes to control points.
     /// In other pairs the weights of the masters are converted.
     pub(super) fn restate(&self, pairs: &mut [Pair], contacts: &[ContactSurface]) {

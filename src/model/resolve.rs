@@ -246,7 +246,7 @@ fn settle(
     followers: &Followers,
 ) -> Result<Option<String>> {
     let before = mesh.coordinates.clone();
-    if !freedoms.settle(mesh, followers)? {
+    if !followers.settle(freedoms, mesh)? {
         return Ok(None);
     }
     Ok(mesh::validate(mesh).err().map(|error| {

@@ -34,6 +34,7 @@ mod requests;
 mod rigid;
 mod schema;
 pub(crate) mod span;
+mod spelling;
 mod target;
 mod tensile_test;
 mod units;
@@ -59,7 +60,6 @@ pub use material::{Body, Material, MaterialRow, Plastic};
 pub use program::{
     LEAST_PATH_ERROR, PlasticIteration, Program, Settings, Stepping, Unit, YieldMethod,
 };
-pub(crate) use read::closest;
 pub(crate) use reference::PlaceQuantity;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
 pub use requests::{
@@ -71,6 +71,7 @@ pub use rigid::{
     RigidTorus,
 };
 pub use schema::schema;
+pub(crate) use spelling::closest;
 pub use target::{DisplacementTarget, Target, TargetFigure};
 pub(crate) use tensile_test::beyond_yield;
 pub use units::Units;

@@ -2,6 +2,7 @@
 //! what was meant.
 
 use super::document::{KeyPositions, SceneSource};
+use super::spelling::closest;
 use super::{Scene, complete, listed_materials, overrides, unsupported, validate};
 use crate::error::{Error, ErrorKind, Result};
 use crate::files;
@@ -207,21 +208,6 @@ fn unknown_word(word: &str, known: &[&str], path: &str) -> (ErrorKind, String) {
         known.join(", ")
     );
     (ErrorKind::Input, text)
-}
-
-/// The known word closest to `word`, provided that at most a third of its letters differ.
-pub(crate) fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
-    let lower = word.to_lowercase();
-    let distance = |k: &str| {
-        let [a, b] = [word, &lower].map(|word| strsim::damerau_levenshtein(word, k));
-        a.min(b)
-    };
-    known
-        .iter()
-        .map(|k| (distance(k), *k))
-        .filter(|(distance, k)| 3 * distance <= k.chars().count().max(3))
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, k)| k)
 }
 
 /// Replaces serde's names of types by plain words.

@@ -2,7 +2,7 @@
 
 use super::problems::{LARGEST, Problems};
 use crate::number::exact;
-use crate::scene::read::closest;
+use crate::scene::spelling::closest;
 use crate::scene::{Body, Material, Plastic, Scene, beyond_yield, materials};
 use crate::space::Space;
 
