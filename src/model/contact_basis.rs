@@ -212,24 +212,14 @@ impl ContactBasis {
         &self,
         node: usize,
         direction: Vector,
-        mut terms: Vec<(usize, Vector)>,
+        terms: Vec<(usize, Vector)>,
     ) -> Vec<(usize, Vector)> {
-        if self.ends(node).is_none() {
-            return self.share_of(terms);
+        let mut terms = self.share_of(terms);
+        if let Some(ends) = self.ends(node) {
+            terms.extend(ends.map(|end| (end, direction.map(|x| -ALPHA * x))));
+            terms.iter_mut().for_each(|(_, v)| *v = v.map(|x| x / OWN));
         }
-        terms = self.share_of(terms);
-        let mut own = 1.0;
-        self.each_control(node, |control, weight| {
-            if control == node {
-                own = weight;
-            } else {
-                terms.push((control, direction.map(|x| -weight * x)));
-            }
-        });
         terms
-            .into_iter()
-            .map(|(control, v)| (control, v.map(|x| x / own)))
-            .collect()
     }
 
     /// Converts gaps, interferences and areas of node-to-node pairs from nodes to control points.

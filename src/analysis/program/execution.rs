@@ -421,7 +421,7 @@ impl<'m, 'o> Run<'m, 'o> {
         {
             self.observer.phase("yield load");
             let under_preload = self.timed(TimeRow::YieldLoad, |run| {
-                YieldSearch::new(run, required).find()
+                YieldSearch { run, required }.find()
             })?;
             if under_preload {
                 self.results.history.clear();

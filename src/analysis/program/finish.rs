@@ -20,8 +20,18 @@ const DOUBTFUL: f64 = 1e10;
 ///
 /// # Errors
 /// The error of the outcome, if there are no results.
-pub(super) fn results(run: Run, outcome: Result<()>) -> Result<Results> {
-    let mut results = EndedRun::of(run).finish();
+pub(super) fn results(mut run: Run, outcome: Result<()>) -> Result<Results> {
+    run.position.seconds.switch(TimeRow::States);
+    let results = std::mem::take(&mut run.results);
+    let states = results.states.iter().map(|s| (s.name.clone(), s.quality));
+    let at_yield = run.at_yield.map(|q| ("yield".to_string(), q));
+    let ended = EndedRun {
+        judged: states.chain(at_yield).collect(),
+        tolerances: quality::tolerances(run.model()),
+        results,
+        run,
+    };
+    let mut results = ended.finish();
     match outcome {
         Ok(()) => {}
         Err(error) if results.states.is_empty() && results.history.is_empty() => {
@@ -46,20 +56,7 @@ struct EndedRun<'m, 'o> {
     tolerances: Tolerances,
 }
 
-impl<'m, 'o> EndedRun<'m, 'o> {
-    fn of(mut run: Run<'m, 'o>) -> Self {
-        run.position.seconds.switch(TimeRow::States);
-        let results = std::mem::take(&mut run.results);
-        let states = results.states.iter().map(|s| (s.name.clone(), s.quality));
-        let at_yield = run.at_yield.map(|q| ("yield".to_string(), q));
-        EndedRun {
-            judged: states.chain(at_yield).collect(),
-            tolerances: quality::tolerances(run.model()),
-            results,
-            run,
-        }
-    }
-
+impl EndedRun<'_, '_> {
     /// Completes the results of the run, as far as it came.
     fn finish(mut self) -> Results {
         let model = self.run.model();

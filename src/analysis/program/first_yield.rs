@@ -26,16 +26,12 @@ enum SearchEnd {
 
 /// The search for the yield load on the path of growing load factor.
 pub(super) struct YieldSearch<'r, 'm, 'o> {
-    run: &'r mut Run<'m, 'o>,
+    pub(super) run: &'r mut Run<'m, 'o>,
     /// Whether the search goes on beyond the program's largest load factor.
-    required: bool,
+    pub(super) required: bool,
 }
 
-impl<'r, 'm, 'o> YieldSearch<'r, 'm, 'o> {
-    pub(super) fn new(run: &'r mut Run<'m, 'o>, required: bool) -> Self {
-        YieldSearch { run, required }
-    }
-
+impl YieldSearch<'_, '_, '_> {
     /// Finds the yield load and returns to the start. Returns true if the material yields under the
     /// preload already, which was passed as if elastic.
     pub(super) fn find(mut self) -> Result<bool> {

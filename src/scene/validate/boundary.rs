@@ -318,20 +318,9 @@ fn check_history(problems: &mut Problems, key: &str, history: &History) {
             "is empty; give rows of [load factor, multiple]",
         );
         for (index, pair) in rows.windows(2).enumerate() {
-            problems.require(
-                pair[1][0] > pair[0][0],
-                format!("{key}.{}", index + 1),
-                format!(
-                    "load factor {} must be greater than {} of the row before",
-                    exact(pair[1][0]),
-                    exact(pair[0][0])
-                ),
-            );
-            if pair[1][0] > pair[0][0] {
-                let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
-                let key = format!("{key}.{}", index + 1);
-                problems.slope(key, "the slope from the row before", slope);
-            }
+            let key = format!("{key}.{}", index + 1);
+            problems.grows(&key, "load factor ", [pair[0][0], pair[1][0]]);
+            problems.slope_between(&key, [pair[0], pair[1]]);
         }
     }
 }

@@ -152,13 +152,11 @@ fn check_sweep(problems: &mut Problems, scene: &Scene) {
             ("mesh.extrude", extrude.elements)
         }
         (None, Some(revolve)) => {
-            problems.require(
+            problems.must(
                 revolve.angle > 0.0 && revolve.angle <= 360.0,
                 "mesh.revolve.angle",
-                format!(
-                    "{} must be an angle in degrees, more than 0 and at most 360",
-                    exact(revolve.angle)
-                ),
+                revolve.angle,
+                "be an angle in degrees, more than 0 and at most 360",
             );
             // Each element must turn by less than 120 degrees.
             let least = if revolve.angle >= 270.0 {
@@ -308,13 +306,11 @@ fn check_disc_in_plate(problems: &mut Problems, parameters: &DiscInPlate, kind: 
             parameters.resolution
         ),
     );
-    problems.require(
+    problems.must(
         parameters.far_radius > 1.0,
         key("far_radius"),
-        format!(
-            "{} must be greater than 1: it is counted in hole radii",
-            exact(parameters.far_radius)
-        ),
+        parameters.far_radius,
+        "be greater than 1: it is counted in hole radii",
     );
     problems.at_least(key("growth"), parameters.growth, 1.0);
     if let Some(far) = parameters.far_growth {

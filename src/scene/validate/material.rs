@@ -77,15 +77,8 @@ fn check_over_temperature(problems: &mut Problems, key: &str, material: &Materia
     for (index, row) in rows.iter().enumerate() {
         let key = format!("{key}.{index}");
         if let Some(before) = index.checked_sub(1).map(|before| &rows[before]) {
-            problems.require(
-                row.temperature > before.temperature,
-                format!("{key}.temperature"),
-                format!(
-                    "{} must be greater than {} of the row before",
-                    exact(row.temperature),
-                    exact(before.temperature)
-                ),
-            );
+            let temperatures = [before.temperature, row.temperature];
+            problems.grows(&format!("{key}.temperature"), "", temperatures);
         }
         problems.require(
             !row.is_empty(),
@@ -140,15 +133,7 @@ fn check_depth(problems: &mut Problems, key: &str, depth: f64, before: Option<f6
         format!("depth {} must be at least 0", exact(depth)),
     );
     if let Some(before) = before {
-        problems.require(
-            depth > before,
-            key,
-            format!(
-                "depth {} must be greater than {} of the row before",
-                exact(depth),
-                exact(before)
-            ),
-        );
+        problems.grows(key, "depth ", [before, depth]);
     }
 }
 
@@ -194,16 +179,18 @@ fn check_initial_state(problems: &mut Problems, key: &str, body: &Body, kind: Sp
 fn check_material(problems: &mut Problems, key: &str, material: &Material) {
     problems.stress(format!("{key}.youngs_modulus"), material.youngs_modulus);
     let nu = material.poissons_ratio;
-    problems.require(
+    problems.must(
         nu > -1.0 && nu < 0.5,
         format!("{key}.poissons_ratio"),
-        format!("{} must lie between -1 and 0.5, ends excluded", exact(nu)),
+        nu,
+        "lie between -1 and 0.5, ends excluded",
     );
     if let Some(density) = material.density {
-        problems.require(
+        problems.must(
             density > 0.0,
             format!("{key}.density"),
-            format!("{} must be greater than 0", exact(density)),
+            density,
+            "be greater than 0",
         );
     }
     let hardening = [
@@ -354,15 +341,7 @@ fn check_hardening_table(
     for (index, pair) in table.windows(2).enumerate() {
         let ([strain0, stress0], [strain1, stress1]) = (pair[0], pair[1]);
         let key = format!("{key}.{}", index + 1);
-        problems.require(
-            strain1 > strain0,
-            key.as_str(),
-            format!(
-                "plastic strain {} must be greater than {} of the row before",
-                exact(strain1),
-                exact(strain0)
-            ),
-        );
+        problems.grows(&key, "plastic strain ", [strain0, strain1]);
         problems.require(
             stress1 >= stress0,
             key.as_str(),
@@ -373,10 +352,7 @@ fn check_hardening_table(
                 exact(stress0)
             ),
         );
-        if strain1 > strain0 {
-            let slope = (stress1 - stress0) / (strain1 - strain0);
-            problems.slope(key, "the slope from the row before", slope);
-        }
+        problems.slope_between(&key, [pair[0], pair[1]]);
     }
 }
 
@@ -480,11 +456,5 @@ fn check_rising(problems: &mut Problems, key: &str, pair: &[[f64; 2]]) {
             exact(strain0)
         ),
     );
-    if strain1 > strain0 {
-        problems.slope(
-            key,
-            "the slope from the row before",
-            (stress1 - stress0) / (strain1 - strain0),
-        );
-    }
+    problems.slope_between(key, [pair[0], pair[1]]);
 }

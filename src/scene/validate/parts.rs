@@ -71,35 +71,33 @@ pub(super) fn check_element(problems: &mut Problems, key: &str, element: Shape, 
 }
 
 fn check_brick(problems: &mut Problems, key: &str, brick: &BrickPart) {
-    for (axis, [from, to]) in [brick.x, brick.y, brick.z].into_iter().enumerate() {
-        problems.require(
-            from < to,
+    let extents = [brick.x, brick.y, brick.z];
+    check_extents(problems, key, &extents, &brick.elements, &brick.bias);
+}
+
+/// Checks the extents of a part along the axes, with the elements along each and their bias.
+fn check_extents(
+    problems: &mut Problems,
+    key: &str,
+    extents: &[[f64; 2]],
+    elements: &[usize],
+    bias: &[f64],
+) {
+    for (axis, &extent) in extents.iter().enumerate() {
+        problems.pair_must(
+            extent[0] < extent[1],
             format!("{key}.{}", ["x", "y", "z"][axis]),
-            format!(
-                "[{}, {}] must run from the smaller to the larger coordinate",
-                exact(from),
-                exact(to)
-            ),
+            extent,
+            "run from the smaller to the larger coordinate",
         );
-        problems.count(format!("{key}.elements.{axis}"), brick.elements[axis], 1);
-        problems.positive(format!("{key}.bias.{axis}"), brick.bias[axis]);
+        problems.count(format!("{key}.elements.{axis}"), elements[axis], 1);
+        problems.positive(format!("{key}.bias.{axis}"), bias[axis]);
     }
 }
 
 fn check_block(problems: &mut Problems, key: &str, block: &Block, kind: Space) {
-    for (name, [from, to], index) in [("x", block.x, 0), ("y", block.y, 1)] {
-        problems.require(
-            from < to,
-            format!("{key}.{name}"),
-            format!(
-                "[{}, {}] must run from the smaller to the larger coordinate",
-                exact(from),
-                exact(to)
-            ),
-        );
-        problems.count(format!("{key}.elements.{index}"), block.elements[index], 1);
-        problems.positive(format!("{key}.bias.{index}"), block.bias[index]);
-    }
+    let extents = [block.x, block.y];
+    check_extents(problems, key, &extents, &block.elements, &block.bias);
     problems.require(
         !kind.is_axisymmetric() || block.x[0] >= 0.0,
         format!("{key}.x"),
@@ -145,24 +143,18 @@ fn check_block(problems: &mut Problems, key: &str, block: &Block, kind: Space) {
 
 fn check_ring(problems: &mut Problems, key: &str, ring: &Ring) {
     let [inner, outer] = ring.radius;
-    problems.require(
+    problems.pair_must(
         inner > 0.0 && inner < outer,
         format!("{key}.radius"),
-        format!(
-            "[{}, {}] must be positive and ascending (a disc has no inner radius)",
-            exact(inner),
-            exact(outer)
-        ),
+        ring.radius,
+        "be positive and ascending (a disc has no inner radius)",
     );
     let [start, end] = ring.angle;
-    problems.require(
+    problems.pair_must(
         start < end && end - start <= 360.0,
         format!("{key}.angle"),
-        format!(
-            "[{}, {}] must be ascending and at most 360 degrees apart",
-            exact(start),
-            exact(end)
-        ),
+        ring.angle,
+        "be ascending and at most 360 degrees apart",
     );
     for index in 0..2 {
         problems.count(format!("{key}.elements.{index}"), ring.elements[index], 1);
@@ -173,14 +165,11 @@ fn check_ring(problems: &mut Problems, key: &str, ring: &Ring) {
 fn check_disc(problems: &mut Problems, key: &str, disc: &Disc) {
     problems.positive(format!("{key}.radius"), disc.radius);
     let [start, end] = disc.angle;
-    problems.require(
+    problems.pair_must(
         [90.0, 180.0, 360.0].contains(&(end - start)),
         format!("{key}.angle"),
-        format!(
-            "[{}, {}] must be 90, 180 or 360 degrees apart",
-            exact(start),
-            exact(end)
-        ),
+        disc.angle,
+        "be 90, 180 or 360 degrees apart",
     );
     problems.require(
         disc.elements >= 2 && disc.elements.is_multiple_of(2),

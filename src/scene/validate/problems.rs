@@ -57,11 +57,7 @@ impl Problems {
     }
 
     pub(super) fn positive(&mut self, key: impl Into<String>, value: f64) {
-        self.require(
-            value > 0.0,
-            key,
-            format!("{} must be greater than zero", exact(value)),
-        );
+        self.must(value > 0.0, key, value, "be greater than zero");
     }
 
     /// Requires a stress or a modulus to be positive, and of a size whose products do not overflow.
@@ -91,6 +87,41 @@ impl Problems {
                 "{what} is {}, beyond {LARGEST:e}: it would overflow",
                 exact(slope)
             ),
+        );
+    }
+
+    /// Requires the slope to a point of a curve from the point before to be small enough.
+    pub(super) fn slope_between(&mut self, key: &str, [before, after]: [[f64; 2]; 2]) {
+        if after[0] > before[0] {
+            let slope = (after[1] - before[1]) / (after[0] - before[0]);
+            self.slope(key, "the slope from the row before", slope);
+        }
+    }
+
+    /// Reports that a value must follow a rule, unless it `holds`.
+    pub(super) fn must(&mut self, holds: bool, key: impl Into<String>, value: f64, rule: &str) {
+        self.require(holds, key, format!("{} must {rule}", exact(value)));
+    }
+
+    /// Reports that two numbers, which are given together, must follow a rule, unless it `holds`.
+    pub(super) fn pair_must(
+        &mut self,
+        holds: bool,
+        key: impl Into<String>,
+        [first, second]: [f64; 2],
+        rule: &str,
+    ) {
+        let pair = format!("[{}, {}]", exact(first), exact(second));
+        self.require(holds, key, format!("{pair} must {rule}"));
+    }
+
+    /// Requires a value, `what` of a row, to exceed that of the row before.
+    pub(super) fn grows(&mut self, key: &str, what: &str, [before, value]: [f64; 2]) {
+        let rule = format!("must be greater than {} of the row before", exact(before));
+        self.require(
+            value > before,
+            key,
+            format!("{what}{} {rule}", exact(value)),
         );
     }
 

@@ -13,13 +13,11 @@ const MOST_CYCLES: usize = 1_000_000;
 
 pub(super) fn check(problems: &mut Problems, scene: &Scene) {
     let program = &scene.program;
-    problems.require(
+    problems.must(
         program.gamma > 0.0 && program.gamma <= 0.5,
         "program.gamma",
-        format!(
-            "{} must be greater than 0 and at most 0.5",
-            exact(program.gamma)
-        ),
+        program.gamma,
+        "be greater than 0 and at most 0.5",
     );
     problems.require(
         program.path_error >= LEAST_PATH_ERROR && program.path_error <= 0.1,
@@ -40,10 +38,11 @@ pub(super) fn check(problems: &mut Problems, scene: &Scene) {
     );
     problems.count("program.cycles", program.cycles, 1);
     problems.at_most("program.cycles", program.cycles, MOST_CYCLES);
-    problems.require(
+    problems.must(
         program.steady > 0.0 && program.steady < 1.0,
         "program.steady",
-        format!("{} must lie between 0 and 1", exact(program.steady)),
+        program.steady,
+        "lie between 0 and 1",
     );
     if program.cycles > 1 {
         check_cycle(problems, &program.targets);

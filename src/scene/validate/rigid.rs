@@ -82,18 +82,17 @@ fn check_flat(problems: &mut Problems, key: &str, surface: &RigidSurface, space:
         let key = format!("{key}.cone");
         check_on_axis(problems, &format!("{key}.tip"), of.tip, space);
         check_along_axis(problems, &format!("{key}.axis"), of.axis, space);
-        problems.require(
+        problems.must(
             of.half_angle > 0.0 && of.half_angle < 90.0,
             format!("{key}.half_angle"),
-            format!("{} must lie between 0 and 90 degrees", exact(of.half_angle)),
+            of.half_angle,
+            "lie between 0 and 90 degrees",
         );
-        problems.require(
+        problems.must(
             of.rounding > 0.0,
             format!("{key}.rounding"),
-            format!(
-                "{} must be greater than zero: under a sharp tip the pressure has no bound",
-                exact(of.rounding)
-            ),
+            of.rounding,
+            "be greater than zero: under a sharp tip the pressure has no bound",
         );
     }
     if let Some(of) = &surface.plane {
