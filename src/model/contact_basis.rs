@@ -205,6 +205,23 @@ impl ContactBasis {
         out.into_iter().collect()
     }
 
+    /// Converts the sum that the displacement of a node along a direction is to control points. The
+    /// middle of an edge moves by `w q + sum w_e q_e`, so its own control point moves by the sum
+    /// less `w_e q_e` of the edge's ends, over `w`.
+    pub(super) fn at_control_point(
+        &self,
+        node: usize,
+        direction: Vector,
+        terms: Vec<(usize, Vector)>,
+    ) -> Vec<(usize, Vector)> {
+        let mut terms = self.share_of(terms);
+        if let Some(ends) = self.ends(node) {
+            terms.extend(ends.map(|end| (end, direction.map(|x| -ALPHA * x))));
+            terms.iter_mut().for_each(|(_, v)| *v = v.map(|x| x / OWN));
+        }
+        terms
+    }
+
     /// Converts gaps, interferences and areas of node-to-node pairs from nodes to control points.
     /// In other pairs the weights of the masters are converted.
     pub(super) fn restate(&self, pairs: &mut [Pair], contacts: &[ContactSurface]) {

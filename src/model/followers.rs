@@ -16,8 +16,9 @@
 //! Held nodes, and nodes of two interfaces: B. Wohlmuth, *Discretization methods and iterative
 //! solvers based on domain decomposition*, Springer 2001, section 1.2.
 
+use super::contact_basis::ContactBasis;
 use super::following::Following;
-use super::freedoms::{Freedoms, Prescribed, Slot};
+use super::freedoms::{Freedoms, Slot};
 use super::pairs::Pair;
 use super::pairs::resolved_tie::ResolvedTie;
 use super::prescribed::FollowingMiddle;
@@ -56,17 +57,17 @@ pub(super) struct Others<'a> {
     pub pairs: &'a [Pair],
 }
 
-impl Freedoms {
+impl Followers {
     /// Makes the slaves of ties follow.
     ///
     /// # Errors
     /// A slave whose neighbours are all held in a direction in which its masters are not.
-    pub(super) fn follow(
-        &mut self,
+    pub(super) fn of_ties(
+        freedoms: &mut Freedoms,
         mesh: &Mesh,
         ties: &[ResolvedTie],
         others: &Others,
-    ) -> Result<Followers> {
+    ) -> Result<Self> {
         let mut followers = Followers::default();
         if ties.is_empty() {
             return Ok(followers);
@@ -76,7 +77,7 @@ impl Freedoms {
             .map(|row| {
                 let node = row.slave;
                 let free = std::array::from_fn(|i| {
-                    matches!(self.slots[node][i], Slot::Free(_))
+                    matches!(freedoms.slots[node][i], Slot::Free(_))
                         && !(others.plane)((node, i))
                         && !(i == 0 && in_contact.contains(&node))
                 });
@@ -84,30 +85,27 @@ impl Freedoms {
             })
             .collect();
         for row in ties.iter().flat_map(|tie| &tie.rows) {
-            for (i, axis) in self.local(row.slave).into_iter().enumerate() {
+            for (i, axis) in freedoms.local(row.slave).into_iter().enumerate() {
                 if is_free[&row.slave][i] {
-                    let terms = self.on_masters(row, axis, 1.0);
-                    followers
-                        .place
-                        .insert((row.slave, i), followers.terms.len());
-                    followers.terms.push(terms);
+                    let terms = on_masters(&freedoms.basis, row, axis, 1.0);
+                    followers.add((row.slave, i), terms);
                 }
             }
         }
         for (&(node, i), &k) in &followers.place {
-            self.slots[node][i] = Slot::Sum(k as u32);
+            freedoms.slots[node][i] = Slot::Sum(k as u32);
         }
         for tie in ties {
             let neighbours = neighbours(mesh, tie);
             let near = |row: &Pair| neighbours.get(&row.slave).map_or(&[][..], Vec::as_slice);
             for row in &tie.rows {
-                for i in (0..self.per_node).filter(|&i| !is_free[&row.slave][i]) {
-                    self.hand_on(mesh, tie, (row, i), near(row), &mut followers)?;
+                for i in (0..freedoms.per_node).filter(|&i| !is_free[&row.slave][i]) {
+                    followers.hand_on(freedoms, mesh, tie, (row, i), near(row))?;
                 }
             }
             for row in &tie.elsewhere {
-                for i in 0..self.per_node {
-                    self.hand_on(mesh, tie, (row, i), near(row), &mut followers)?;
+                for i in 0..freedoms.per_node {
+                    followers.hand_on(freedoms, mesh, tie, (row, i), near(row))?;
                 }
             }
         }
@@ -115,23 +113,42 @@ impl Freedoms {
         Ok(followers)
     }
 
+    /// Adds a follower. Returns its number.
+    fn add(&mut self, axis: Axis, terms: Vec<(usize, Vector)>) -> usize {
+        let k = self.terms.len();
+        self.place.insert(axis, k);
+        self.terms.push(terms);
+        k
+    }
+
+    /// Adds a follower by an equation, whose `terms` and prescribed values move the node.
+    fn add_equation(
+        &mut self,
+        freedoms: &mut Freedoms,
+        (node, axis): Axis,
+        terms: Vec<(usize, Vector)>,
+        moved: impl Iterator<Item = (usize, f64)>,
+    ) {
+        let direction = freedoms.local(node)[axis];
+        let terms = freedoms.basis.at_control_point(node, direction, terms);
+        let k = self.add((node, axis), terms);
+        let numbers: Vec<u32> = moved
+            .map(|(load, value)| freedoms.add_prescribed(load, value))
+            .collect();
+        if !numbers.is_empty() {
+            self.moved.insert(k, numbers);
+        }
+        freedoms.slots[node][axis] = Slot::Sum(k as u32);
+    }
+
     /// Lets middles of edges whose displacement is given follow the ends of the edge: with the
     /// given displacement `u`, the control point moves by `(u - sum w_e q_e) / w`.
-    pub(super) fn follow_ends(&mut self, middles: &[FollowingMiddle], followers: &mut Followers) {
+    pub(super) fn add_middles(&mut self, freedoms: &mut Freedoms, middles: &[FollowingMiddle]) {
         for middle in middles {
-            let k = followers.terms.len();
-            let direction = self.local(middle.node)[middle.axis];
-            followers.place.insert((middle.node, middle.axis), k);
-            if let Some((load, value)) = middle.moved {
-                let value = value / self.basis.own_weight(middle.node);
-                followers
-                    .moved
-                    .insert(k, vec![self.prescribed.len() as u32]);
-                self.prescribed.push(Prescribed { load, value });
-            }
-            let terms = self.at_control_point(middle.node, direction, Vec::new());
-            followers.terms.push(terms);
-            self.slots[middle.node][middle.axis] = Slot::Sum(k as u32);
+            let weight = freedoms.basis.own_weight(middle.node);
+            let moved = middle.moved.iter();
+            let moved = moved.map(|&(load, value)| (load, value / weight));
+            self.add_equation(freedoms, (middle.node, middle.axis), Vec::new(), moved);
         }
     }
 
@@ -139,16 +156,16 @@ impl Freedoms {
     ///
     /// # Errors
     /// Input errors: a displacement that is held otherwise; a node that a tie moves as well.
-    pub(super) fn follow_equations(
+    pub(super) fn add_equations(
         &mut self,
+        freedoms: &mut Freedoms,
         scene: &Scene,
         mesh: &Mesh,
         equations: &[Following],
         others: &Others,
-        followers: &mut Followers,
     ) -> Result<()> {
         let in_contact: BTreeSet<usize> = others.pairs.iter().map(|pair| pair.slave).collect();
-        let of_ties = followers.terms.iter().flatten();
+        let of_ties = self.terms.iter().flatten();
         let in_tie: BTreeSet<usize> = of_ties.map(|term| term.0).collect();
         for equation in equations {
             // Nodes of ties are moved to where they follow without strain, which equations may not
@@ -158,74 +175,31 @@ impl Freedoms {
                     || i == 0 && in_contact.contains(&node)
                     || in_tie.contains(&node)
             };
-            let (axis, sense) = equation.axis(scene, mesh, self, is_taken)?;
+            let (axis, sense) = equation.axis(scene, mesh, freedoms, is_taken)?;
             let terms = equation.terms.iter();
             let terms = terms.map(|&(node, v)| (node, v.map(|v| sense * v)));
-            let k = followers.terms.len();
-            let weight = sense / self.basis.own_weight(equation.node);
-            for &(load, value) in &equation.moved {
-                let all = followers.moved.entry(k).or_default();
-                all.push(self.prescribed.len() as u32);
-                let value = weight * value;
-                self.prescribed.push(Prescribed { load, value });
-            }
-            followers.place.insert((equation.node, axis), k);
-            let direction = self.local(equation.node)[axis];
-            let terms = self.at_control_point(equation.node, direction, terms.collect());
-            followers.terms.push(terms);
-            self.slots[equation.node][axis] = Slot::Sum(k as u32);
+            let weight = sense / freedoms.basis.own_weight(equation.node);
+            let moved = equation.moved.iter();
+            let moved = moved.map(|&(load, value)| (load, weight * value));
+            self.add_equation(freedoms, (equation.node, axis), terms.collect(), moved);
         }
-        self.n_followers_of_ties = followers.of_ties;
+        freedoms.n_followers_of_ties = self.of_ties;
         Ok(())
-    }
-
-    /// Converts the sum that the displacement of a node along a direction is to control points. The
-    /// middle of an edge moves by `w q + sum w_e q_e`, so its own control point moves by the sum
-    /// less `w_e q_e` of the edge's ends, over `w`.
-    fn at_control_point(
-        &self,
-        node: usize,
-        direction: Vector,
-        mut terms: Vec<(usize, Vector)>,
-    ) -> Vec<(usize, Vector)> {
-        if self.basis.ends(node).is_none() {
-            return self.basis.share_of(terms);
-        }
-        terms = self.basis.share_of(terms);
-        let mut own = 1.0;
-        self.basis.each_control(node, |control, weight| {
-            if control == node {
-                own = weight;
-            } else {
-                terms.push((control, direction.map(|x| -weight * x)));
-            }
-        });
-        terms
-            .into_iter()
-            .map(|(control, v)| (control, v.map(|x| x / own)))
-            .collect()
-    }
-
-    /// Terms `scale v . sum w_k u_k` of the masters on control points.
-    fn on_masters(&self, row: &Pair, v: Vector, scale: f64) -> Vec<(usize, Vector)> {
-        let terms = row.masters.iter();
-        let terms = terms.map(|&(node, w)| (node, v.map(|v| scale * w * v)));
-        self.basis.share_of(terms.collect())
     }
 
     /// Passes the condition of a slave along a used axis on to the rows of its neighbours.
     fn hand_on(
-        &self,
+        &mut self,
+        freedoms: &Freedoms,
         mesh: &Mesh,
         tie: &ResolvedTie,
         (row, i): (&Pair, usize),
         near: &[(usize, f64)],
-        followers: &mut Followers,
     ) -> Result<()> {
-        let normal = self.local(row.slave)[i];
+        let normal = freedoms.local(row.slave)[i];
         let shares = |node: usize| {
-            let axes = self.local(node).into_iter().enumerate();
-            let free = axes.filter(|&(l, _)| followers.place.contains_key(&(node, l)));
+            let axes = freedoms.local(node).into_iter().enumerate();
+            let free = axes.filter(|&(l, _)| self.place.contains_key(&(node, l)));
             let shares: Vec<(usize, f64)> = free.map(|(l, axis)| (l, dot(axis, normal))).collect();
             shares
         };
@@ -234,8 +208,11 @@ impl Freedoms {
             .collect();
         let total: f64 = takers.iter().map(|taker| taker.1).sum();
         if takers.is_empty() {
-            let masters = self.on_masters(row, normal, 1.0);
-            return match masters.into_iter().all(|(node, v)| !self.moves(node, v)) {
+            let masters = on_masters(&freedoms.basis, row, normal, 1.0);
+            return match masters
+                .into_iter()
+                .all(|(node, v)| !moves(freedoms, node, v))
+            {
                 true => Ok(()),
                 false => Err(Error::input(format!(
                     "{}: node {} of `{}` and those beside it are held along {}, by supports, loads \
@@ -253,23 +230,16 @@ impl Freedoms {
             for (l, share) in shares(node) {
                 let factor = share * row.area / total;
                 if factor.abs() > ROUND_OFF {
-                    let mut terms = self.on_masters(row, normal, factor);
+                    let mut terms = on_masters(&freedoms.basis, row, normal, factor);
                     terms.push((row.slave, normal.map(|n| -factor * n)));
-                    additions.push((followers.place[&(node, l)], terms));
+                    additions.push((self.place[&(node, l)], terms));
                 }
             }
         }
         for (k, terms) in additions {
-            followers.terms[k].extend(terms);
+            self.terms[k].extend(terms);
         }
         Ok(())
-    }
-
-    /// Whether a control point can move along a direction.
-    fn moves(&self, node: usize, v: Vector) -> bool {
-        let axes = self.of_node(node).iter().zip(self.local(node));
-        axes.filter(|(_, axis)| dot(v, *axis).abs() > ROUND_OFF)
-            .any(|(slot, _)| matches!(slot, Slot::Free(_) | Slot::Sum(_)))
     }
 
     /// Expresses followers by numbered freedoms, and moves their nodes to where they follow without
@@ -278,17 +248,17 @@ impl Freedoms {
     ///
     /// # Errors
     /// Ties and equations that form a circle.
-    pub(super) fn settle(&mut self, mesh: &mut Mesh, followers: &Followers) -> Result<bool> {
-        if followers.terms.is_empty() {
+    pub(super) fn settle(&self, freedoms: &mut Freedoms, mesh: &mut Mesh) -> Result<bool> {
+        if self.terms.is_empty() {
             return Ok(false);
         }
         let mut expansion = FollowerExpansion {
-            freedoms: self,
+            freedoms,
             mesh,
-            followers,
-            of: vec![Expanded::No; followers.terms.len()],
+            followers: self,
+            of: vec![Expanded::No; self.terms.len()],
         };
-        for &k in followers.place.values() {
+        for &k in self.place.values() {
             expansion.expand(k)?;
         }
         let expanded: Vec<FollowedSum> = (expansion.of.into_iter())
@@ -297,31 +267,28 @@ impl Freedoms {
                 _ => FollowedSum::default(),
             })
             .collect();
-        let moved = self.place(mesh, followers, &expanded);
-        self.follower_values = expanded.iter().map(|sum| sum.moved.clone()).collect();
+        let moved = self.place_nodes(freedoms, mesh, &expanded);
+        freedoms.follower_values = expanded.iter().map(|sum| sum.moved.clone()).collect();
         let axes = |terms: Vec<(Axis, f64)>| {
             let terms = terms.into_iter();
             terms
                 .map(|((node, i), c)| (node as u32, i as u8, c))
                 .collect()
         };
-        self.followers = expanded.into_iter().map(|sum| axes(sum.axes)).collect();
+        freedoms.followers = expanded.into_iter().map(|sum| axes(sum.axes)).collect();
         Ok(moved)
     }
 
-    fn place(&self, mesh: &mut Mesh, followers: &Followers, expanded: &[FollowedSum]) -> bool {
-        let control = |node: usize| self.basis.at_control(node, |node| mesh.point(node));
+    fn place_nodes(&self, freedoms: &Freedoms, mesh: &mut Mesh, expanded: &[FollowedSum]) -> bool {
+        let control = |node: usize| freedoms.basis.at_control(node, |node| mesh.point(node));
         let mut step: BTreeMap<usize, Vector> = BTreeMap::new();
         let mut moved = false;
-        let of_ties = followers
-            .place
-            .iter()
-            .filter(|of| *of.1 < followers.of_ties);
+        let of_ties = self.place.iter().filter(|of| *of.1 < self.of_ties);
         for (&(node, i), &k) in of_ties {
-            let (axis, x) = (self.local(node)[i], control(node));
+            let (axis, x) = (freedoms.local(node)[i], control(node));
             let terms = expanded[k].axes.iter();
             let at: f64 = terms
-                .map(|&((n, l), c)| c * dot(self.local(n)[l], control(n)))
+                .map(|&((n, l), c)| c * dot(freedoms.local(n)[l], control(n)))
                 .sum();
             let off = at - dot(axis, x);
             moved |= off.abs() > 1e-12 * x.iter().fold(0.0f64, |m, x| m.max(x.abs()));
@@ -333,14 +300,14 @@ impl Freedoms {
             step.get(&node).map_or(x, |step| along(x, 1.0, *step))
         };
         let nodes: BTreeSet<usize> = (step.keys().copied())
-            .chain(self.basis.edges().filter_map(|(node, ends)| {
+            .chain(freedoms.basis.edges().filter_map(|(node, ends)| {
                 let moves = |n: &usize| step.contains_key(n);
                 (moves(&node) || ends.iter().any(moves)).then_some(node)
             }))
             .collect();
         let places: Vec<(usize, Vector)> = nodes
             .into_iter()
-            .map(|node| (node, self.basis.at_node(node, at)))
+            .map(|node| (node, freedoms.basis.at_node(node, at)))
             .collect();
         for (node, x) in places {
             let d = mesh.dimension;
@@ -348,6 +315,20 @@ impl Freedoms {
         }
         moved
     }
+}
+
+/// Terms `scale v . sum w_k u_k` of the masters on control points.
+fn on_masters(basis: &ContactBasis, row: &Pair, v: Vector, scale: f64) -> Vec<(usize, Vector)> {
+    let terms = row.masters.iter();
+    let terms = terms.map(|&(node, w)| (node, v.map(|v| scale * w * v)));
+    basis.share_of(terms.collect())
+}
+
+/// Whether a control point can move along a direction.
+fn moves(freedoms: &Freedoms, node: usize, v: Vector) -> bool {
+    let axes = freedoms.of_node(node).iter().zip(freedoms.local(node));
+    axes.filter(|(_, axis)| dot(v, *axis).abs() > ROUND_OFF)
+        .any(|(slot, _)| matches!(slot, Slot::Free(_) | Slot::Sum(_)))
 }
 
 /// For each slave node the nodes that share a facet of the slave surface with it, with weights.

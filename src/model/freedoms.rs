@@ -125,6 +125,12 @@ impl Freedoms {
             .map(|(freedom, _)| freedom)
     }
 
+    /// Adds a displacement that a load prescribes. Returns its number.
+    pub(super) fn add_prescribed(&mut self, load: usize, value: f64) -> u32 {
+        self.prescribed.push(Prescribed { load, value });
+        self.prescribed.len() as u32 - 1
+    }
+
     /// Holds a freedom at zero and renumbers the freedoms after it.
     pub(super) fn pin(&mut self, freedom: usize) {
         for slot in self.slots.iter_mut().flatten() {

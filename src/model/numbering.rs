@@ -9,6 +9,7 @@ use super::frame::{ALIGNED, frame};
 use super::freedoms::{Freedoms, Planes, Slot};
 use super::pairs::Pair;
 use super::pairs::resolved_tie::ResolvedTie;
+use super::prescribed::{apply_loads, give_to_control_points};
 use super::rigid::RigidBodies;
 use super::supports::{HeldDirection, Supports, turn_normals_into_supports};
 use crate::error::Result;
@@ -57,20 +58,20 @@ impl Freedoms {
             }
         }
         let shared = rigid.hold(&mut freedoms);
-        let mut planes = freedoms.apply_loads(scene, mesh, &touches, carried)?;
+        let mut planes = apply_loads(&mut freedoms, scene, mesh, &touches, carried)?;
         planes.extend(
             shared
                 .into_iter()
                 .map(|(axis, k)| (axis, scene.load.len() + k)),
         );
-        let middles = freedoms.give_to_control_points(scene.load.len());
+        let middles = give_to_control_points(&mut freedoms, scene.load.len());
         let others = Others {
             plane: &|axis| planes.contains_key(&axis),
             pairs: &*pairs,
         };
-        let mut followers = freedoms.follow(mesh, ties, &others)?;
-        freedoms.follow_ends(&middles, &mut followers);
-        freedoms.follow_equations(scene, mesh, equations, &others, &mut followers)?;
+        let mut followers = Followers::of_ties(&mut freedoms, mesh, ties, &others)?;
+        followers.add_middles(&mut freedoms, &middles);
+        followers.add_equations(&mut freedoms, scene, mesh, equations, &others)?;
         freedoms.number(&planes);
         Ok((freedoms, followers))
     }
@@ -124,6 +125,30 @@ impl Freedoms {
             }
         }
         Ok(())
+    }
+
+    /// Holds a node where it is along the directions of supports that began within the program.
+    fn hold_where_it_is(
+        &mut self,
+        scene: &Scene,
+        node: usize,
+        of_node: &[HeldDirection],
+        carried: &Carried,
+    ) {
+        let began = |held: &&HeldDirection| {
+            let support = held.support.map(|index| &scene.support[index]);
+            support.is_some_and(|support| support.since.is_some())
+        };
+        let axes = self.local(node);
+        for HeldDirection { direction, .. } in of_node.iter().filter(began) {
+            for (i, axis) in axes.into_iter().enumerate() {
+                if self.slots[node][i] == Slot::Fixed && dot(axis, *direction).abs() > ALIGNED {
+                    let value = dot(carried.of_node(node), axis);
+                    let number = self.add_prescribed(Carried::held_case(scene), value);
+                    self.slots[node][i] = Slot::Prescribed(number);
+                }
+            }
+        }
     }
 
     fn number(&mut self, planes: &Planes) {

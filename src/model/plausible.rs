@@ -45,6 +45,25 @@ pub(super) fn of_materials(scene: &Scene) -> Vec<String> {
     out
 }
 
+/// Warnings about bodies whose temperature lies beyond the rows of their material.
+pub(super) fn of_temperatures(scene: &Scene) -> impl Iterator<Item = String> + '_ {
+    scene.bodies.iter().filter_map(|(name, body)| {
+        let temperature = body.temperature?;
+        let [lowest, highest] = scene.materials.get(&body.material)?.temperatures()?;
+        let is_within = (lowest..=highest).contains(&temperature);
+        (!is_within).then(|| {
+            format!(
+                "bodies.{name}.temperature: {} is beyond the rows of {}, {} to {}: its \
+                 properties are those of the nearest row",
+                exact(temperature),
+                body.material,
+                exact(lowest),
+                exact(highest)
+            )
+        })
+    })
+}
+
 /// Warning about a declared symmetry that the model does not have.
 pub(super) fn of_symmetry(model: &Model) -> Option<String> {
     let n = model.mesh.n_elements();

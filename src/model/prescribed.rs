@@ -1,12 +1,10 @@
-//! Displacements prescribed by loads, and positions at which supports that begin during the program
-//! hold nodes.
+//! Displacements prescribed by loads.
 
 use super::carried::Carried;
 use super::frame::ALIGNED;
 use super::freedoms::{Freedoms, Planes, Prescribed, Slot};
 use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
-use super::supports::HeldDirection;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::scene::{Direction, Load, Scene};
@@ -68,202 +66,174 @@ impl<'a> Moving<'a> {
             self.mesh.node_label(node)
         )))
     }
-}
-
-impl Freedoms {
-    /// Turns displacements prescribed at the middles of edges into those of their control points.
-    /// Returns the middles for which these depend on ends that are free, or moved by another load.
-    /// `n_loads` is the number of loads of the scene.
-    pub(super) fn give_to_control_points(&mut self, n_loads: usize) -> Vec<FollowingMiddle> {
-        let mut following = Vec::new();
-        let mut values = Vec::new();
-        for (node, ends) in self.basis.edges() {
-            for (axis, slot) in self.of_node(node).iter().enumerate() {
-                let (load, value) = match *slot {
-                    Slot::Free(_) | Slot::Sum(_) => continue,
-                    Slot::Fixed => (n_loads, 0.0),
-                    Slot::Prescribed(p) => {
-                        let Prescribed { load, value } = self.prescribed[p as usize];
-                        (load, value)
-                    }
-                };
-                let direction = self.local(node)[axis];
-                let at_end = |end: usize| self.given_along(end, direction, load);
-                let control = match ends.map(at_end) {
-                    [Some(a), Some(b)] => Some(self.basis.number_at_control(node, |of| match of {
-                        of if of == ends[0] => a,
-                        of if of == ends[1] => b,
-                        _ => value,
-                    })),
-                    _ => None,
-                };
-                match (control, *slot) {
-                    (Some(control), Slot::Prescribed(p)) => values.push((p, control)),
-                    (Some(0.0), _) => {}
-                    _ => following.push(FollowingMiddle {
-                        node,
-                        axis,
-                        moved: (load != n_loads || value != 0.0).then_some((load, value)),
-                    }),
-                }
-            }
-        }
-        for (p, control) in values {
-            self.prescribed[p as usize].value = control;
-        }
-        following
-    }
-
-    /// Displacement of a node along a direction at factor 1 of a load, if the node is held there or
-    /// this load alone prescribes the displacement; `None` if something else moves the node.
-    fn given_along(&self, node: usize, direction: Vector, load: usize) -> Option<f64> {
-        let axes = self.local(node);
-        // Planes at any angle hold all directions in the span of their normals.
-        let shares = (0..self.per_node).map(|i| (i, dot(axes[i], direction)));
-        let mut sum = 0.0;
-        for (axis, share) in shares.filter(|(_, share)| share.powi(2) > ALIGNED) {
-            sum += share
-                * match self.slots[node][axis] {
-                    Slot::Fixed => 0.0,
-                    Slot::Prescribed(p) => {
-                        let Prescribed { load: own, value } = self.prescribed[p as usize];
-                        (own == load).then_some(value)?
-                    }
-                    Slot::Free(_) | Slot::Sum(_) => return None,
-                };
-        }
-        Some(sum)
-    }
-
-    /// Holds a node where it is along the directions of supports that began within the program.
-    pub(super) fn hold_where_it_is(
-        &mut self,
-        scene: &Scene,
-        node: usize,
-        of_node: &[HeldDirection],
-        carried: &Carried,
-    ) {
-        let began = |held: &&HeldDirection| {
-            let support = held.support.map(|index| &scene.support[index]);
-            support.is_some_and(|support| support.since.is_some())
-        };
-        let axes = self.local(node);
-        for HeldDirection { direction, .. } in of_node.iter().filter(began) {
-            for (slot, axis) in self.slots[node].iter_mut().zip(axes) {
-                if *slot == Slot::Fixed && dot(axis, *direction).abs() > ALIGNED {
-                    *slot = Slot::Prescribed(self.prescribed.len() as u32);
-                    self.prescribed.push(Prescribed {
-                        load: Carried::held_case(scene),
-                        value: dot(carried.of_node(node), axis),
-                    });
-                }
-            }
-        }
-    }
-
-    /// Turns prescribed displacements into slots, and surfaces held plane into groups.
-    pub(super) fn apply_loads(
-        &mut self,
-        scene: &Scene,
-        mesh: &Mesh,
-        touches: &[bool],
-        carried: Option<&Carried>,
-    ) -> Result<Planes> {
-        let mut planes = Planes::new();
-        let start = carried.map_or(0.0, |carried| carried.at);
-        let changes = !scene.changes_of_support().is_empty();
-        let loads = || scene.load.iter().enumerate();
-        let is_plane = |load: &Load| load.plane_force.is_some();
-        let displaced = loads().filter(|(_, load)| !is_plane(load));
-        for (index, load) in displaced.chain(loads().filter(|(_, load)| is_plane(load))) {
-            // Displacements on their way are equations.
-            let is_taken_over = |carried: &Carried| carried.taken_over(scene, index, [0.0; 2]);
-            let comes = carried.and_then(is_taken_over).is_some();
-            if comes || !load.span().holds_from(start) {
-                continue;
-            }
-            let moving = Moving {
-                scene,
-                mesh,
-                index,
-                load,
-                entry: SceneEntry::of_list(scene, "load", index),
-            };
-            let Some(directions) = moving.directions()? else {
-                continue;
-            };
-            let nodes = moving.entry.nodes(mesh, &load.on)?;
-            if load.plane_force.is_some() && changes && self.all_are_held(&nodes, &directions) {
-                continue;
-            }
-            for node in nodes {
-                for (direction, value) in &directions {
-                    self.prescribe(
-                        &moving,
-                        (node, *direction),
-                        value,
-                        touches[node],
-                        &mut planes,
-                    )?;
-                }
-            }
-        }
-        Ok(planes)
-    }
 
     /// Prescribes the displacement of a node along a direction, or puts the node into the group of
     /// its plane if there is no value.
     fn prescribe(
-        &mut self,
-        moving: &Moving,
+        &self,
+        freedoms: &mut Freedoms,
         (node, direction): (usize, usize),
         value: &Option<OnMesh>,
         touches: bool,
         planes: &mut Planes,
     ) -> Result<()> {
         let name = Direction::ALL[direction].name();
-        let local = self.local_axis(node, direction).ok_or_else(|| {
+        let local = freedoms.local_axis(node, direction).ok_or_else(|| {
             let has = match touches {
                 true => "a contact normal",
                 false => "a turned support",
             };
-            moving.refused(node, &format!("has {has} and cannot be moved along {name}"))
+            self.refused(node, &format!("has {has} and cannot be moved along {name}"))
         })?;
-        let sign = dot(self.local(node)[local], unit(direction)).signum();
-        if self.slots[node][local] != Slot::Free(0) || planes.contains_key(&(node, local)) {
+        let sign = dot(freedoms.local(node)[local], unit(direction)).signum();
+        if freedoms.slots[node][local] != Slot::Free(0) || planes.contains_key(&(node, local)) {
             let why = format!("is already held or prescribed along {name}");
-            return Err(moving.refused(node, &why));
+            return Err(self.refused(node, &why));
         }
         match value {
             Some(field) => {
-                let value = field.at_node(node).map_err(|error| moving.within(error))?;
-                self.slots[node][local] = Slot::Prescribed(self.prescribed.len() as u32);
-                self.prescribed.push(Prescribed {
-                    load: moving.index,
-                    value: sign * value,
-                });
+                let value = field.at_node(node).map_err(|error| self.within(error))?;
+                let number = freedoms.add_prescribed(self.index, sign * value);
+                freedoms.slots[node][local] = Slot::Prescribed(number);
             }
             None if sign < 0.0 || touches => {
                 let why = "belongs to a contact surface, which cannot be held plane";
-                return Err(moving.refused(node, why));
+                return Err(self.refused(node, why));
             }
             None => {
-                planes.insert((node, local), moving.index);
+                planes.insert((node, local), self.index);
             }
         }
         Ok(())
     }
+}
 
-    /// Whether nodes are all held along some directions, so that a force there goes into what holds
-    /// them.
-    fn all_are_held<T>(&self, nodes: &[usize], directions: &[(usize, T)]) -> bool {
-        let is_held = |node: usize, direction: usize| {
-            let axis = self.local_axis(node, direction);
-            axis.is_some_and(|axis| self.slots[node][axis] != Slot::Free(0))
-        };
-        let mut all = directions
-            .iter()
-            .flat_map(|(d, _)| nodes.iter().map(|&node| (node, *d)));
-        all.all(|(node, direction)| is_held(node, direction))
+/// Turns displacements prescribed at the middles of edges into those of their control points.
+/// Returns the middles for which these depend on ends that are free, or moved by another load.
+/// `n_loads` is the number of loads of the scene.
+pub(super) fn give_to_control_points(
+    freedoms: &mut Freedoms,
+    n_loads: usize,
+) -> Vec<FollowingMiddle> {
+    let mut following = Vec::new();
+    let mut values = Vec::new();
+    for (node, ends) in freedoms.basis.edges() {
+        for (axis, slot) in freedoms.of_node(node).iter().enumerate() {
+            let (load, value) = match *slot {
+                Slot::Free(_) | Slot::Sum(_) => continue,
+                Slot::Fixed => (n_loads, 0.0),
+                Slot::Prescribed(p) => {
+                    let Prescribed { load, value } = freedoms.prescribed[p as usize];
+                    (load, value)
+                }
+            };
+            let direction = freedoms.local(node)[axis];
+            let at_end = |end: usize| given_along(freedoms, end, direction, load);
+            let control = match ends.map(at_end) {
+                [Some(a), Some(b)] => Some(freedoms.basis.number_at_control(node, |of| match of {
+                    of if of == ends[0] => a,
+                    of if of == ends[1] => b,
+                    _ => value,
+                })),
+                _ => None,
+            };
+            match (control, *slot) {
+                (Some(control), Slot::Prescribed(p)) => values.push((p, control)),
+                (Some(0.0), _) => {}
+                _ => following.push(FollowingMiddle {
+                    node,
+                    axis,
+                    moved: (load != n_loads || value != 0.0).then_some((load, value)),
+                }),
+            }
+        }
     }
+    for (p, control) in values {
+        freedoms.prescribed[p as usize].value = control;
+    }
+    following
+}
+
+/// Displacement of a node along a direction at factor 1 of a load, if the node is held there or
+/// this load alone prescribes the displacement; `None` if something else moves the node.
+fn given_along(freedoms: &Freedoms, node: usize, direction: Vector, load: usize) -> Option<f64> {
+    let axes = freedoms.local(node);
+    // Planes at any angle hold all directions in the span of their normals.
+    let shares = (0..freedoms.per_node).map(|i| (i, dot(axes[i], direction)));
+    let mut sum = 0.0;
+    for (axis, share) in shares.filter(|(_, share)| share.powi(2) > ALIGNED) {
+        sum += share
+            * match freedoms.slots[node][axis] {
+                Slot::Fixed => 0.0,
+                Slot::Prescribed(p) => {
+                    let Prescribed { load: own, value } = freedoms.prescribed[p as usize];
+                    (own == load).then_some(value)?
+                }
+                Slot::Free(_) | Slot::Sum(_) => return None,
+            };
+    }
+    Some(sum)
+}
+
+/// Turns prescribed displacements into slots, and surfaces held plane into groups.
+pub(super) fn apply_loads(
+    freedoms: &mut Freedoms,
+    scene: &Scene,
+    mesh: &Mesh,
+    touches: &[bool],
+    carried: Option<&Carried>,
+) -> Result<Planes> {
+    let mut planes = Planes::new();
+    let start = carried.map_or(0.0, |carried| carried.at);
+    let changes = !scene.changes_of_support().is_empty();
+    let loads = || scene.load.iter().enumerate();
+    let is_plane = |load: &Load| load.plane_force.is_some();
+    let displaced = loads().filter(|(_, load)| !is_plane(load));
+    for (index, load) in displaced.chain(loads().filter(|(_, load)| is_plane(load))) {
+        // Displacements on their way are equations.
+        let is_taken_over = |carried: &Carried| carried.taken_over(scene, index, [0.0; 2]);
+        let comes = carried.and_then(is_taken_over).is_some();
+        if comes || !load.span().holds_from(start) {
+            continue;
+        }
+        let moving = Moving {
+            scene,
+            mesh,
+            index,
+            load,
+            entry: SceneEntry::of_list(scene, "load", index),
+        };
+        let Some(directions) = moving.directions()? else {
+            continue;
+        };
+        let nodes = moving.entry.nodes(mesh, &load.on)?;
+        if load.plane_force.is_some() && changes && all_are_held(freedoms, &nodes, &directions) {
+            continue;
+        }
+        for node in nodes {
+            for (direction, value) in &directions {
+                moving.prescribe(
+                    freedoms,
+                    (node, *direction),
+                    value,
+                    touches[node],
+                    &mut planes,
+                )?;
+            }
+        }
+    }
+    Ok(planes)
+}
+
+/// Whether nodes are all held along some directions, so that a force there goes into what holds
+/// them.
+fn all_are_held<T>(freedoms: &Freedoms, nodes: &[usize], directions: &[(usize, T)]) -> bool {
+    let is_held = |node: usize, direction: usize| {
+        let axis = freedoms.local_axis(node, direction);
+        axis.is_some_and(|axis| freedoms.slots[node][axis] != Slot::Free(0))
+    };
+    let mut all = directions
+        .iter()
+        .flat_map(|(d, _)| nodes.iter().map(|&node| (node, *d)));
+    all.all(|(node, direction)| is_held(node, direction))
 }

@@ -17,13 +17,13 @@ pub(crate) struct Recipe<'a> {
     given: Cow<'a, Given>,
 }
 
-impl Model {
-    /// The data from which [`Model::from_recipe`] makes this model again.
-    pub(crate) fn recipe(&self) -> Recipe<'_> {
+impl<'a> Recipe<'a> {
+    /// The data from which [`Recipe::make`] makes a model again.
+    pub(crate) fn of(model: &'a Model) -> Self {
         Recipe {
-            scene: Cow::Borrowed(&self.scene),
-            mesh: Cow::Borrowed(&self.mesh),
-            given: match &self.origin {
+            scene: Cow::Borrowed(&model.scene),
+            mesh: Cow::Borrowed(&model.mesh),
+            given: match &model.origin {
                 Origin::Arrays(given) => Cow::Borrowed(given),
                 Origin::Scene => Cow::default(),
             },
@@ -34,10 +34,10 @@ impl Model {
     ///
     /// # Errors
     /// Errors of [`Model::new`], since a recipe read from a file may be damaged.
-    pub(crate) fn from_recipe(recipe: Recipe<'_>) -> Result<Self> {
-        recipe.scene.validate_without_mesh()?;
-        let (mesh, given) = (recipe.mesh.into_owned(), recipe.given.into_owned());
+    pub(crate) fn make(self) -> Result<Model> {
+        self.scene.validate_without_mesh()?;
+        let (mesh, given) = (self.mesh.into_owned(), self.given.into_owned());
         given.check(mesh.n_nodes())?;
-        Self::made(&recipe.scene, mesh, Origin::Arrays(given))
+        Model::made(&self.scene, mesh, Origin::Arrays(given))
     }
 }

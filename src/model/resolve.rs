@@ -81,7 +81,7 @@ pub(super) fn model(scene: &Scene, mut mesh: Mesh, origin: Origin) -> Result<Mod
     let rigid = fitness::prepare(scene, &mut mesh, origin.mesh_file(scene))?;
     let mut warnings = scene.warnings.clone();
     warnings.extend(std::mem::take(&mut mesh.notes));
-    warnings.extend(scene.beyond_rows());
+    warnings.extend(plausible::of_temperatures(scene));
     let (materials, may_yield) = resolve_bodies(scene, &mesh)?;
     warnings.extend(plausible::of_materials(scene));
     fitness::warn_of_locking(scene, &mesh, &may_yield, &mut warnings);
@@ -246,7 +246,7 @@ fn settle(
     followers: &Followers,
 ) -> Result<Option<String>> {
     let before = mesh.coordinates.clone();
-    if !freedoms.settle(mesh, followers)? {
+    if !followers.settle(freedoms, mesh)? {
         return Ok(None);
     }
     Ok(mesh::validate(mesh).err().map(|error| {

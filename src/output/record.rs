@@ -27,7 +27,7 @@ pub(super) fn write(staging: &Staging, model: &Model) -> Result<()> {
     // A Gmsh file cannot hold every name.
     if !model.is_of_its_scene() || (made.file.is_some() && !has_plain_names(&model.mesh)) {
         return staging.file(MODEL_FILE, |out| {
-            serde_json::to_writer(&mut *out, &model.recipe())?;
+            serde_json::to_writer(&mut *out, &Recipe::of(model))?;
             out.write_all(b"\n")
         });
     }
@@ -76,7 +76,7 @@ pub(super) fn read(dir: &Path) -> Result<(PathBuf, Model)> {
     let recipe: Recipe = serde_json::from_slice(&text).map_err(|cause| {
         Error::input(format!("{}: the model is damaged", path.display())).because(cause)
     })?;
-    let model = Model::from_recipe(recipe).map_err(|cause| {
+    let model = recipe.make().map_err(|cause| {
         Error::input(format!("{}: the model is damaged", path.display())).because(cause)
     })?;
     Ok((path, model))

@@ -319,6 +319,17 @@ pub enum History {
     Table(Vec<[f64; 2]>),
 }
 
+impl History {
+    /// Whether the load changes with the load factor.
+    pub(crate) fn varies(&self) -> bool {
+        match self {
+            History::Proportional => true,
+            History::Constant => false,
+            History::Table(rows) => rows.windows(2).any(|pair| pair[0][1] != pair[1][1]),
+        }
+    }
+}
+
 impl JsonSchema for History {
     fn schema_name() -> std::borrow::Cow<'static, str> {
         "History".into()

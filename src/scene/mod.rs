@@ -34,6 +34,7 @@ mod requests;
 mod rigid;
 mod schema;
 pub(crate) mod span;
+mod spelling;
 mod target;
 mod tensile_test;
 mod units;
@@ -59,7 +60,6 @@ pub use material::{Body, Material, MaterialRow, Plastic};
 pub use program::{
     LEAST_PATH_ERROR, PlasticIteration, Program, Settings, Stepping, Unit, YieldMethod,
 };
-pub(crate) use read::closest;
 pub(crate) use reference::PlaceQuantity;
 pub use reference::{NoParameters, RadiusOnly, Reference, TwoBodies};
 pub use requests::{
@@ -71,6 +71,7 @@ pub use rigid::{
     RigidTorus,
 };
 pub use schema::schema;
+pub(crate) use spelling::closest;
 pub use target::{DisplacementTarget, Target, TargetFigure};
 pub(crate) use tensile_test::beyond_yield;
 pub use units::Units;
@@ -78,9 +79,11 @@ pub use units::Units;
 /// The kind of a scene: the name in scene files for the [`Space`] of the model.
 pub use crate::space::Space as Kind;
 
+use self::span::Span;
 use crate::space::Space;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -180,6 +183,55 @@ impl Scene {
     pub(crate) fn beside(&self, path: &Path) -> PathBuf {
         let folder = self.file.as_deref().and_then(Path::parent);
         folder.map_or(path.to_path_buf(), |folder| folder.join(path))
+    }
+
+    /// The material of a body at the body's temperature; `None` if the scene does not have the body
+    /// or its material.
+    pub fn material_of(&self, body: &str) -> Option<Cow<'_, Material>> {
+        let body = self.bodies.get(body)?;
+        let material = self.materials.get(&body.material)?;
+        Some(match body.temperature {
+            Some(temperature) if !material.over_temperature.is_empty() => {
+                Cow::Owned(material.at(temperature))
+            }
+            _ => Cow::Borrowed(material),
+        })
+    }
+
+    /// Whether this body can yield: its material has a yield stress, and the scene does not declare
+    /// the body elastic. False for a body that the scene does not have.
+    pub fn can_yield(&self, body: &str) -> bool {
+        let of = self.bodies.get(body).zip(self.material_of(body));
+        of.is_some_and(|(body, material)| {
+            body.plastic != Plastic::No && material.first_yield_stress().is_some()
+        })
+    }
+
+    /// Whether any body can yield.
+    pub fn any_can_yield(&self) -> bool {
+        self.bodies.keys().any(|body| self.can_yield(body))
+    }
+
+    /// Whether any load changes with the load factor.
+    pub fn any_load_varies(&self) -> bool {
+        self.load.iter().any(|load| load.history.varies())
+    }
+
+    /// Whether any body can yield, as far as is known. An undefined material counts as able to
+    /// yield: it is reported once, not again by every check that needs it.
+    fn may_yield(&self) -> bool {
+        let mut bodies = self.bodies.values();
+        self.any_can_yield() || bodies.any(|body| !self.materials.contains_key(&body.material))
+    }
+
+    /// The load factors at which supports or prescribed displacements begin or end, ascending.
+    pub(crate) fn changes_of_support(&self) -> Vec<f64> {
+        let supports = self.support.iter().map(Support::span);
+        let spans = supports.chain(self.load.iter().map(Load::span));
+        let mut changes: Vec<f64> = spans.flat_map(Span::changes).collect();
+        changes.sort_by(f64::total_cmp);
+        changes.dedup();
+        changes
     }
 
     /// All fields of loads and contacts, which may depend on the position.

@@ -5,10 +5,8 @@
 //! T_1)`, and constant beyond them. A body has one temperature, so its elastic stiffness is
 //! constant over the whole run and one factorisation is enough.
 
-use super::{Material, MaterialRow, Scene};
+use super::{Material, MaterialRow};
 use crate::interpolation::interpolate;
-use crate::number::exact;
-use std::borrow::Cow;
 
 impl Material {
     /// The material at one temperature, with constant properties and no rows.
@@ -68,40 +66,6 @@ impl Material {
             self.over_temperature.last()?,
         );
         Some([first.temperature, last.temperature])
-    }
-}
-
-impl Scene {
-    /// The material of a body at the body's temperature; `None` if the scene does not have the body
-    /// or its material.
-    pub fn material_of(&self, body: &str) -> Option<Cow<'_, Material>> {
-        let body = self.bodies.get(body)?;
-        let material = self.materials.get(&body.material)?;
-        Some(match body.temperature {
-            Some(temperature) if !material.over_temperature.is_empty() => {
-                Cow::Owned(material.at(temperature))
-            }
-            _ => Cow::Borrowed(material),
-        })
-    }
-
-    /// Warnings about bodies whose temperature lies beyond the rows of their material.
-    pub(crate) fn beyond_rows(&self) -> impl Iterator<Item = String> + '_ {
-        self.bodies.iter().filter_map(|(name, body)| {
-            let temperature = body.temperature?;
-            let [lowest, highest] = self.materials.get(&body.material)?.temperatures()?;
-            let is_within = (lowest..=highest).contains(&temperature);
-            (!is_within).then(|| {
-                format!(
-                    "bodies.{name}.temperature: {} is beyond the rows of {}, {} to {}: its \
-                     properties are those of the nearest row",
-                    exact(temperature),
-                    body.material,
-                    exact(lowest),
-                    exact(highest)
-                )
-            })
-        })
     }
 }
 

@@ -2,6 +2,7 @@
 //! what was meant.
 
 use super::document::{KeyPositions, SceneSource};
+use super::spelling::closest;
 use super::{Scene, complete, listed_materials, overrides, unsupported, validate};
 use crate::error::{Error, ErrorKind, Result};
 use crate::files;
@@ -129,7 +130,7 @@ fn parse(source: &SceneSource<'_>, made_from: Option<&BTreeMap<String, String>>)
     scene.warnings = warnings;
     complete::check(&scene, root.get_ref(), &scene.places)?;
     listed_materials::fill_in(&mut scene)?;
-    let problems = validate::problems(&scene);
+    let problems = validate::all_problems(&scene);
     if !problems.is_empty() {
         let lines = problems.iter().map(|problem| {
             let place = scene.places.of(&problem.key).unwrap_or(source.name);
@@ -207,21 +208,6 @@ fn unknown_word(word: &str, known: &[&str], path: &str) -> (ErrorKind, String) {
         known.join(", ")
     );
     (ErrorKind::Input, text)
-}
-
-/// The known word closest to `word`, provided that at most a third of its letters differ.
-pub(crate) fn closest<'k>(word: &str, known: &[&'k str]) -> Option<&'k str> {
-    let lower = word.to_lowercase();
-    let distance = |k: &str| {
-        let [a, b] = [word, &lower].map(|word| strsim::damerau_levenshtein(word, k));
-        a.min(b)
-    };
-    known
-        .iter()
-        .map(|k| (distance(k), *k))
-        .filter(|(distance, k)| 3 * distance <= k.chars().count().max(3))
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, k)| k)
 }
 
 /// Replaces serde's names of types by plain words.

@@ -3,7 +3,7 @@
 //! The load factors at which one begins or ends divide the program into legs. Within a leg the same
 //! displacements are held.
 
-use super::{History, Load, Scene, Support};
+use super::{History, Load, Support};
 
 /// The load factors between which a support or a prescribed displacement holds its nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,17 +82,5 @@ impl Load {
         let later = rows.iter().map(|row| row[0]);
         self.since
             .and_then(|since| later.into_iter().find(|at| *at > since))
-    }
-}
-
-impl Scene {
-    /// The load factors at which supports or prescribed displacements begin or end, ascending.
-    pub(crate) fn changes_of_support(&self) -> Vec<f64> {
-        let supports = self.support.iter().map(Support::span);
-        let spans = supports.chain(self.load.iter().map(Load::span));
-        let mut changes: Vec<f64> = spans.flat_map(Span::changes).collect();
-        changes.sort_by(f64::total_cmp);
-        changes.dedup();
-        changes
     }
 }

@@ -442,6 +442,6 @@ fn methods_that_a_room_adds_are_not_called_from_above() {
             }
         }
     }
-    assert!(added > 10, "{added}");
+    assert!(added > 0, "no method is found");
     assert!(wrong.is_empty(), "{wrong:#?}");
 }

@@ -1,6 +1,7 @@
 //! The report of the state at a target: figures, and fields on the whole mesh.
 
-use super::measure::pair_states;
+use super::dent::Dent;
+use super::measure::{ContactFigures, pair_states, total_load_size};
 use super::reactions;
 use super::reading::Reading;
 use crate::analysis::stress::element_stresses::ShownStresses;
@@ -38,12 +39,12 @@ impl Reading<'_, '_> {
         let begun = Instant::now();
         let stresses = self.stresses(displacements.deformation(), with_fields)?;
         let stress_seconds = begun.elapsed().as_secs_f64();
-        let figures = self.solver.contact_figures();
-        let dent = self.dent();
+        let figures = ContactFigures::of(self.solver);
+        let dent = Dent::of(self.solver);
         let arc = figures
             .patch
             .and_then(|patch| contact_arc(self.solver.structure.model, figures.contact, patch));
-        let load = self.solver.total_load_size();
+        let load = total_load_size(self.solver);
         let Stresses {
             internal,
             nodal,

@@ -2,7 +2,7 @@
 //! have vanished.
 
 use super::measure::on_axis;
-use super::reading::Reading;
+use crate::analysis::structure::solver::Solver;
 use crate::mesh::Mesh;
 use crate::model::{ContactSurface, Pair};
 
@@ -21,21 +21,21 @@ pub(in crate::analysis) struct Dent {
 /// Displacements of the two surfaces of a contact into their own bodies, at one place.
 type Sunk = [f64; 2];
 
-impl Reading<'_, '_> {
+impl Dent {
     /// Computes the dent of the current plastic strains: displacements under their initial loads
     /// alone, with every pair open, minus the rigid body motion of each body's far boundary. Costs
     /// half a trailing solve if there are plastic strains.
-    pub(in crate::analysis) fn dent(&mut self) -> Dent {
+    pub(in crate::analysis) fn of(solver: &mut Solver) -> Dent {
         let mut dent = Dent {
             depth: 0.0,
-            by_body: vec![0.0; self.solver.structure.model.mesh.bodies.len()],
+            by_body: vec![0.0; solver.structure.model.mesh.bodies.len()],
             rim: 0.0,
         };
-        if self.solver.now.initial.load.largest() == 0.0 || self.solver.now.gap.is_empty() {
+        if solver.now.initial.load.largest() == 0.0 || solver.now.gap.is_empty() {
             return dent;
         }
-        let model = self.solver.structure.model;
-        let sunk = self.sunk();
+        let model = solver.structure.model;
+        let sunk = sunk(solver);
         let mut largest = None;
         let mut deepest_of = vec![None; dent.by_body.len()];
         for contact in &model.contacts {
@@ -66,44 +66,41 @@ impl Reading<'_, '_> {
         }
         dent
     }
+}
 
-    /// Depths to which the two sides of each pair have sunk into their bodies, without any load.
-    fn sunk(&mut self) -> Vec<Sunk> {
-        let forces = &self.solver.now.initial.forces;
-        let n = forces.len();
-        let mut unloaded = self.solver.structure.sub.tableau();
-        unloaded.reset(&vec![true; n]);
-        let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
-        unloaded.solve(forces, &mut gap, &mut force);
-        // Pairs that hold the rigid body motion of a floating body stay closed. They carry nothing,
-        // since initial loads are self-equilibrated.
-        let slip: Vec<f64> = gap.iter().map(|g| -g).collect();
-        let mut u = self.solver.now.initial.eliminated.clone();
-        self.solver.structure.sub.recover(&mut u, &slip);
-        self.solver.cost.count_half();
-        let mut normal = u.contact.clone();
-        let structure = &self.solver.structure;
-        let motions = structure.model.floating.motions.iter();
-        for (motion, far) in motions.zip(&structure.loads.far) {
-            let amplitude = far.dot(&u);
-            for (value, &freedom) in normal
-                .iter_mut()
-                .zip(&self.solver.structure.sub.partition.contact)
-            {
-                *value -= amplitude * motion.at(freedom);
-            }
+/// Depths to which the two sides of each pair have sunk into their bodies, without any load.
+fn sunk(solver: &mut Solver) -> Vec<Sunk> {
+    let forces = &solver.now.initial.forces;
+    let n = forces.len();
+    let mut unloaded = solver.structure.sub.tableau();
+    unloaded.reset(&vec![true; n]);
+    let (mut gap, mut force) = (vec![0.0; n], vec![0.0; n]);
+    unloaded.solve(forces, &mut gap, &mut force);
+    // Pairs that hold the rigid body motion of a floating body stay closed. They carry nothing,
+    // since initial loads are self-equilibrated.
+    let slip: Vec<f64> = gap.iter().map(|g| -g).collect();
+    let mut u = solver.now.initial.eliminated.clone();
+    solver.structure.sub.recover(&mut u, &slip);
+    solver.cost.count_half();
+    let mut normal = u.contact.clone();
+    let structure = &solver.structure;
+    let motions = structure.model.floating.motions.iter();
+    for (motion, far) in motions.zip(&structure.loads.far) {
+        let amplitude = far.dot(&u);
+        for (value, &freedom) in normal.iter_mut().zip(&structure.sub.partition.contact) {
+            *value -= amplitude * motion.at(freedom);
         }
-        let model = structure.model;
-        let of_pair = |(k, pair): (usize, &Pair)| {
-            // The normal points from the slave's body to the master's body.
-            let [faced, slave] = model.rows.both_sides(k, &normal);
-            match model.contacts[pair.contact].slave {
-                0 => [-slave, faced],
-                _ => [faced, -slave],
-            }
-        };
-        model.pairs.iter().enumerate().map(of_pair).collect()
     }
+    let model = structure.model;
+    let of_pair = |(k, pair): (usize, &Pair)| {
+        // The normal points from the slave's body to the master's body.
+        let [faced, slave] = model.rows.both_sides(k, &normal);
+        match model.contacts[pair.contact].slave {
+            0 => [-slave, faced],
+            _ => [faced, -slave],
+        }
+    };
+    model.pairs.iter().enumerate().map(of_pair).collect()
 }
 
 /// The places of a contact at which dents are read: its pairs, and the axis of revolution if no

@@ -2,7 +2,9 @@
 //! nodes; approach, force and area of each contact.
 
 use super::approaches::Approach;
+use super::measure::ContactFigures;
 use super::reactions;
+use super::reading::Reading;
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, Result};
 use crate::model::Model;
@@ -63,13 +65,13 @@ impl Gauges {
     /// Failure of the backend's solve.
     pub(in crate::analysis) fn read(&self, solver: &mut Solver) -> Result<Vec<f64>> {
         let model = solver.structure.model;
-        let mut reading = solver.reading();
+        let mut reading = Reading::of(solver);
         let displacements = reading.displacements()?;
         let stresses = reading.stresses(displacements.deformation(), false)?;
         let mut out = vec![reading.approach(&displacements.total)];
         let moved = model.nodal(&displacements.total, &solver.at.factors);
         for (contact, approach) in self.approaches.iter().enumerate() {
-            let figures = solver.contact_figures_of(contact);
+            let figures = ContactFigures::of_contact(solver, contact);
             let approach = approach.as_ref().map_or(f64::NAN, |a| a.at(&moved));
             out.extend([approach, figures.force * model.symmetry, figures.area]);
         }

@@ -41,6 +41,29 @@ pub struct ContactFigures {
     pub patches: Vec<ContactPatch>,
 }
 
+impl ContactFigures {
+    /// Contact figures of the current state.
+    pub(in crate::analysis) fn of(solver: &Solver) -> Self {
+        contact_figures(
+            solver.structure.model,
+            &solver.contact_forces(),
+            solver.scales.force,
+        )
+    }
+
+    /// Contact figures of one contact at the current state.
+    pub(in crate::analysis) fn of_contact(solver: &Solver, contact: usize) -> Self {
+        let model = solver.structure.model;
+        let mut force = solver.contact_forces().into_owned();
+        for (pair, force) in model.pairs.iter().zip(&mut force) {
+            if pair.contact != contact {
+                *force = 0.0;
+            }
+        }
+        contact_figures(model, &force, solver.scales.force)
+    }
+}
+
 /// Pressure of each pair: its force divided by the integral of its node's shape function, which
 /// reproduces a uniform pressure exactly. With linear elements the pressure is of first order
 /// beside the axis of revolution, as the displacements there are, whatever the weights: all errors
@@ -250,55 +273,32 @@ fn sum(forces: &[f64]) -> f64 {
     forces.iter().fold(0.0, |sum, force| sum + force)
 }
 
-impl Solver<'_> {
-    /// Contact figures of the current state.
-    pub fn contact_figures(&self) -> ContactFigures {
-        contact_figures(
-            self.structure.model,
-            &self.contact_forces(),
-            self.scales.force,
-        )
-    }
-
-    /// Contact figures of one contact at the current state.
-    pub(in crate::analysis) fn contact_figures_of(&self, contact: usize) -> ContactFigures {
-        let model = self.structure.model;
-        let mut force = self.contact_forces().into_owned();
-        for (pair, force) in model.pairs.iter().zip(&mut force) {
-            if pair.contact != contact {
-                *force = 0.0;
-            }
-        }
-        contact_figures(model, &force, self.scales.force)
-    }
-
-    /// The total load of the current state: the size of the leading load times its factor, for a
-    /// force that of the whole model with its mirror images. If the leading load prescribes
-    /// displacements, it is the force that moves its nodes. If it changes gaps, it is the force of
-    /// the contacts with these gaps. If there is no leading load, it is the force of all contacts
-    /// with interference.
-    pub fn total_load_size(&self) -> f64 {
-        let model = self.structure.model;
-        let through = |acts: &dyn Fn(&Pair) -> bool| {
-            let forces = self.contact_forces();
-            let acting = model.pairs.iter().zip(forces.iter());
-            let sum = acting.fold(0.0, |sum, (pair, r)| if acts(pair) { sum + r } else { sum });
-            sum * model.symmetry
-        };
-        let Some(leading) = model.leading_load() else {
-            let interferes = model.pairs.iter().any(|pair| pair.interference != 0.0);
-            return through(&|pair| !interferes || pair.interference != 0.0);
-        };
-        let load = &model.loads[leading];
-        match load.measures {
-            Magnitude::Displacement => self.driving_force().unwrap_or(0.0),
-            Magnitude::Gap => through(&|pair| load.gap(pair) != 0.0),
-            Magnitude::Force
-            | Magnitude::Stress
-            | Magnitude::Temperature
-            | Magnitude::Strain
-            | Magnitude::Carried => self.at.factors[leading].abs() * load.magnitude,
-        }
+/// The total load of the current state: the size of the leading load times its factor, for a
+/// force that of the whole model with its mirror images. If the leading load prescribes
+/// displacements, it is the force that moves its nodes. If it changes gaps, it is the force of
+/// the contacts with these gaps. If there is no leading load, it is the force of all contacts
+/// with interference.
+pub(in crate::analysis) fn total_load_size(solver: &Solver) -> f64 {
+    let model = solver.structure.model;
+    let through = |acts: &dyn Fn(&Pair) -> bool| {
+        let forces = solver.contact_forces();
+        let acting = model.pairs.iter().zip(forces.iter());
+        let sum = acting.fold(0.0, |sum, (pair, r)| if acts(pair) { sum + r } else { sum });
+        sum * model.symmetry
+    };
+    let Some(leading) = model.leading_load() else {
+        let interferes = model.pairs.iter().any(|pair| pair.interference != 0.0);
+        return through(&|pair| !interferes || pair.interference != 0.0);
+    };
+    let load = &model.loads[leading];
+    match load.measures {
+        Magnitude::Displacement => solver.driving_force().unwrap_or(0.0),
+        Magnitude::Gap => through(&|pair| load.gap(pair) != 0.0),
+        Magnitude::Force
+        | Magnitude::Stress
+        | Magnitude::Temperature
+        | Magnitude::Strain
+        | Magnitude::Carried => solver.at.factors[leading].abs() * load.magnitude,
     }
 }
 

@@ -17,14 +17,11 @@ pub(in crate::analysis) struct Reading<'s, 'm> {
     pub(in crate::analysis) solver: &'s mut Solver<'m>,
 }
 
-impl<'m> Solver<'m> {
-    /// Returns a reader of the current state.
-    pub(in crate::analysis) fn reading(&mut self) -> Reading<'_, 'm> {
-        Reading { solver: self }
+impl<'s, 'm> Reading<'s, 'm> {
+    pub(in crate::analysis) fn of(solver: &'s mut Solver<'m>) -> Self {
+        Reading { solver }
     }
-}
 
-impl Reading<'_, '_> {
     /// Sums over the stresses of all elements, for displacements of the whole model. If ranks share
     /// the matrix, they share the elements too.
     ///

@@ -5,6 +5,7 @@ use super::step::{Arrival, MONITOR_ACCURACY, Monitor, Step, crosses, describe, i
 use super::yield_load::yield_share;
 use crate::analysis::stress::recovery::{Recovery, Samples};
 use crate::analysis::structure::load_point::LoadPoint;
+use crate::analysis::structure::loose::move_loose_bodies;
 use crate::analysis::structure::solver::Solver;
 use crate::contact::{Path, PathEnd};
 use crate::error::{Error, Result};
@@ -37,7 +38,7 @@ impl ElasticPath {
         for (q, t) in q0.iter_mut().zip(&solver.now.initial.forces) {
             *q += t;
         }
-        solver.move_loose_bodies(end)?;
+        move_loose_bodies(solver, end)?;
         solver.add_springs(&mut q0);
         let terms = solver.structure.closed_forces_size(&start);
         let gaps = solver.structure.delta(&start);

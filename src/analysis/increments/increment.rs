@@ -14,6 +14,7 @@ use super::search::{PROGRESS, Search};
 use super::settling::{Rounds, settle_contact};
 use super::step::Rules;
 use super::step_length::{LengthSearch, StepLimit, positive_values, step_limit};
+use super::tangent::solve_tangent;
 use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
@@ -396,7 +397,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
     /// Newton's does not lower the energy.
     fn newton(&mut self, look: &Look) -> Result<(Equilibrium, f64), NoIncrement> {
         let keep = 1.0 - self.damping;
-        let direction = self.solver.solve_tangent(&self.balance, FORCING, keep);
+        let direction = solve_tangent(self.solver, &self.balance, FORCING, keep);
         let searched = (&self.state, &direction, &self.balance);
         let Some((length, evaluation)) = line_search(self.solver, searched, &mut self.trial) else {
             // The elastic stiffness is an upper bound of the tangent, so the plain step always

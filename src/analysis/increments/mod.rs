@@ -42,6 +42,6 @@ pub(super) mod step;
 mod step_length;
 mod stepping;
 mod stretch;
-mod tangent;
+pub(super) mod tangent;
 mod tangent_by_factor;
 pub(super) mod yield_load;

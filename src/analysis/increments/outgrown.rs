@@ -2,6 +2,7 @@
 //! result beyond this load is valid.
 
 use super::step::{Arrival, IncrementReport, Step};
+use crate::analysis::structure::loose::{refuse_driven_bodies, settle_springs};
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Kind;
@@ -21,9 +22,9 @@ pub(in crate::analysis) fn accepted(
     report: IncrementReport,
     arrival: Option<Arrival>,
 ) -> Result<Step> {
-    solver.refuse_driven_bodies()?;
+    refuse_driven_bodies(solver)?;
     if arrival.is_some() {
-        solver.settle_springs()?;
+        settle_springs(solver)?;
     }
     match outgrown_at(solver) {
         Some(pair) => Err(outgrown(solver, pair, from)),

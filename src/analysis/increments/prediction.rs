@@ -2,6 +2,7 @@
 
 use super::outcome::NoIncrement;
 use super::step_length::{positive_values, step_limit};
+use super::tangent::solve_tangent;
 use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::analysis::structure::load_point::LoadPoint;
 use crate::analysis::structure::solver::Solver;
@@ -55,7 +56,7 @@ impl RatePrediction {
         if needs_tangent {
             let mut driven = solver.structure.sub.zeros();
             solver.zone.softening_times(&rates.u, &mut driven);
-            let plastic = solver.solve_tangent(&driven, PREDICTION, 1.0);
+            let plastic = solve_tangent(solver, &driven, PREDICTION, 1.0);
             rates.add(1.0, &plastic);
         }
         RatePrediction { rates, stretched }

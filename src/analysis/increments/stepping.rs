@@ -10,6 +10,7 @@ use super::settling::wrong_at_end;
 use super::step::{Rules, stopped};
 use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::analysis::structure::load_point::LoadPoint;
+use crate::analysis::structure::loose::move_loose_bodies;
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
 use crate::scene::Stepping;
@@ -103,7 +104,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
         smallest: f64,
         mut ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> Result<(Increment, bool)> {
-        self.solver.move_loose_bodies(end)?;
+        move_loose_bodies(self.solver, end)?;
         self.solver.forget_tangent();
         let mut tries = Tries::new(self.solver, self.rules.stepping, left, smallest);
         loop {

@@ -20,21 +20,13 @@
 //! same work per direction: S. C. Eisenstat, H. C. Elman, M. H. Schultz (1983),
 //! doi:10.1137/0720023.
 
+use super::tangent_by_factor::{DIRECT, MOST, SINGULAR, TangentSystem};
 use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::analysis::structure::solver::Solver;
 use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 use std::collections::VecDeque;
 
-/// Most iterations of a solve: enough for perfect plasticity near collapse. A solve that needs more
-/// has no useful direction.
-pub(super) const MOST: usize = 400;
-/// Fraction of a direction's elastic stiffness that is round-off.
-pub(super) const SINGULAR: f64 = 1e-14;
-/// Number of conjugate gradient steps that cost as much as a direction found with a factor of the
-/// tangent: such a direction takes two or three steps, each with two products, and the elastic
-/// response to their result.
-pub(super) const DIRECT: usize = 6;
 /// Number of directions that conjugate residuals keep: an elastoplastic solve takes about ten.
 const KEPT: usize = 20;
 
@@ -59,41 +51,58 @@ impl Answered {
     }
 }
 
-impl Solver<'_> {
-    /// The elastic response to initial loads `initial`, closed pairs staying closed.
-    pub fn direction(&mut self, initial: Trailing) -> Equilibrium {
-        let mut out = Equilibrium::none(&initial, self.now.gap.len());
-        out.initial.load = initial;
-        self.respond_homogeneous(&mut out, &ZonePart::default());
-        out
-    }
+/// Newton's direction: solves `(S - keep K_p) du = residual` to `tolerance` (energy norm,
+/// relative). The initial loads of the direction are `S du`: the change of initial loads that
+/// the direction asks for. `keep = 1` is the tangent, 0 the plain iteration. In between, the
+/// condition number is at most `1/(1 - keep)`, even if the material has no stiffness left.
+///
+/// The search directions carry their gaps, forces and eliminated loads along, and the last
+/// preconditioned residual `z = S^-1 r` is added as a step of the plain iteration. In addition
+/// to the iteration's trailing solves, the direction therefore costs half a solve. In the
+/// iteration, the second halves pass only through the part of the zone that counts.
+pub(in crate::analysis) fn solve_tangent(
+    solver: &mut Solver,
+    residual: &Trailing,
+    tolerance: f64,
+    keep: f64,
+) -> Equilibrium {
+    let part = part_that_counts(solver, residual);
+    let mut system = TangentSystem {
+        solver,
+        tolerance,
+        keep,
+        part,
+    };
+    system.solve(residual)
+}
 
-    /// Newton's direction: solves `(S - keep K_p) du = residual` to `tolerance` (energy norm,
-    /// relative). The initial loads of the direction are `S du`: the change of initial loads that
-    /// the direction asks for. `keep = 1` is the tangent, 0 the plain iteration. In between, the
-    /// condition number is at most `1/(1 - keep)`, even if the material has no stiffness left.
-    ///
-    /// The search directions carry their gaps, forces and eliminated loads along, and the last
-    /// preconditioned residual `z = S^-1 r` is added as a step of the plain iteration. In addition
-    /// to the iteration's trailing solves, the direction therefore costs half a solve. In the
-    /// iteration, the second halves pass only through the part of the zone that counts.
-    pub fn solve_tangent(&mut self, residual: &Trailing, tolerance: f64, keep: f64) -> Equilibrium {
-        let part = self.part_that_counts(residual);
-        let at_rest = (residual.clone(), self.structure.sub.zeros());
-        if let Some(u) = self.solve_by_factor(at_rest, (tolerance, keep), &part) {
-            return self.direction_along(&u, residual, keep);
+/// The part of the zone whose displacements count in a tangent solve: where the material
+/// yields, and where the residual acts.
+fn part_that_counts(solver: &Solver, residual: &Trailing) -> ZonePart {
+    let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
+    solver.zone.mark_active(&mut marks);
+    solver.zone.mark_kept(&mut marks);
+    solver.structure.sub.part_of_zone(&marks)
+}
+
+impl TangentSystem<'_, '_> {
+    /// Solves the system with the factor that there is, or with one that is made once it pays.
+    fn solve(&mut self, residual: &Trailing) -> Equilibrium {
+        let at_rest = (residual.clone(), self.solver.structure.sub.zeros());
+        if let Some(u) = self.solve_by_factor(at_rest) {
+            return self.direction_along(&u, residual);
         }
-        let mut left = self.answer(residual.clone(), &part);
-        let size = tolerance * left.dot(&left).max(0.0).sqrt();
-        if !self.zone.is_symmetric() {
-            return self.conjugate_residuals(left, size, keep, &part);
+        let mut left = self.answer(residual.clone());
+        let size = self.tolerance * left.dot(&left).max(0.0).sqrt();
+        if !self.solver.zone.is_symmetric() {
+            return self.conjugate_residuals(left, size);
         }
         let mut total = Equilibrium::none(residual, left.carried.len());
-        while !self.conjugate_gradients((&mut total, &mut left), size, keep, &part) {
-            if self.factor_tangent(keep) {
+        while !self.conjugate_gradients((&mut total, &mut left), size) {
+            if self.factor() {
                 let so_far = (left.change.initial.load.clone(), total.u.clone());
-                if let Some(u) = self.solve_by_factor(so_far, (tolerance, keep), &part) {
-                    return self.direction_along(&u, residual, keep);
+                if let Some(u) = self.solve_by_factor(so_far) {
+                    return self.direction_along(&u, residual);
                 }
             }
         }
@@ -107,10 +116,9 @@ impl Solver<'_> {
         &mut self,
         (total, z): (&mut Equilibrium, &mut Answered),
         size: f64,
-        keep: f64,
-        part: &ZonePart,
     ) -> bool {
-        let mut softened = self.structure.sub.zeros();
+        let keep = self.keep;
+        let mut softened = self.solver.structure.sub.zeros();
         let mut p = z.change.clone();
         let mut rz = z.dot(z);
         for step in 0..MOST {
@@ -120,7 +128,7 @@ impl Solver<'_> {
             if step >= DIRECT && !self.may_go_on_without_factor() {
                 return false;
             }
-            self.zone.softening_times(&p.u, &mut softened);
+            self.solver.zone.softening_times(&p.u, &mut softened);
             let stiffness = p.initial.load.dot(&p.u);
             let curvature = stiffness - keep * softened.dot(&p.u);
             if curvature <= SINGULAR * stiffness {
@@ -131,8 +139,8 @@ impl Solver<'_> {
             let load = &mut z.change.initial.load;
             load.add(-step, &p.initial.load);
             load.add(step * keep, &softened);
-            self.take_what_closed_pairs_carry(load, &mut z.carried);
-            self.respond_homogeneous(&mut z.change, part);
+            self.take_carried(load, &mut z.carried);
+            self.solver.respond_homogeneous(&mut z.change, &self.part);
             let next = z.dot(z);
             p.scale_and_add(next / rz, &z.change);
             rz = next;
@@ -142,14 +150,8 @@ impl Solver<'_> {
 
     /// Conjugate residuals on the elastic factor, for an unsymmetric tangent, starting from the
     /// residual, until the rest of it is below `size`.
-    fn conjugate_residuals(
-        &mut self,
-        mut z: Answered,
-        size: f64,
-        keep: f64,
-        part: &ZonePart,
-    ) -> Equilibrium {
-        let mut softened = self.structure.sub.zeros();
+    fn conjugate_residuals(&mut self, mut z: Answered, size: f64) -> Equilibrium {
+        let mut softened = self.solver.structure.sub.zeros();
         let mut total = Equilibrium::none(&softened, z.carried.len());
         // The directions, each with its product with the tangent, and the squared size of that
         // product.
@@ -160,10 +162,10 @@ impl Solver<'_> {
                 break;
             }
             let mut p = z.change.clone();
-            self.zone.softening_times(&p.u, &mut softened);
+            self.solver.zone.softening_times(&p.u, &mut softened);
             let mut load = p.initial.load.clone();
-            load.add(-keep, &softened);
-            let mut image = self.answer(load, part);
+            load.add(-self.keep, &softened);
+            let mut image = self.answer(load);
             for (direction, other, square) in &kept {
                 let share = image.dot(other) / square;
                 p.add(-share, direction);
@@ -185,12 +187,12 @@ impl Solver<'_> {
     }
 
     /// The elastic response to a load.
-    fn answer(&mut self, load: Trailing, part: &ZonePart) -> Answered {
-        let mut change = Equilibrium::none(&load, self.now.gap.len());
+    fn answer(&mut self, load: Trailing) -> Answered {
+        let mut change = Equilibrium::none(&load, self.solver.now.gap.len());
         change.initial.load = load;
         let mut carried = vec![0.0; change.gap.len()];
-        self.take_what_closed_pairs_carry(&mut change.initial.load, &mut carried);
-        self.respond_homogeneous(&mut change, part);
+        self.take_carried(&mut change.initial.load, &mut carried);
+        self.solver.respond_homogeneous(&mut change, &self.part);
         Answered { change, carried }
     }
 
@@ -198,32 +200,16 @@ impl Solver<'_> {
     fn complete_direction(&mut self, mut total: Equilibrium, left: &Answered) -> Equilibrium {
         total.add(1.0, &left.change);
         let contact = &mut total.initial.load.contact;
-        let rows = &self.structure.model.rows;
+        let rows = &self.solver.structure.model.rows;
         rows.add_forces(&left.carried, |i, force| contact[i] += force);
         for (k, c) in left.carried.iter().enumerate() {
             // Compressive forces push the two nodes of a pair apart.
             total.initial.forces[k] -= c;
             total.force[k] -= c;
         }
-        let sub = &self.structure.sub;
+        let sub = &self.solver.structure.sub;
         sub.balance_in_bodies(&mut total.initial.forces);
-        self.recover_change(&mut total, &ZonePart::default());
+        self.solver.recover_change(&mut total, &ZonePart::default());
         total
-    }
-
-    /// Subtracts the forces `-B' c` that closed pairs alone carry from a load, and adds them to
-    /// `carried`.
-    pub(super) fn take_what_closed_pairs_carry(&self, load: &mut Trailing, carried: &mut [f64]) {
-        let rows = &self.structure.model.rows;
-        rows.take_carried(&mut load.contact, carried, self.tableau.open());
-    }
-
-    /// The part of the zone whose displacements count in a tangent solve: where the material
-    /// yields, and where the residual acts.
-    fn part_that_counts(&self, residual: &Trailing) -> ZonePart {
-        let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
-        self.zone.mark_active(&mut marks);
-        self.zone.mark_kept(&mut marks);
-        self.structure.sub.part_of_zone(&marks)
     }
 }

@@ -1,7 +1,9 @@
 //! Figures for which a target of the load program waits, read from a state on the way.
 
 use super::unloading::Unloading;
+use crate::analysis::figures::dent::Dent;
 use crate::analysis::figures::measure::ContactFigures;
+use crate::analysis::figures::reading::Reading;
 use crate::analysis::increments::step::Monitor;
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, Result};
@@ -63,20 +65,20 @@ impl<'m> Awaited<'m> {
     pub(super) fn here(&self, solver: &mut Solver) -> Result<f64> {
         let of_contact = |solver: &Solver| -> ContactFigures {
             match self.contact {
-                Some(contact) => solver.contact_figures_of(contact),
-                None => solver.contact_figures(),
+                Some(contact) => ContactFigures::of_contact(solver, contact),
+                None => ContactFigures::of(solver),
             }
         };
         Ok(match self.figure {
             TargetFigure::ResidualDepth => {
-                let dent = solver.reading().dent();
+                let dent = Dent::of(solver);
                 self.body.map_or(dent.depth, |body| dent.by_body[body])
             }
             TargetFigure::ContactForce => of_contact(solver).force * self.model.symmetry,
             TargetFigure::ContactArea => of_contact(solver).area,
             TargetFigure::MaxPressure => of_contact(solver).max_pressure,
             TargetFigure::Approach => {
-                let mut reading = solver.reading();
+                let mut reading = Reading::of(solver);
                 let u = reading.displacements()?.total;
                 reading.approach(&u)
             }

@@ -48,14 +48,14 @@ impl Parts {
 
 /// Writes the checkpoints of a run.
 pub(super) struct CheckpointWriter {
-    pub(super) store: Store,
+    store: Store,
     /// Number of increments from one checkpoint to the next, and (`since`) since the last one.
-    pub(super) every: usize,
-    pub(super) since: usize,
+    every: usize,
+    since: usize,
     pub(super) parts: Parts,
     /// Fingerprint of the factor, with the number of factorisations after which it was computed.
-    pub(super) fingerprint: Option<(usize, u128)>,
-    pub(super) failed: bool,
+    fingerprint: Option<(usize, u128)>,
+    failed: bool,
 }
 
 impl CheckpointWriter {
@@ -73,6 +73,22 @@ impl CheckpointWriter {
     /// Drops the stored start, because the way to the next target starts from another state.
     pub(super) fn forget_start(&mut self) {
         self.parts.start = None;
+    }
+
+    /// Whether a checkpoint is due: after the set number of increments, and once more if the run is
+    /// `stopping`.
+    pub(super) fn is_due(&mut self, new_increments: usize, stopping: bool) -> bool {
+        self.since += new_increments;
+        self.since >= self.every || (stopping && self.since > 0)
+    }
+
+    /// A warning if a checkpoint could not be written. A failure to write does not end the run,
+    /// whose results are worth more; it is reported once.
+    pub(super) fn note(&mut self, outcome: Result<()>) -> Option<String> {
+        let had_failed = std::mem::replace(&mut self.failed, outcome.is_err());
+        let error = outcome.err().filter(|_| !had_failed)?;
+        let error = error.in_full();
+        Some(format!("no checkpoint: {error}; the run goes on"))
     }
 
     pub(super) fn write(

@@ -2,44 +2,21 @@
 //! first yield.
 
 use super::assembled::Analysis;
-use super::legs;
+use super::checkpoints::CheckpointWriter;
 use super::position::Purpose;
 use super::run::Run;
-use super::scout;
+use super::{finish, legs, restart, scout};
 use crate::checkpoint::{Checkpoints, Identity, Store};
 use crate::deck::words;
 use crate::error::{Error, ErrorKind, Result};
 use crate::number::significant;
 use crate::progress::Observer;
-use crate::results::{Incomplete, Results};
+use crate::results::Results;
 
 /// Runs to the end, or as far as possible.
 fn complete(mut run: Run) -> Result<Results> {
     let outcome = run.execute();
-    run.complete(outcome)
-}
-
-impl Run<'_, '_> {
-    /// The results of a run with the given outcome, as far as it came.
-    ///
-    /// # Errors
-    /// The error of the outcome, if there are no results.
-    pub(super) fn complete(self, outcome: Result<()>) -> Result<Results> {
-        let mut results = self.finish();
-        match outcome {
-            Ok(()) => {}
-            Err(error) if results.states.is_empty() && results.history.is_empty() => {
-                return Err(error);
-            }
-            Err(error) => {
-                results.incomplete = Some(Incomplete {
-                    kind: error.kind(),
-                    why: error.in_full(),
-                });
-            }
-        }
-        Ok(results)
-    }
+    finish::results(run, outcome)
 }
 
 impl Analysis {
@@ -93,8 +70,9 @@ impl Analysis {
         self.check_single_leg()?;
         let store = self.store(checkpoints)?;
         let expected = scout::expect(self, observer);
-        let run = Run::new(self, Purpose::Program, expected, observer)?;
-        complete(run.with_checkpoints(store, checkpoints.interval()))
+        let mut run = Run::new(self, Purpose::Program, expected, observer)?;
+        run.checkpoints = Some(CheckpointWriter::new(store, checkpoints.interval()));
+        complete(run)
     }
 
     /// Continues from the last checkpoint and writes further ones. The results are those of an
@@ -114,7 +92,7 @@ impl Analysis {
         self.check_single_leg()?;
         let store = self.store(checkpoints)?;
         let every = checkpoints.interval();
-        let run = Run::resume(self, observer, store, every, scout::expect)?;
+        let run = restart::resume(self, observer, store, every, scout::expect)?;
         complete(run)
     }
 

@@ -5,11 +5,13 @@
 //! position and the state between two steps.
 
 use super::assembled::Analysis;
+use super::first_yield::YieldSearch;
 use super::position::{Purpose, Stage};
 use super::run::Run;
 use super::stopwatch::TimeRow;
 use crate::analysis::choice::zone_choice;
 use crate::analysis::choice::zone_fit::{Expected, ZoneFit};
+use crate::analysis::figures::measure::{ContactFigures, total_load_size};
 use crate::analysis::increments::drive::Drive;
 use crate::analysis::increments::elastic::ElasticDrive;
 use crate::analysis::increments::plastic::PlasticDrive;
@@ -113,6 +115,19 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(())
     }
 
+    /// Writes a checkpoint if one is due.
+    fn write_checkpoint(&mut self, new_increments: usize, stopping: bool) {
+        let Some(writer) = &mut self.checkpoints else {
+            return;
+        };
+        if writer.is_due(new_increments, stopping) {
+            let (start, reported) = (self.start.as_ref(), (&self.results, &self.path));
+            let outcome = writer.write(&self.solver, &self.zone, &self.position, start, reported);
+            let warning = writer.note(outcome);
+            self.warn(warning);
+        }
+    }
+
     /// Goes to the next event; `None` at the end of the program.
     ///
     /// # Errors
@@ -134,10 +149,12 @@ impl<'m, 'o> Run<'m, 'o> {
             } else {
                 match self.position.stage {
                     Stage::Preload { again } => self.prepare(again)?,
-                    Stage::Targets if self.position.target < self.last_target => {
+                    Stage::Targets if self.position.target < self.targets.end => {
                         self.begin_target()?;
                     }
-                    Stage::Targets if self.last_target < self.labels.len() => return Ok(None),
+                    Stage::Targets if self.targets.end < self.targets.n_of_program() => {
+                        return Ok(None);
+                    }
                     Stage::Targets => {
                         if !self.begin_cycle() {
                             return Ok(None);
@@ -171,7 +188,7 @@ impl<'m, 'o> Run<'m, 'o> {
              for fewer increments by {shorter}",
             self.solver.at.alpha,
             self.position.target,
-            self.labels.len(),
+            self.targets.n_of_program(),
             match self.position.cycles.n_done() {
                 0 => String::new(),
                 done => format!(" in cycle {}", done + 1),
@@ -227,7 +244,7 @@ impl<'m, 'o> Run<'m, 'o> {
             row.measured = gauges.read(&mut self.solver)?;
         }
         if row.is_some() {
-            let cycle = self.labels.len().max(1) as f64;
+            let cycle = self.targets.n_of_program().max(1) as f64;
             let cycles = self.model().scene.program.cycles as f64;
             let reached = self.position.target as f64 + self.share_behind(arrival);
             let behind = (self.position.cycles.n_done() as f64 + reached / cycle) / cycles;
@@ -237,6 +254,16 @@ impl<'m, 'o> Run<'m, 'o> {
             self.arrive(stop, arrival)?;
         }
         Ok(row)
+    }
+
+    /// Lets the zone follow the load. Returns whether the monitored quantity vanished by the change
+    /// of the zone.
+    fn follow_load(&mut self) -> Result<bool> {
+        let until = &mut self.position.zone_until;
+        match self.zone.for_load(&self.solver, until) {
+            Some(choice) => self.change_zone(choice),
+            None => Ok(false),
+        }
     }
 
     /// Whether the material has yielded, and may yield in this run.
@@ -311,7 +338,7 @@ impl<'m, 'o> Run<'m, 'o> {
             }
             Arrival::Monitor => self.end_search(),
             Arrival::Yield(peak) => {
-                self.record_yield(peak);
+                self.position.first_yield.record(&self.solver, peak);
                 if self.position.stage == Stage::Targets {
                     let alpha = self.solver.at.alpha;
                     self.position.first_yield.alpha.get_or_insert(alpha);
@@ -333,12 +360,12 @@ impl<'m, 'o> Run<'m, 'o> {
     /// The history row of an accepted increment.
     fn row(&self, report: &IncrementReport) -> HistoryRow {
         let solver = &self.solver;
-        let figures = solver.contact_figures();
+        let figures = ContactFigures::of(solver);
         let (plastic_points, strain) = solver.zone.extent();
         HistoryRow {
             increment: self.results.history.len() + 1,
             alpha: solver.at.alpha,
-            load: solver.total_load_size(),
+            load: total_load_size(solver),
             max_pressure: figures.max_pressure,
             half_width: figures.half_width,
             contact_force: figures.force * solver.structure.model.symmetry,
@@ -389,9 +416,13 @@ impl<'m, 'o> Run<'m, 'o> {
                 "the material yields under the preload, and does not when that is applied anew",
             ));
         }
-        if !self.zone.choice.elements.is_empty() && (required || self.largest_factor().is_some()) {
+        if !self.zone.choice.elements.is_empty()
+            && (required || self.targets.largest_factor().is_some())
+        {
             self.observer.phase("yield load");
-            let under_preload = self.timed(TimeRow::YieldLoad, |run| run.find_yield(required))?;
+            let under_preload = self.timed(TimeRow::YieldLoad, |run| {
+                YieldSearch { run, required }.find()
+            })?;
             if under_preload {
                 self.results.history.clear();
                 self.position.stage = Stage::Preload { again: true };
@@ -414,7 +445,14 @@ impl<'m, 'o> Run<'m, 'o> {
                 )),
             };
         }
-        self.timed(TimeRow::Zone, |run| run.fit_zone())?;
+        // If nothing yields, the elastic path needs no zone.
+        if let Some(at_yield) = self.position.first_yield.alpha {
+            self.timed(TimeRow::Zone, |run| {
+                let (zone, targets) = (&mut run.zone, &run.targets);
+                let choice = zone.for_program(&mut run.solver, targets, at_yield)?;
+                choice.map_or(Ok(()), |choice| run.set_zone(choice))
+            })?;
+        }
         self.observer.phase("load program");
         self.position.stage = Stage::Targets;
         Ok(())

@@ -7,12 +7,13 @@
 //! | `position` | the position of the program between two steps | |
 //! | `path` | the path between increments | |
 //! | `checkpoints` | the contents of a checkpoint | |
+//! | `unloading` | the state that unloading would leave | |
+//! | `leg_targets` | the targets of a leg | |
+//! | `awaited` | figures that a target waits for | |
+//! | `target_search` | the load factor at which a target is met | |
 //! | `run` | a structure on its way through the program | 5.1 |
 //! | `zone_changes` | the zone follows the load | |
 //! | `first_yield` | the load and place of first yield | 3.13, 3.14 |
-//! | `unloading` | the state that unloading would leave | |
-//! | `awaited` | figures that a target waits for | |
-//! | `target_search` | the load factor at which a target is met | |
 //! | `targets` | from the current load to the next target | |
 //! | `finish` | the results of a run at its end | |
 //! | `execution` | the program, event by event | |
@@ -30,6 +31,7 @@ mod entry;
 mod execution;
 mod finish;
 mod first_yield;
+mod leg_targets;
 mod legs;
 mod path;
 pub(super) mod position;

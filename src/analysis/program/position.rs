@@ -3,11 +3,16 @@
 use super::cycles::CycleRecord;
 use super::stopwatch::Stopwatch;
 use crate::analysis::figures::deformation::Deformation;
+use crate::analysis::figures::measure::{ContactFigures, total_load_size};
 use crate::analysis::increments::drive::Drive;
-use crate::analysis::stress::recovery::Watched;
+use crate::analysis::stress::recovery::{RecoveredPeak, Watched};
+use crate::analysis::structure::solver::Solver;
 use crate::analysis::structure::state::State;
 use crate::results::YieldPoint;
 use serde::{Deserialize, Serialize};
+
+/// Most doublings of the load in the search for first yield or for a target.
+pub(super) const DOUBLINGS: usize = 60;
 
 /// The position of the load program between two steps. The rest of the program depends only on this
 /// position, on the state of the structure, and on the state at the start of the way to the target.
@@ -90,6 +95,32 @@ pub(super) struct TargetSearch {
 }
 
 impl TargetSearch {
+    /// A search that begins at a load factor: from here on, the load factor moves up (doubling) or
+    /// down to zero until the monitored quantity, which is `off` now, vanishes.
+    pub(super) fn new(alpha: f64, off: f64, upward: bool, scale: f64) -> Self {
+        TargetSearch {
+            end: alpha,
+            rounds: 0,
+            upward,
+            scale,
+            at_first: off.abs(),
+        }
+    }
+
+    /// Goes on to the next load factor, the first of which is at least `begun`. Returns false if
+    /// there is none.
+    pub(super) fn widen(&mut self, begun: f64) -> bool {
+        let next = match (self.upward, self.end > 0.0) {
+            _ if self.rounds == DOUBLINGS => return false,
+            (true, _) => 2.0 * self.end.max(begun),
+            (false, true) => 0.0,
+            (false, false) => return false,
+        };
+        self.end = next;
+        self.rounds += 1;
+        true
+    }
+
     /// Share of the way that lies behind, for a value of the monitored quantity.
     pub(super) fn share_behind(&self, monitored: f64) -> f64 {
         within_0_and_1(1.0 - monitored.abs() / self.at_first)
@@ -112,6 +143,21 @@ pub(super) struct FirstYield {
 }
 
 impl FirstYield {
+    /// Records that the material yields in the current state.
+    pub(super) fn record(&mut self, solver: &Solver, peak: RecoveredPeak) {
+        let figures = ContactFigures::of(solver);
+        self.is_behind = true;
+        self.point.get_or_insert(YieldPoint {
+            alpha: solver.at.alpha,
+            load: total_load_size(solver),
+            max_pressure: figures.max_pressure,
+            half_width: figures.half_width,
+            half_width_reading: figures.half_width_reading,
+            location: peak.location,
+            body: peak.body,
+        });
+    }
+
     /// Whether the structure is known to stay elastic between two load factors.
     pub(super) fn excludes(&self, from: f64, to: f64) -> bool {
         let [low, high] = self.elastic_range;

@@ -1,4 +1,4 @@
-//! Checkpoints of a run, and resuming from them.
+//! Resuming a run from its last checkpoint.
 //!
 //! A checkpoint is the position in the program with the state of the structure. Everything that
 //! follows from the model (the factor, the condensed loads and matrices, the places of freedoms) is
@@ -19,112 +19,76 @@ use crate::progress::Observer;
 use crate::results::{HistoryRow, PathPoint, Results, State};
 use std::time::Instant;
 
-impl<'m, 'o> Run<'m, 'o> {
-    /// Returns this run, set up to write a checkpoint at every `every`-th increment.
-    pub(super) fn with_checkpoints(self, store: Store, every: usize) -> Self {
-        Run {
-            checkpoints: Some(CheckpointWriter::new(store, every)),
-            ..self
-        }
+/// Sets up the run from its last checkpoint.
+///
+/// # Errors
+/// Errors of [`Store::read`] and
+/// [`SolverRecord::recall`](crate::analysis::structure::record::SolverRecord::recall).
+pub(super) fn resume<'m, 'o>(
+    analysis: &'m Analysis,
+    observer: &'o mut dyn Observer,
+    store: Store,
+    every: usize,
+    expect: fn(&Analysis, &mut dyn Observer) -> Option<Expected>,
+) -> Result<Run<'m, 'o>> {
+    let model = &analysis.model;
+    let mut record: RunRecord = store.read()?;
+    observer.model(model.freedoms.n, model.pairs.len());
+    observer.phase("factorisation");
+    let begin = Instant::now();
+    let (system, backend) = (&analysis.system, analysis.backend);
+    let (solver, same) = record.solver.recall(model, system, backend)?;
+    let mut results = results_of(&mut record, &store)?;
+    results.timings.clone_from(&analysis.timings);
+    results.warnings.clone_from(&model.warnings);
+    results.bodies.clone_from(&model.mesh.bodies);
+    if !same {
+        results.warnings.push(
+            "resumed with a factorisation that differs in its last digits (another BLAS or \
+             number of its threads or of ranks): results agree with those of an uninterrupted \
+             run to round-off, not bit for bit"
+                .to_string(),
+        );
     }
-
-    /// Writes a checkpoint if one is due: after the set number of increments, and once more if the
-    /// run is `stopping`. A failure to write does not end the run, whose results are worth more; it
-    /// is reported once.
-    pub(super) fn write_checkpoint(&mut self, new_increments: usize, stopping: bool) {
-        let Some(writer) = &mut self.checkpoints else {
-            return;
-        };
-        writer.since += new_increments;
-        if writer.since < writer.every && !(stopping && writer.since > 0) {
-            return;
-        }
-        let start = self.start.as_ref();
-        let reported = (&self.results, &self.path);
-        match writer.write(&self.solver, &self.zone, &self.position, start, reported) {
-            Ok(()) => writer.failed = false,
-            Err(error) if !writer.failed => {
-                writer.failed = true;
-                let text = format!("no checkpoint: {}; the run goes on", error.in_full());
-                self.observer.warning(&text);
-                self.results.warnings.push(text);
-            }
-            Err(_) => {}
-        }
+    for warning in &results.warnings {
+        observer.warning(warning);
     }
-
-    /// Sets up the run from its last checkpoint.
-    ///
-    /// # Errors
-    /// Errors of [`Store::read`] and
-    /// [`SolverRecord::recall`](crate::analysis::structure::record::SolverRecord::recall).
-    pub(super) fn resume(
-        analysis: &'m Analysis,
-        observer: &'o mut dyn Observer,
-        store: Store,
-        every: usize,
-        expect: fn(&Analysis, &mut dyn Observer) -> Option<Expected>,
-    ) -> Result<Self> {
-        let model = &analysis.model;
-        let mut record: RunRecord = store.read()?;
-        observer.model(model.freedoms.n, model.pairs.len());
-        observer.phase("factorisation");
-        let begin = Instant::now();
-        let (system, backend) = (&analysis.system, analysis.backend);
-        let (solver, same) = record.solver.recall(model, system, backend)?;
-        let mut results = results_of(&mut record, &store)?;
-        results.timings.clone_from(&analysis.timings);
-        results.warnings.clone_from(&model.warnings);
-        results.bodies.clone_from(&model.mesh.bodies);
-        if !same {
-            results.warnings.push(
-                "resumed with a factorisation that differs in its last digits (another BLAS or \
-                 number of its threads or of ranks): results agree with those of an uninterrupted \
-                 run to round-off, not bit for bit"
-                    .to_string(),
-            );
-        }
-        for warning in &results.warnings {
-            observer.warning(warning);
-        }
-        observer.phase(&format!(
-            "going on after increment {}, load factor {:.6}",
-            results.history.len(),
-            solver.at.alpha
+    observer.phase(&format!(
+        "going on after increment {}, load factor {:.6}",
+        results.history.len(),
+        solver.at.alpha
+    ));
+    let (elements, guard) = record.solver.choice();
+    let mut zone = ZoneFit::new(Choice { elements, guard });
+    if let Some(part) = record.parts.spread {
+        zone.spread = Some(store.part_of(part)?);
+    }
+    if let Stage::Preload { .. } = record.position.stage {
+        zone.expected = expect(analysis, observer).map(|expected| expected.ratios);
+    }
+    let start: Option<Start> = match record.parts.start {
+        Some(part) => Some(store.part_of(part)?),
+        None => None,
+    };
+    if !fits(&record.position, &results, start.as_ref(), &solver) {
+        return Err(Error::input(
+            "the checkpoint does not belong to the program's targets: run the scene again from \
+             its beginning",
         ));
-        let (elements, guard) = record.solver.choice();
-        let mut zone = ZoneFit::new(Choice { elements, guard });
-        if let Some(part) = record.parts.spread {
-            zone.spread = Some(store.part_of(part)?);
-        }
-        if let Stage::Preload { .. } = record.position.stage {
-            zone.expected = expect(analysis, observer).map(|expected| expected.ratios);
-        }
-        let start: Option<Start> = match record.parts.start {
-            Some(part) => Some(store.part_of(part)?),
-            None => None,
-        };
-        if !fits(&record.position, &results, start.as_ref(), &solver) {
-            return Err(Error::input(
-                "the checkpoint does not belong to the program's targets: run the scene again from \
-                 its beginning",
-            ));
-        }
-        let mut run = Run::of(solver, zone, results, observer);
-        run.path = record.sampler;
-        run.position = record.position;
-        run.follow_sets()?;
-        run.position.seconds = run.position.seconds.running_since(begin);
-        run.start = start;
-        if let Some(search) = run.position.search {
-            run.monitor = Some(run.monitor_of(search.scale)?);
-        }
-        run.checkpoints = Some(CheckpointWriter {
-            parts: record.parts,
-            ..CheckpointWriter::new(store, every)
-        });
-        Ok(run)
     }
+    let mut run = Run::of(solver, zone, results, observer);
+    run.path = record.sampler;
+    run.position = record.position;
+    run.follow_sets()?;
+    run.position.seconds = run.position.seconds.running_since(begin);
+    run.start = start;
+    if let Some(search) = run.position.search {
+        run.monitor = Some(run.goal().monitor(search.scale)?);
+    }
+    let mut writer = CheckpointWriter::new(store, every);
+    writer.parts = record.parts;
+    run.checkpoints = Some(writer);
+    Ok(run)
 }
 
 /// Collects the states, rows and points of the path of a checkpoint.

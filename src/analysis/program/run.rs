@@ -1,23 +1,23 @@
 //! A structure on its way through the load program.
 
 use super::checkpoints::CheckpointWriter;
+use super::leg_targets::LegTargets;
 use super::path::PathSampler;
 use super::position::{Position, Purpose, Start};
 use super::stopwatch::TimeRow;
+use super::target_search::Goal;
+use crate::analysis::choice::zone_choice::Choice;
 use crate::analysis::choice::zone_fit::ZoneFit;
 use crate::analysis::figures::gauges::Gauges;
-use crate::analysis::increments::step::Monitor;
+use crate::analysis::increments::step::{Monitor, crosses};
 use crate::analysis::structure::solver::Solver;
 use crate::error::Result;
 use crate::model::Model;
 use crate::progress::Observer;
 use crate::results::{Quality, Results};
-use crate::scene::Target;
 use std::cell::Cell;
 use std::rc::Rc;
 
-/// Most doublings of the load in the search for first yield or for a target.
-pub(super) const DOUBLINGS: usize = 60;
 /// Most choices of the zone that are tried for a target, or in the search for the place of first
 /// yield.
 pub(super) const ZONE_ATTEMPTS: usize = 8;
@@ -35,10 +35,7 @@ pub(in crate::analysis) struct Run<'m, 'o> {
     pub(super) unloads_outside: Rc<Cell<bool>>,
     /// Gauges for the additional columns of the history.
     pub(super) gauges: Option<Gauges>,
-    /// Number of targets of the program up to the end of the leg.
-    pub(super) last_target: usize,
-    /// Names of the targets.
-    pub(super) labels: Vec<String>,
+    pub(super) targets: LegTargets<'m>,
     pub(super) observer: &'o mut dyn Observer,
     pub(super) results: Results,
     /// The path between the rows of the history.
@@ -58,8 +55,7 @@ impl<'m, 'o> Run<'m, 'o> {
         observer: &'o mut dyn Observer,
     ) -> Self {
         Run {
-            last_target: solver.structure.model.targets_up_to_end_of_leg(),
-            labels: solver.structure.model.scene.program.labels(),
+            targets: LegTargets::of(solver.structure.model),
             solver,
             zone,
             position: Position::default(),
@@ -102,17 +98,46 @@ impl<'m, 'o> Run<'m, 'o> {
         self.results.warnings.push(text);
     }
 
-    /// The program's targets up to the end of the leg.
-    pub(super) fn targets_of_leg(&self) -> &'m [Target] {
-        &self.model().scene.program.targets[..self.last_target]
+    /// What the current target asks for.
+    pub(super) fn goal(&self) -> Goal<'m> {
+        let at_yield = self.position.first_yield.point;
+        Goal {
+            model: self.model(),
+            target: self.targets.target(self.position.target),
+            label: self.targets.label(self.position.target).to_string(),
+            half_width_at_yield: at_yield.map(|y| y.half_width).filter(|b| *b > 0.0),
+            unloads_outside: Rc::clone(&self.unloads_outside),
+        }
     }
 
-    /// The largest absolute load factor among the targets, if there is one.
-    pub(super) fn largest_factor(&self) -> Option<f64> {
-        self.targets_of_leg()
-            .iter()
-            .filter_map(|t| t.load_factor)
-            .map(f64::abs)
-            .reduce(f64::max)
+    /// Changes the zone; state and history are kept.
+    pub(super) fn set_zone(&mut self, choice: Choice) -> Result<()> {
+        if choice == self.zone.choice {
+            return Ok(());
+        }
+        self.zone.forget_recovery();
+        self.timed(TimeRow::Condensation, |run| {
+            let elements = choice.elements.clone();
+            run.solver.set_zone(elements, &choice.guard)
+        })?;
+        self.zone.choice = choice;
+        Ok(())
+    }
+
+    /// Changes the zone in the middle of a drive. The state is brought into equilibrium again,
+    /// within the tolerance, and this may be all that was missing: returns whether the monitored
+    /// quantity vanished.
+    pub(super) fn change_zone(&mut self, choice: Choice) -> Result<bool> {
+        let measure = |run: &mut Self| match &run.monitor {
+            Some(monitor) => monitor(&mut run.solver).map(Some),
+            None => Ok(None),
+        };
+        if choice == self.zone.choice {
+            return Ok(false);
+        }
+        let was = measure(self)?;
+        self.set_zone(choice)?;
+        let is = measure(self)?;
+        Ok(was.zip(is).is_some_and(|(was, is)| crosses(was, is)))
     }
 }

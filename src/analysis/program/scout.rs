@@ -10,6 +10,7 @@
 use super::assembled::Analysis;
 use super::position::Purpose;
 use super::run::Run;
+use super::zone_changes::elastic_ratios;
 use crate::analysis::choice::zone_choice::{place_of_first_yield, predict};
 use crate::analysis::choice::zone_fit::Expected;
 use crate::balls::Balls;
@@ -53,11 +54,18 @@ pub(super) fn expect(analysis: &Analysis, observer: &mut dyn Observer) -> Option
     yields.then_some(Expected { ratios, since })
 }
 
+/// Ratio of elastic von Mises stress to yield stress of each element: the larger of the values at
+/// first yield and at the program's extreme loads. `None` if nothing yields.
 fn on_its_own_mesh(analysis: &Analysis, observer: &mut dyn Observer) -> Result<Option<Vec<f64>>> {
     let mut quiet = UntilStopped(observer);
     let mut run = Run::new(analysis, Purpose::Zone, None, &mut quiet)?;
     run.execute()?;
-    run.ratios_at_extremes()
+    let Some(at_yield) = run.position.first_yield.alpha else {
+        return Ok(None);
+    };
+    let mut factors = run.targets.extreme_factors(at_yield);
+    factors.push(at_yield);
+    elastic_ratios(&mut run.solver, &factors).map(Some)
 }
 
 /// Carries values from one mesh to another: each element gets the value of the nearest element of

@@ -5,42 +5,68 @@ use super::run::{Run, ZONE_ATTEMPTS};
 use super::stopwatch::TimeRow;
 use crate::analysis::check::seconds::gaps_are_alike;
 use crate::analysis::choice::zone_choice;
+use crate::analysis::figures::reading::Reading;
 use crate::analysis::increments::step::Arrival;
 use crate::analysis::stress::recovery::Watched;
-use crate::error::{Error, Result};
-use crate::model::Magnitude;
+use crate::error::{Error, ErrorKind, Result};
+use crate::model::{Magnitude, Model};
 use crate::results;
-use crate::scene::{Kind, Stepping, Target, Unit};
+use crate::scene::{Kind, Stepping, Unit};
 
-impl<'m> Run<'m, '_> {
+impl Run<'_, '_> {
     /// Begins the way to the next target.
     pub(super) fn begin_target(&mut self) -> Result<()> {
         self.set_start();
-        let (target, label) = self.target();
-        if target.first_yield {
+        let goal = self.goal();
+        if goal.target.first_yield {
             let alpha = self.position.first_yield.alpha.ok_or_else(|| {
                 Error::analysis(format!(
-                    "target `{label}`: no yield load was found before the program's largest load \
-                     factor"
+                    "target `{}`: no yield load was found before the program's largest load factor",
+                    goal.label
                 ))
             })?;
             self.position.stops = self.stops(alpha);
-        } else if let Some(alpha) = target.load_factor {
+        } else if let Some(alpha) = goal.target.load_factor {
             self.position.stops = self.stops(alpha);
-        } else if target.finds_load() {
-            self.search_figure()?;
-        } else if let Some(goal) = &target.displacement {
-            let off = self.monitor_of(1.0)?(&mut self.solver)?;
-            let largest = goal.value.abs().max(off.abs());
-            let scale = if largest > 0.0 { largest } else { 1.0 };
-            let monitor = self.monitor_of(scale)?;
-            let here = off / scale;
-            let ahead = self.a_little_ahead(&monitor)?;
-            self.search(monitor, here, (ahead - here) * here <= 0.0, scale);
-        } else {
-            return Err(Error::input(format!("target `{label}` has no condition")));
+        } else if let Some((monitor, search)) = goal.search(&mut self.solver)? {
+            self.monitor = Some(monitor);
+            self.position.search = Some(search);
         }
         Ok(())
+    }
+
+    /// Begins the way to the next load factor of a search.
+    pub(super) fn widen_search(&mut self) -> Result<()> {
+        let begun = 0.5 * self.position.first_yield.alpha.unwrap_or(1.0);
+        let Some(search) = &mut self.position.search else {
+            return Ok(());
+        };
+        if !search.widen(begun) {
+            return Err(self.goal().never_reached(&mut self.solver));
+        }
+        let next = search.end;
+        self.position.stops = self.stops(next);
+        Ok(())
+    }
+
+    /// Ends the search, because the monitored quantity has vanished.
+    pub(super) fn end_search(&mut self) {
+        self.position.search = None;
+        self.position.stops.clear();
+    }
+
+    /// The error that ended the way to a target, with the values reached if the target is searched
+    /// for.
+    pub(super) fn not_reached(&mut self, error: Error) -> Error {
+        let ends = matches!(
+            error.kind(),
+            ErrorKind::Collapse | ErrorKind::Outgrown | ErrorKind::Analysis
+        );
+        let is_target = self.position.target < self.targets.n_of_program();
+        if self.position.search.is_none() || !is_target || !ends {
+            return error;
+        }
+        self.goal().not_reached(error, &mut self.solver)
     }
 
     /// Begins the next cycle after the last target of a cycle. Returns whether there is a next
@@ -72,52 +98,25 @@ impl<'m> Run<'m, '_> {
         }
     }
 
-    /// The current target and its name.
-    pub(super) fn target(&self) -> (&'m Target, String) {
-        let index = self.position.target;
-        let target = &self.model().scene.program.targets[index];
-        (target, self.labels[index].clone())
-    }
-
-    /// Whether the reported load, and whether the approach, are given by the load factor alone:
-    /// without the yield load and without the response of the bodies.
-    fn given_by_factor(&self) -> [bool; 2] {
-        let model = self.model();
-        let is_known = model.scene.program.unit != Unit::Yield;
-        let leading = model.leading_load();
-        let measures = leading.map(|leading| model.loads[leading].measures);
-        let of_load = |of: Magnitude| match of {
-            Magnitude::Displacement | Magnitude::Gap => false,
-            Magnitude::Force
-            | Magnitude::Stress
-            | Magnitude::Temperature
-            | Magnitude::Strain
-            | Magnitude::Carried => true,
-        };
-        [
-            is_known && measures.is_some_and(of_load),
-            is_known && measures == Some(Magnitude::Displacement),
-        ]
-    }
-
     /// Takes the state at a target that was reached. The guard layer sees only yielding that grows
     /// out of the zone. If the state shows stress beyond yield elsewhere, the zone is widened to
     /// include it, and the way to the target is repeated. The way is also repeated if the state is
     /// elastic by the recovered stress and a Gauss point is beyond yield: from then on, the Gauss
     /// points are watched.
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
-        let (target, label) = self.target();
+        let goal = self.goal();
+        let (target, label) = (goal.target, &goal.label);
         let mut figures = self.timed(TimeRow::States, |run| {
-            let figures = run.solver.reading().figures(&label, target.fields)?;
+            let figures = Reading::of(&mut run.solver).figures(label, target.fields)?;
             let seconds = &mut run.position.seconds;
             seconds.hand_over(figures.stress_seconds, TimeRow::Stresses);
             Ok::<_, Error>(figures)
         })?;
         if target.load_factor.is_some() {
             let state = &mut figures.state;
-            [state.load_is_given, state.approach_is_given] = self.given_by_factor();
+            [state.load_is_given, state.approach_is_given] = given_by_factor(self.model());
         }
-        let passed = self.passed_in_a_jump()?;
+        let passed = goal.passed_in_a_jump(self.monitor.as_deref(), &mut self.solver)?;
         self.monitor = None;
         let unloads_outside = std::mem::take(&mut self.unloads_outside).take();
         let missed = figures.beyond_yield_outside;
@@ -132,7 +131,7 @@ impl<'m> Run<'m, '_> {
             self.position.target += 1;
             self.position.attempt = 0;
             let (model, of) = (self.solver.structure.model, &mut self.position.deformation);
-            of.take(&model.mesh, &label, &figures.deformation);
+            of.take(&model.mesh, label, &figures.deformation);
             let is_last = self
                 .position
                 .cycles
@@ -200,25 +199,44 @@ impl<'m> Run<'m, '_> {
                 search.share_behind(monitored.unwrap_or(f64::NAN))
             }
             (None, Some(&to)) => {
-                let power = self.changes_by_load();
+                let power = changes_by_load(self.model());
                 share_of_way(self.solver.at.alpha, start.state.at.alpha, to, power)
             }
             (None, None) => 1.0,
         }
     }
+}
 
-    /// Power of the load over which increments are spread evenly. If increments end at changes of
-    /// contact and the contact grows pair by pair, it is the power with which the width of Hertz's
-    /// contact grows.
-    fn changes_by_load(&self) -> f64 {
-        let model = self.model();
-        let mut contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
-        let grows = model.scene.stepping() != Stepping::Steps
-            && contacts.any(|pairs| !gaps_are_alike(pairs));
-        match (grows, model.kind) {
-            (false, _) => 1.0,
-            (true, Kind::Axisymmetric) => 1.0 / 3.0,
-            (true, _) => 0.5,
-        }
+/// Whether the reported load, and whether the approach, are given by the load factor alone:
+/// without the yield load and without the response of the bodies.
+fn given_by_factor(model: &Model) -> [bool; 2] {
+    let is_known = model.scene.program.unit != Unit::Yield;
+    let leading = model.leading_load();
+    let measures = leading.map(|leading| model.loads[leading].measures);
+    let of_load = |of: Magnitude| match of {
+        Magnitude::Displacement | Magnitude::Gap => false,
+        Magnitude::Force
+        | Magnitude::Stress
+        | Magnitude::Temperature
+        | Magnitude::Strain
+        | Magnitude::Carried => true,
+    };
+    [
+        is_known && measures.is_some_and(of_load),
+        is_known && measures == Some(Magnitude::Displacement),
+    ]
+}
+
+/// Power of the load over which increments are spread evenly. If increments end at changes of
+/// contact and the contact grows pair by pair, it is the power with which the width of Hertz's
+/// contact grows.
+fn changes_by_load(model: &Model) -> f64 {
+    let mut contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
+    let grows =
+        model.scene.stepping() != Stepping::Steps && contacts.any(|pairs| !gaps_are_alike(pairs));
+    match (grows, model.kind) {
+        (false, _) => 1.0,
+        (true, Kind::Axisymmetric) => 1.0 / 3.0,
+        (true, _) => 0.5,
     }
 }

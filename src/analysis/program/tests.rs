@@ -2,9 +2,9 @@
 //! first yield, loads that fall or turn, yielding far from the contact.
 
 use super::assembled::Analysis;
-use super::position::Purpose;
-use super::position::Start;
+use super::position::{Purpose, Start, TargetSearch};
 use super::run::Run;
+use crate::analysis::increments::tangent::solve_tangent;
 use crate::analysis::structure::record::knows;
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, ErrorKind};
@@ -264,7 +264,9 @@ fn a_search_ends_with_the_error_of_what_it_looks_at() {
             }
             Ok(solver.at.alpha - 0.9)
         };
-        run.search(Box::new(monitor), 0.6, true, 1.0);
+        run.monitor = Some(Box::new(monitor));
+        let alpha = run.solver.at.alpha;
+        run.position.search = Some(TargetSearch::new(alpha, 0.6, true, 1.0));
         while run.position.search.is_some() {
             run.next()?;
         }
@@ -398,7 +400,7 @@ targets = [{ load_factor = 1.0 }, { load_factor = 1.3 }]
     let mut residual = zeros.clone();
     let values = residual.zone.iter_mut().enumerate();
     values.for_each(|(i, r)| *r = ((i * i) as f64).sin());
-    let direction = solver.solve_tangent(&residual, 1e-10, 1.0);
+    let direction = solve_tangent(solver, &residual, 1e-10, 1.0);
     solver.zone.softening_times(&direction.u, &mut taken);
     let mut left = direction.initial.load.clone();
     left.add(-1.0, &taken);

@@ -23,144 +23,128 @@ const DRIVEN: f64 = 1e-6;
 /// stiffness, the force that springs bear falls by four orders of magnitude each time.
 const MOST_TIMES: usize = 8;
 
-impl Solver<'_> {
-    /// Moves each body that no contact force holds rigidly until it touches, under the first bit of
-    /// the load towards `end`; the load path goes on from there. Springs hold motions that the load
-    /// does not drive.
-    ///
-    /// # Errors
-    /// A load that drives a body away from every contact.
-    pub(in crate::analysis) fn move_loose_bodies(&mut self, end: &LoadPoint) -> Result<()> {
-        self.let_springs_go(MOVES);
-        let terms = self.structure.closed_forces_size(&self.at);
-        let of_one = self.tableau.force_tolerance(&[terms], &self.now.gap);
-        let nothing = self.round_off_of_contact().max(of_one);
-        let force = &self.now.force;
-        let is_loose = |pairs: &[usize]| pairs.iter().map(|&k| force[k]).sum::<f64>() <= nothing;
-        let loose = self.structure.sub.rigid_slips(is_loose);
-        if loose.is_empty() {
-            return Ok(());
-        }
-        let matrix = self.structure.sub.pair_matrix();
-        let [here, there] = [&self.at, end].map(|point| self.structure.closed_forces(point));
-        let mut springs = self.springs.to_vec();
-        let mut anew: Vec<usize> = Vec::new();
-        for (pairs, slips) in loose {
-            let of = |value: &dyn Fn(usize) -> f64| {
-                DVector::from_iterator(pairs.len(), pairs.iter().map(|&k| value(k)))
-            };
-            let rate = of(&|k| there[k] - here[k]);
-            let terms = of(&|k| there[k].abs() + here[k].abs());
-            let from = of(&|k| self.now.gap[k]);
-            let mut gap = from.clone();
-            let free = come_to_rest(&slips, [&rate, &terms], &mut gap)
-                .map_err(|u| self.structure.unbounded(pairs[u.pair], self.at.alpha))?;
-            for (&k, &gap) in pairs.iter().zip(gap.iter()).filter(|_| gap != from) {
-                self.now.gap[k] = gap;
-                self.now.force[k] = 0.0;
-            }
-            let own = (free.ncols() > 0)
-                .then(|| Springs::new(matrix, pairs, &(&slips * free), &self.now.gap));
-            let known = springs.iter().position(|other| other.pairs() == pairs);
-            let as_stiff = match (known, &own) {
-                (Some(at), Some(own)) => springs[at].as_stiff_as(own),
-                (None, None) => true,
-                _ => false,
-            };
-            if gap != from || !as_stiff {
-                anew.extend_from_slice(pairs);
-            }
-            match (known, own) {
-                (Some(at), Some(own)) => springs[at] = own,
-                (Some(at), None) => drop(springs.remove(at)),
-                (None, own) => springs.extend(own),
-            }
-        }
-        self.set_springs(&Arc::from(springs));
-        if !anew.is_empty() {
-            let mut open = self.tableau.open().to_vec();
-            anew.into_iter()
-                .for_each(|k| open[k] = self.now.gap[k] > 0.0);
-            self.tableau.reset(&open);
-        }
-        Ok(())
+/// Moves each body that no contact force holds rigidly until it touches, under the first bit of
+/// the load towards `end`; the load path goes on from there. Springs hold motions that the load
+/// does not drive.
+///
+/// # Errors
+/// A load that drives a body away from every contact.
+pub(in crate::analysis) fn move_loose_bodies(solver: &mut Solver, end: &LoadPoint) -> Result<()> {
+    let_springs_go(solver, MOVES);
+    let terms = solver.structure.closed_forces_size(&solver.at);
+    let of_one = solver.tableau.force_tolerance(&[terms], &solver.now.gap);
+    let nothing = solver.round_off_of_contact().max(of_one);
+    let force = &solver.now.force;
+    let is_loose = |pairs: &[usize]| pairs.iter().map(|&k| force[k]).sum::<f64>() <= nothing;
+    let loose = solver.structure.sub.rigid_slips(is_loose);
+    if loose.is_empty() {
+        return Ok(());
     }
-
-    /// Finds the equilibrium without springs: a body that contact holds weakly, or that has not yet
-    /// reached the pair that stops it, moves on until the springs bear nothing.
-    ///
-    /// # Errors
-    /// A load that drives a body away from every contact.
-    pub(in crate::analysis) fn settle_springs(&mut self) -> Result<()> {
-        for _ in 0..MOST_TIMES {
-            self.let_springs_go(NOTHING);
-            let bear = self.springs_bear(SETTLED);
-            if !bear && !self.is_beyond_contact() {
-                break;
-            }
-            if bear {
-                self.refuse_motion_without_end()?;
-            }
-            self.solve_contact_at(&self.at.clone())?;
+    let matrix = solver.structure.sub.pair_matrix();
+    let [here, there] = [&solver.at, end].map(|point| solver.structure.closed_forces(point));
+    let mut springs = solver.springs.to_vec();
+    let mut anew: Vec<usize> = Vec::new();
+    for (pairs, slips) in loose {
+        let of = |value: &dyn Fn(usize) -> f64| {
+            DVector::from_iterator(pairs.len(), pairs.iter().map(|&k| value(k)))
+        };
+        let rate = of(&|k| there[k] - here[k]);
+        let terms = of(&|k| there[k].abs() + here[k].abs());
+        let from = of(&|k| solver.now.gap[k]);
+        let mut gap = from.clone();
+        let free = come_to_rest(&slips, [&rate, &terms], &mut gap)
+            .map_err(|u| solver.structure.unbounded(pairs[u.pair], solver.at.alpha))?;
+        for (&k, &gap) in pairs.iter().zip(gap.iter()).filter(|_| gap != from) {
+            solver.now.gap[k] = gap;
+            solver.now.force[k] = 0.0;
         }
-        Ok(())
-    }
-
-    /// Whether a gap or a contact force is negative by more than round-off, with springs at work.
-    fn is_beyond_contact(&self) -> bool {
-        let [gap, force] = [self.scales.displacement, self.scales.force].map(|s| -1e-10 * s);
-        let least = |of: &[f64]| of.iter().copied().fold(0.0, f64::min);
-        !self.springs.is_empty() && (least(&self.now.gap) < gap || least(&self.now.force) < force)
-    }
-
-    /// Releases springs that bear more than a fraction of the largest force: makes them free of
-    /// force at the current gaps, so that their bodies stay where they are. A body that contact
-    /// holds weakly then moves on under the force that its spring has borne.
-    pub(super) fn let_springs_go(&mut self, share: f64) {
-        for _ in 0..MOST_TIMES {
-            if !self.springs_bear(share) {
-                return;
-            }
-            let springs = self.springs.iter();
-            self.springs = springs.map(|own| own.moved_to(&self.now.gap)).collect();
-            self.fresh = false;
-            self.refresh();
+        let own = (free.ncols() > 0)
+            .then(|| Springs::new(matrix, pairs, &(&slips * free), &solver.now.gap));
+        let known = springs.iter().position(|other| other.pairs() == pairs);
+        let as_stiff = match (known, &own) {
+            (Some(at), Some(own)) => springs[at].as_stiff_as(own),
+            (None, None) => true,
+            _ => false,
+        };
+        if gap != from || !as_stiff {
+            anew.extend_from_slice(pairs);
+        }
+        match (known, own) {
+            (Some(at), Some(own)) => springs[at] = own,
+            (Some(at), None) => drop(springs.remove(at)),
+            (None, own) => springs.extend(own),
         }
     }
-
-    /// Whether nothing but springs holds a body.
-    pub(in crate::analysis) fn springs_hold_a_body(&self) -> bool {
-        let open = self.tableau.open();
-        let mut springs = self.springs.iter();
-        springs.any(|own| own.pairs().iter().all(|&k| open[k]))
+    solver.set_springs(&Arc::from(springs));
+    if !anew.is_empty() {
+        let mut open = solver.tableau.open().to_vec();
+        anew.into_iter()
+            .for_each(|k| open[k] = solver.now.gap[k] > 0.0);
+        solver.tableau.reset(&open);
     }
+    Ok(())
+}
 
-    /// Whether a spring bears more than a fraction of the largest force.
-    pub(in crate::analysis) fn springs_bear(&self, share: f64) -> bool {
-        let gap = &self.now.gap;
-        let forces = self.springs.iter().map(|own| own.largest_force(gap));
-        forces.fold(0.0, f64::max) > share * self.scales.force
-    }
-
-    /// Refuses a state in which springs stop a driven body and no pair would stop it.
-    ///
-    /// # Errors
-    /// A load that drives a body away from every contact.
-    pub(in crate::analysis) fn refuse_driven_bodies(&self) -> Result<()> {
-        match self.springs_bear(DRIVEN) {
-            true => self.refuse_motion_without_end(),
-            false => Ok(()),
+/// Finds the equilibrium without springs: a body that contact holds weakly, or that has not yet
+/// reached the pair that stops it, moves on until the springs bear nothing.
+///
+/// # Errors
+/// A load that drives a body away from every contact.
+pub(in crate::analysis) fn settle_springs(solver: &mut Solver) -> Result<()> {
+    for _ in 0..MOST_TIMES {
+        let_springs_go(solver, NOTHING);
+        let bear = solver.springs_bear(SETTLED);
+        if !bear && !is_beyond_contact(solver) {
+            break;
         }
-    }
-
-    fn refuse_motion_without_end(&self) -> Result<()> {
-        let of_all = self.structure.closed_forces(&self.at);
-        for (pairs, slips) in self.structure.sub.rigid_slips(|_| true) {
-            let [load, mut gap] = [&of_all, &self.now.gap]
-                .map(|of| DVector::from_iterator(pairs.len(), pairs.iter().map(|&k| of[k])));
-            come_to_rest(&slips, [&load, &load], &mut gap)
-                .map_err(|u| self.structure.unbounded(pairs[u.pair], self.at.alpha))?;
+        if bear {
+            refuse_motion_without_end(solver)?;
         }
-        Ok(())
+        solver.solve_contact_at(&solver.at.clone())?;
     }
+    Ok(())
+}
+
+/// Whether a gap or a contact force is negative by more than round-off, with springs at work.
+fn is_beyond_contact(solver: &Solver) -> bool {
+    let [gap, force] = [solver.scales.displacement, solver.scales.force].map(|s| -1e-10 * s);
+    let least = |of: &[f64]| of.iter().copied().fold(0.0, f64::min);
+    !solver.springs.is_empty() && (least(&solver.now.gap) < gap || least(&solver.now.force) < force)
+}
+
+/// Releases springs that bear more than a fraction of the largest force: makes them free of
+/// force at the current gaps, so that their bodies stay where they are. A body that contact
+/// holds weakly then moves on under the force that its spring has borne.
+fn let_springs_go(solver: &mut Solver, share: f64) {
+    for _ in 0..MOST_TIMES {
+        if !solver.springs_bear(share) {
+            return;
+        }
+        let springs = solver.springs.iter();
+        solver.springs = springs.map(|own| own.moved_to(&solver.now.gap)).collect();
+        solver.fresh = false;
+        solver.refresh();
+    }
+}
+
+/// Refuses a state in which springs stop a driven body and no pair would stop it.
+///
+/// # Errors
+/// A load that drives a body away from every contact.
+pub(in crate::analysis) fn refuse_driven_bodies(solver: &Solver) -> Result<()> {
+    match solver.springs_bear(DRIVEN) {
+        true => refuse_motion_without_end(solver),
+        false => Ok(()),
+    }
+}
+
+fn refuse_motion_without_end(solver: &Solver) -> Result<()> {
+    let of_all = solver.structure.closed_forces(&solver.at);
+    for (pairs, slips) in solver.structure.sub.rigid_slips(|_| true) {
+        let [load, mut gap] = [&of_all, &solver.now.gap]
+            .map(|of| DVector::from_iterator(pairs.len(), pairs.iter().map(|&k| of[k])));
+        come_to_rest(&slips, [&load, &load], &mut gap)
+            .map_err(|u| solver.structure.unbounded(pairs[u.pair], solver.at.alpha))?;
+    }
+    Ok(())
 }

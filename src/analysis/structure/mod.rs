@@ -24,7 +24,7 @@ pub(super) mod factored;
 pub(super) mod factored_tangent;
 pub(super) mod flow;
 pub(super) mod load_point;
-mod loose;
+pub(super) mod loose;
 pub(super) mod record;
 mod response;
 pub(super) mod round_off;

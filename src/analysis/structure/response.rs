@@ -7,6 +7,7 @@
 use super::equilibrium::{EliminatedLoad, Equilibrium};
 use super::factored::combination;
 use super::load_point::LoadPoint;
+use super::loose::move_loose_bodies;
 use super::solver::Solver;
 use crate::analysis::zone::points::Evaluation;
 use crate::contact;
@@ -77,6 +78,14 @@ impl Solver<'_> {
         self.tableau
             .solve(&initial.forces, &mut change.gap, &mut change.force);
         self.recover_change(change, part);
+    }
+
+    /// The elastic response to initial loads `initial`, closed pairs staying closed.
+    pub fn direction(&mut self, initial: Trailing) -> Equilibrium {
+        let mut out = Equilibrium::none(&initial, self.now.gap.len());
+        out.initial.load = initial;
+        self.respond_homogeneous(&mut out, &ZonePart::default());
+        out
     }
 
     /// Finds the displacements of a change of state from its initial loads and gaps: the second
@@ -194,7 +203,7 @@ impl Solver<'_> {
     /// # Errors
     /// A load that drives a body away from every contact.
     pub fn solve_contact_at(&mut self, point: &LoadPoint) -> Result<()> {
-        self.move_loose_bodies(point)?;
+        move_loose_bodies(self, point)?;
         let mut q = self.structure.closed_forces(point);
         for (q, t) in q.iter_mut().zip(&self.now.initial.forces) {
             *q += t;

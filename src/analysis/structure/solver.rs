@@ -173,6 +173,20 @@ impl<'m> Solver<'m> {
         }
     }
 
+    /// Whether nothing but springs holds a body.
+    pub(in crate::analysis) fn springs_hold_a_body(&self) -> bool {
+        let open = self.tableau.open();
+        let mut springs = self.springs.iter();
+        springs.any(|own| own.pairs().iter().all(|&k| open[k]))
+    }
+
+    /// Whether a spring bears more than a fraction of the largest force.
+    pub(in crate::analysis) fn springs_bear(&self, share: f64) -> bool {
+        let gap = &self.now.gap;
+        let forces = self.springs.iter().map(|own| own.largest_force(gap));
+        forces.fold(0.0, f64::max) > share * self.scales.force
+    }
+
     /// Changes the zone to the given elements. State, statuses and history are kept.
     ///
     /// # Errors
@@ -252,6 +266,14 @@ impl<'m> Solver<'m> {
     pub fn assume_elastic(&mut self) {
         self.zone.assume_elastic();
         self.predictor.pace = None;
+    }
+
+    /// Forgets the factored tangent.
+    pub(in crate::analysis) fn forget_tangent(&mut self) {
+        self.zone.forget_softening();
+        if let Some(tangent) = &mut self.tangent {
+            (tangent.tableau, tangent.is_refused, tangent.spent) = (None, false, 0.0);
+        }
     }
 
     /// Raises the scales to the forces and displacements of the current state.

@@ -1,34 +1,70 @@
-//! Displacements and forces of nodes without elements, which are sums over nodes of the mesh.
+//! Vectors of nodes by their labels. Displacements and forces of nodes without elements are sums
+//! over nodes of the mesh.
 
-use super::tables::Tables;
 use crate::interpolation::interpolate;
+use crate::labels::LabelIndex;
+use crate::model::Model;
 use crate::results::Fields;
 use crate::scene::LooseNode;
 use crate::space::{Vector, along, dot, unit};
 
-impl Tables<'_> {
-    /// Returns a vector of a node that the mesh does not have, along x, y and z; zero if no
-    /// equation has the node.
-    pub(super) fn of_loose(&self, label: u64, own: impl Fn(&LooseNode) -> Vector) -> Vector {
-        let requests = &self.model.scene.requests;
-        let vector = requests.loose.get(&label).map_or([0.0; 3], own);
-        let axes = self.axes_of(label).into_iter().zip(vector);
-        axes.fold([0.0; 3], |sum, (axis, value)| along(sum, value, axis))
+/// Displacements and forces of nodes by label, whether or not elements have the node.
+pub(super) struct NodeVectors<'a> {
+    model: &'a Model,
+    nodes: LabelIndex,
+}
+
+impl<'a> NodeVectors<'a> {
+    pub(super) fn new(model: &'a Model) -> Self {
+        let labels = (0..model.mesh.n_nodes()).map(|n| model.mesh.node_label(n));
+        let labels: Vec<u64> = labels.collect();
+        NodeVectors {
+            model,
+            nodes: LabelIndex::new(&labels).unwrap_or_default(),
+        }
     }
 
-    /// Returns the displacement of a node at a time, along its own axes.
-    pub(super) fn displacement_of(&self, loose: &LooseNode, fields: &Fields, time: f64) -> Vector {
-        std::array::from_fn(|k| {
+    /// Returns the vector of a node of the mesh, from the components of all nodes.
+    pub(super) fn at(&self, node: usize, values: &[f64]) -> Vector {
+        let d = self.model.mesh.dimension;
+        let own = &values[d * node..d * (node + 1)];
+        std::array::from_fn(|k| own.get(k).copied().unwrap_or(0.0))
+    }
+
+    /// Returns the displacement of a node at a time.
+    pub(super) fn displacement(&self, label: u64, fields: &Fields, time: f64) -> Vector {
+        let values = &fields.displacement;
+        self.of_label(label, (values, 1.0), |loose, k| {
             let axis = &loose.axes[k];
-            let prescribed = interpolate(&axis.prescribed, time);
-            prescribed + self.sum(&axis.displacement, &fields.displacement)
+            interpolate(&axis.prescribed, time) + self.sum(&axis.displacement, values)
         })
     }
 
-    /// Returns the force on a node along its own axes.
-    pub(super) fn force_of(&self, loose: &LooseNode, fields: &Fields) -> Vector {
-        let of_axis = |k: usize| self.of_forces * self.sum(&loose.axes[k].force, &fields.force);
-        std::array::from_fn(of_axis)
+    /// Returns the force on a node times a factor.
+    pub(super) fn force(&self, label: u64, fields: &Fields, factor: f64) -> Vector {
+        self.of_label(label, (&fields.force, factor), |loose, k| {
+            factor * self.sum(&loose.axes[k].force, &fields.force)
+        })
+    }
+
+    /// Returns the vector of a node of the mesh times a factor. A node that the mesh does not have
+    /// gets the vector of its components along its own axes; zero if no equation has the node.
+    fn of_label(
+        &self,
+        label: u64,
+        (values, factor): (&[f64], f64),
+        along_own: impl Fn(&LooseNode, usize) -> f64,
+    ) -> Vector {
+        if let Some(node) = self.nodes.get(label) {
+            return self.at(node as usize, values).map(|v| factor * v);
+        }
+        let Some(loose) = self.model.scene.requests.loose.get(&label) else {
+            return [0.0; 3];
+        };
+        let axes = self.axes_of(label).into_iter().enumerate();
+        axes.fold([0.0; 3], |sum, (k, axis)| {
+            along(sum, along_own(loose, k), axis)
+        })
     }
 
     /// Returns the sum over nodes of the mesh of a coefficient times the component of a vector
@@ -37,7 +73,7 @@ impl Tables<'_> {
         let terms = terms.iter().filter_map(|&(label, axis, c)| {
             let node = self.nodes.get(label)? as usize;
             let axis = self.axes_of(label)[usize::from(axis)];
-            Some(c * dot(axis, self.vector(node, values)))
+            Some(c * dot(axis, self.at(node, values)))
         });
         terms.sum()
     }

@@ -8,6 +8,7 @@
 //! the integration points, in the order of CalculiX ([`points`]); if a run did not keep them, the
 //! means of elements are written as integration point 0. Shear strains are those of the tensor.
 
+mod digits;
 mod loose;
 mod points;
 mod section;
@@ -24,7 +25,7 @@ use std::path::Path;
 use std::sync::Arc;
 use tables::Tables;
 
-pub(super) use tables::fortran;
+pub(super) use digits::fortran;
 
 /// Writes tables of all sets, for all states of a run that have fields, into a file: displacements
 /// and forces of node sets and surfaces, stresses of bodies.

@@ -1,7 +1,8 @@
 //! The force that acts across a surface: `*SECTION PRINT`.
 
+use super::digits::fortran;
 use super::statistics::ContactSums;
-use super::tables::{Tables, fortran};
+use super::tables::Tables;
 use crate::output::frd::Extrapolated;
 use crate::results::Fields;
 use crate::scene::Print;

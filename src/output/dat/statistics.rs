@@ -1,6 +1,7 @@
 //! The force that acts across a contact: `CF`, `CFN` and `CFS` of `*CONTACT PRINT`.
 
-use super::tables::{Tables, fortran, row};
+use super::digits::{fortran, row};
+use super::tables::Tables;
 use crate::results::{Fields, State};
 use crate::scene::ContactForce;
 use crate::space::{Vector, along, cross, difference, dot};
@@ -94,7 +95,7 @@ impl Tables<'_> {
                 false => -1.0,
             };
             let normal = pair.normal.map(|n| side * n);
-            let moved = self.vector(node, &fields.displacement);
+            let moved = self.vectors.at(node, &fields.displacement);
             let place = along(model.mesh.point(node), 1.0, moved);
             let force = normal.map(|n| -self.of_forces * of_pair.force * n);
             let area = self.of_forces * of_pair.area;

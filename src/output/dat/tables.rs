@@ -1,12 +1,13 @@
 //! Writing of a single table.
 
+use super::digits::{fortran, row};
+use super::loose::NodeVectors;
 use super::points;
 use crate::element::volume_points;
 use crate::labels::LabelIndex;
 use crate::model::Model;
 use crate::output::slaves::Slaves;
 use crate::results::{Fields, State};
-use crate::scene::LooseNode;
 use crate::scene::{Print, ResultItem, Totals};
 use crate::space::{Space, Vector, along, dot};
 use std::io::{self, Write};
@@ -18,7 +19,7 @@ const SLICE: f64 = 1.0 / 180.0;
 pub(super) struct Tables<'a> {
     pub(super) model: &'a Model,
     pub(super) slaves: Slaves<'a>,
-    pub(super) nodes: LabelIndex,
+    pub(super) vectors: NodeVectors<'a>,
     pub(super) elements: LabelIndex,
     /// Factor from the forces of the model to those of the tables.
     pub(super) of_forces: f64,
@@ -34,17 +35,14 @@ impl<'a> Tables<'a> {
             Space::Axisymmetric if is_slice => SLICE,
             _ => thickness,
         };
-        let index = |labels: Vec<u64>| LabelIndex::new(&labels).unwrap_or_default();
+        let elements = (0..mesh.n_elements()).map(|e| mesh.element_label(e));
+        let elements: Vec<u64> = elements.collect();
         Tables {
             model,
             of_forces,
             slaves: Slaves::new(model),
-            nodes: index((0..mesh.n_nodes()).map(|n| mesh.node_label(n)).collect()),
-            elements: index(
-                (0..mesh.n_elements())
-                    .map(|e| mesh.element_label(e))
-                    .collect(),
-            ),
+            vectors: NodeVectors::new(model),
+            elements: LabelIndex::new(&elements).unwrap_or_default(),
         }
     }
 
@@ -60,16 +58,15 @@ impl<'a> Tables<'a> {
         match print.item {
             ResultItem::Displacement => {
                 let head = format!("displacements (vx,vy,vz) {of_set}");
-                self.of_nodes(out, print, &head, (&fields.displacement, 1.0), |loose| {
-                    self.displacement_of(loose, fields, time)
+                self.of_nodes(out, print, &head, |label| {
+                    self.vectors.displacement(label, fields, time)
                 })
             }
             ResultItem::Force if fields.force.is_empty() => Ok(()),
             ResultItem::Force => {
                 if print.totals != Totals::Only {
                     let head = format!("forces (fx,fy,fz) {of_set}");
-                    let of_loose = |loose: &LooseNode| self.force_of(loose, fields);
-                    self.of_nodes(out, print, &head, (&fields.force, self.of_forces), of_loose)?;
+                    self.of_nodes(out, print, &head, |label| self.force(label, fields))?;
                 }
                 if print.totals != Totals::No {
                     let head = format!("total force (fx,fy,fz) {of_set}");
@@ -99,26 +96,16 @@ impl<'a> Tables<'a> {
         labels.filter_map(|&label| Some((label, self.elements.get(label)? as usize)))
     }
 
-    pub(super) fn vector(&self, node: usize, values: &[f64]) -> [f64; 3] {
-        let d = self.model.mesh.dimension;
-        let own = &values[d * node..d * (node + 1)];
-        std::array::from_fn(|k| own.get(k).copied().unwrap_or(0.0))
-    }
-
     fn of_nodes(
         &self,
         out: &mut impl Write,
         print: &Print,
         head: &str,
-        (values, factor): (&[f64], f64),
-        of_loose: impl Fn(&LooseNode) -> Vector,
+        of_node: impl Fn(u64) -> Vector,
     ) -> io::Result<()> {
         writeln!(out, "\n {head}\n")?;
         for &label in print.set.labels.iter() {
-            let vector = match self.nodes.get(label) {
-                Some(node) => self.vector(node as usize, values).map(|v| factor * v),
-                None => self.of_loose(label, &of_loose),
-            };
+            let vector = of_node(label);
             // A row in local axes is marked with L, as in CalculiX.
             let own = self.model.scene.requests.axes.get(&label);
             match own.filter(|_| !print.is_global) {
@@ -132,17 +119,15 @@ impl<'a> Tables<'a> {
         Ok(())
     }
 
+    /// Returns the force on a node, on the part of the model that the tables are of.
+    fn force(&self, label: u64, fields: &Fields) -> Vector {
+        self.vectors.force(label, fields, self.of_forces)
+    }
+
     fn total_force(&self, print: &Print, fields: &Fields) -> Vector {
         let labels = print.set.labels.iter();
-        labels.fold([0.0; 3], |sum, &label| match self.nodes.get(label) {
-            Some(node) => {
-                let force = self.vector(node as usize, &fields.force);
-                along(sum, self.of_forces, force)
-            }
-            None => {
-                let force = self.of_loose(label, |loose| self.force_of(loose, fields));
-                along(sum, 1.0, force)
-            }
+        labels.fold([0.0; 3], |sum, &label| {
+            along(sum, 1.0, self.force(label, fields))
         })
     }
 
@@ -265,73 +250,5 @@ impl<'a> Tables<'a> {
             }
         }
         Ok(())
-    }
-}
-
-pub(super) fn row(values: &[f64]) -> String {
-    let each = values
-        .iter()
-        .map(|&value| format!(" {:>13}", scientific(value)));
-    each.collect()
-}
-
-/// Formats a number with seven digits and an exponent of two digits, as C prints it.
-fn scientific(value: f64) -> String {
-    let text = format!("{value:.6E}");
-    let Some((digits, exponent)) = text.split_once('E') else {
-        return text;
-    };
-    match exponent.strip_prefix('-') {
-        Some(exponent) => format!("{digits}E-{exponent:0>2}"),
-        None => format!("{digits}E+{exponent:0>2}"),
-    }
-}
-
-/// Formats a number with seven digits after a leading zero and an exponent of two digits, as
-/// FORTRAN prints it.
-pub(in crate::output) fn fortran(value: f64) -> String {
-    let text = format!("{value:.6E}");
-    let Some((digits, exponent)) = text.split_once('E') else {
-        return text;
-    };
-    let exponent = match (exponent.parse::<i32>(), value == 0.0) {
-        (Ok(exponent), false) => exponent + 1,
-        _ => 0,
-    };
-    let sign = if exponent < 0 { '-' } else { '+' };
-    let (minus, digits) = match digits.strip_prefix('-') {
-        Some(digits) => ("-", digits),
-        None => ("", digits),
-    };
-    let digits = digits.replace('.', "");
-    format!("{minus}0.{digits}E{sign}{:02}", exponent.abs())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{fortran, scientific};
-
-    #[test]
-    fn numbers_are_written_as_c_does() {
-        for (value, text) in [
-            (0.0, "0.000000E+00"),
-            (-1.5e-7, "-1.500000E-07"),
-            (2.0, "2.000000E+00"),
-            (1e120, "1.000000E+120"),
-        ] {
-            assert_eq!(scientific(value), text);
-        }
-    }
-
-    #[test]
-    fn times_are_written_as_fortran_does() {
-        for (value, text) in [
-            (0.0, "0.0000000E+00"),
-            (1.0, "0.1000000E+01"),
-            (126.5, "0.1265000E+03"),
-            (-0.0025, "-0.2500000E-02"),
-        ] {
-            assert_eq!(fortran(value), text);
-        }
     }
 }

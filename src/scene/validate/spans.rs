@@ -1,122 +1,120 @@
 //! Validation of supports and prescribed displacements that begin or end within the program.
 
-use super::Checks;
+use super::problems::Problems;
 use crate::number::exact;
 use crate::scene::span::Span;
 use crate::scene::{Load, Scene, Unit};
 use std::collections::BTreeMap;
 
-impl Checks {
-    /// Checks where supports and prescribed displacements begin and end, and what the program must
-    /// be for that.
-    pub(super) fn spans(&mut self, scene: &Scene) {
-        for (index, load) in scene.load.iter().enumerate() {
-            self.span_of_load(&format!("load.{index}"), load);
-        }
-        let supports = scene.support.iter().enumerate();
-        let supports = supports.map(|(index, s)| (format!("support.{index}"), s.span()));
-        let loads = scene.load.iter().enumerate();
-        let loads = loads.map(|(index, load)| (format!("load.{index}"), load.span()));
-        let changing: Vec<(String, Span)> = (supports.chain(loads))
-            .filter(|(_, span)| !span.is_whole())
-            .collect();
-        for (key, span) in &changing {
-            self.span(key, *span, scene);
-        }
-        let mut ends: BTreeMap<u64, f64> = BTreeMap::new();
-        for (key, span) in &changing {
-            if let Some([until, gone]) = span.until {
-                let first = *ends.entry(until.to_bits()).or_insert(gone);
-                self.require(
-                    first == gone,
-                    format!("{key}.until"),
-                    format!(
-                        "is free at {}, others that end at {} at {}: give one for all",
-                        exact(gone),
-                        exact(until),
-                        exact(first)
-                    ),
-                );
-            }
-        }
-        if let Some((key, _)) = changing.first() {
-            self.program_of_spans(key, scene);
-        }
+/// Checks where supports and prescribed displacements begin and end, and what the program must
+/// be for that.
+pub(super) fn check(problems: &mut Problems, scene: &Scene) {
+    for (index, load) in scene.load.iter().enumerate() {
+        check_span_of_load(problems, &format!("load.{index}"), load);
     }
-
-    fn span_of_load(&mut self, key: &str, load: &Load) {
-        let given = [
-            ("since", load.since.is_some()),
-            ("until", load.until.is_some()),
-        ];
-        for (name, _) in given.into_iter().filter(|(_, is_given)| *is_given) {
-            self.require(
-                load.displacement.is_some() || load.relative.is_some(),
-                format!("{key}.{name}"),
-                "is for a prescribed `displacement` or `relative`; other loads begin and end by \
-                 their `history`",
-            );
-        }
-        if load.since.is_some() {
-            self.require(
-                load.arrives().is_some() || load.stays(),
-                format!("{key}.history"),
-                "must be a table with a row beyond `since`, whose value the nodes then reach, or \
-                 \"constant\" for what stays as it is",
-            );
-        }
+    let supports = scene.support.iter().enumerate();
+    let supports = supports.map(|(index, s)| (format!("support.{index}"), s.span()));
+    let loads = scene.load.iter().enumerate();
+    let loads = loads.map(|(index, load)| (format!("load.{index}"), load.span()));
+    let changing: Vec<(String, Span)> = (supports.chain(loads))
+        .filter(|(_, span)| !span.is_whole())
+        .collect();
+    for (key, span) in &changing {
+        check_span(problems, key, *span, scene);
     }
-
-    fn span(&mut self, key: &str, span: Span, scene: &Scene) {
-        let targets = &scene.program.targets;
-        let last = targets.last().and_then(|target| target.load_factor);
-        let at_target = |at: f64| {
-            let factors = || targets.iter().filter_map(|target| target.load_factor);
-            factors().any(|factor| factor == at) && last.is_some_and(|last| at < last)
-        };
-        let hint = "must be the load factor of a target, and not of the last: the program goes on \
-                    with other supports from a state that it has reached";
-        if let Some(since) = span.since {
-            let key = format!("{key}.since");
-            self.positive(key.as_str(), since);
-            self.require(at_target(since), key, format!("{} {hint}", exact(since)));
-        }
+    let mut ends: BTreeMap<u64, f64> = BTreeMap::new();
+    for (key, span) in &changing {
         if let Some([until, gone]) = span.until {
-            let key = format!("{key}.until");
-            self.positive(key.as_str(), until);
-            self.require(
-                at_target(until),
-                key.as_str(),
-                format!("{} {hint}", exact(until)),
-            );
-            self.require(
-                gone > until && span.since.is_none_or(|since| since < until),
-                key,
-                "must ascend, and begin beyond `since`: [held up to, free at]",
+            let first = *ends.entry(until.to_bits()).or_insert(gone);
+            problems.require(
+                first == gone,
+                format!("{key}.until"),
+                format!(
+                    "is free at {}, others that end at {} at {}: give one for all",
+                    exact(gone),
+                    exact(until),
+                    exact(first)
+                ),
             );
         }
     }
+    if let Some((key, _)) = changing.first() {
+        check_program(problems, key, scene);
+    }
+}
 
-    fn program_of_spans(&mut self, key: &str, scene: &Scene) {
-        let program = &scene.program;
-        self.require(
-            program.unit == Unit::Load && program.cycles == 1,
-            key,
-            "begins or ends within the program, which needs `unit = \"load\"` and no `cycles`",
-        );
-        self.require(
-            scene.rigid.is_empty(),
-            key,
-            "begins or ends within the program, which is not for scenes with [rigid] surfaces: \
-             give the tool a mesh, or let its load fall by its `history`",
-        );
-        let factors: Vec<Option<f64>> = program.targets.iter().map(|t| t.load_factor).collect();
-        let ascend = factors.windows(2).all(|pair| pair[0] <= pair[1]);
-        self.require(
-            ascend && factors.first().is_some_and(|first| *first >= Some(0.0)),
-            key,
-            "begins or ends within the program, whose targets must be load factors that do not \
-             fall: let loads fall by their `history`",
+fn check_span_of_load(problems: &mut Problems, key: &str, load: &Load) {
+    let given = [
+        ("since", load.since.is_some()),
+        ("until", load.until.is_some()),
+    ];
+    for (name, _) in given.into_iter().filter(|(_, is_given)| *is_given) {
+        problems.require(
+            load.displacement.is_some() || load.relative.is_some(),
+            format!("{key}.{name}"),
+            "is for a prescribed `displacement` or `relative`; other loads begin and end by \
+             their `history`",
         );
     }
+    if load.since.is_some() {
+        problems.require(
+            load.arrives().is_some() || load.stays(),
+            format!("{key}.history"),
+            "must be a table with a row beyond `since`, whose value the nodes then reach, or \
+             \"constant\" for what stays as it is",
+        );
+    }
+}
+
+fn check_span(problems: &mut Problems, key: &str, span: Span, scene: &Scene) {
+    let targets = &scene.program.targets;
+    let last = targets.last().and_then(|target| target.load_factor);
+    let at_target = |at: f64| {
+        let factors = || targets.iter().filter_map(|target| target.load_factor);
+        factors().any(|factor| factor == at) && last.is_some_and(|last| at < last)
+    };
+    let hint = "must be the load factor of a target, and not of the last: the program goes on \
+                with other supports from a state that it has reached";
+    if let Some(since) = span.since {
+        let key = format!("{key}.since");
+        problems.positive(key.as_str(), since);
+        problems.require(at_target(since), key, format!("{} {hint}", exact(since)));
+    }
+    if let Some([until, gone]) = span.until {
+        let key = format!("{key}.until");
+        problems.positive(key.as_str(), until);
+        problems.require(
+            at_target(until),
+            key.as_str(),
+            format!("{} {hint}", exact(until)),
+        );
+        problems.require(
+            gone > until && span.since.is_none_or(|since| since < until),
+            key,
+            "must ascend, and begin beyond `since`: [held up to, free at]",
+        );
+    }
+}
+
+fn check_program(problems: &mut Problems, key: &str, scene: &Scene) {
+    let program = &scene.program;
+    problems.require(
+        program.unit == Unit::Load && program.cycles == 1,
+        key,
+        "begins or ends within the program, which needs `unit = \"load\"` and no `cycles`",
+    );
+    problems.require(
+        scene.rigid.is_empty(),
+        key,
+        "begins or ends within the program, which is not for scenes with [rigid] surfaces: \
+         give the tool a mesh, or let its load fall by its `history`",
+    );
+    let factors: Vec<Option<f64>> = program.targets.iter().map(|t| t.load_factor).collect();
+    let ascend = factors.windows(2).all(|pair| pair[0] <= pair[1]);
+    problems.require(
+        ascend && factors.first().is_some_and(|first| *first >= Some(0.0)),
+        key,
+        "begins or ends within the program, whose targets must be load factors that do not \
+         fall: let loads fall by their `history`",
+    );
 }

@@ -2,6 +2,7 @@
 //! structure that the solver works with is corrupted; the figures are computed with the true one.
 
 use super::{Displacements, tolerances};
+use crate::analysis::figures::reading::Reading;
 use crate::analysis::increments::elastic::ElasticDrive;
 use crate::analysis::increments::step::Arrival;
 use crate::analysis::structure::record::{SolverRecord, fingerprint};
@@ -70,8 +71,7 @@ fn quality(
     let arrival = ElasticDrive::go(&mut solver, &end, None);
     assert_eq!(arrival.expect("drive"), Arrival::End);
     after(&mut solver);
-    solver
-        .reading()
+    Reading::of(&mut solver)
         .figures("end", false)
         .expect("state")
         .state
@@ -245,8 +245,7 @@ fn entry(system: &System, i: usize, j: usize) -> f64 {
 fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
-    let sound = solver
-        .reading()
+    let sound = Reading::of(&mut solver)
         .quality_here()
         .expect("quality")
         .equilibrium;
@@ -255,9 +254,11 @@ fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
         let column = (0..model.freedoms.n).map(|i| entry(&system, i, freedom).abs());
         let stiffest = column.fold(0.0, f64::max);
         for share in [1e-6, 1e-3, 1.0] {
-            let mut u = solver.reading().displacements().expect("displacements");
+            let mut u = Reading::of(&mut solver)
+                .displacements()
+                .expect("displacements");
             move_by(&mut u, freedom, share * solver.scales.force / stiffest);
-            let q = solver.reading().quality_of(&u).unwrap();
+            let q = Reading::of(&mut solver).quality_of(&u).unwrap();
             shows(q.equilibrium, share, sound);
         }
     }
@@ -269,15 +270,17 @@ fn noise_in_a_displacement_shows_in_the_balance_of_forces() {
 fn noise_in_a_contact_force_shows_in_balance_and_backward_errors() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
-    let sound = solver.reading().quality_here().expect("quality");
+    let sound = Reading::of(&mut solver).quality_here().expect("quality");
     let n = model.pairs.len();
     for pair in [0, n - 1] {
         for share in [1e-6, 1e-3] {
             let noise = share * solver.scales.force;
             solver.now.force[pair] += noise;
-            let u = solver.reading().displacements().expect("displacements");
+            let u = Reading::of(&mut solver)
+                .displacements()
+                .expect("displacements");
             let load = solver.total_load();
-            let q = solver.reading().quality_of(&u).unwrap();
+            let q = Reading::of(&mut solver).quality_of(&u).unwrap();
             solver.now.force[pair] -= noise;
             shows(
                 q.equilibrium,
@@ -306,7 +309,10 @@ fn tension_shows_as_adhesion() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
     // Round-off that presses the surfaces together does not show as adhesion.
-    let sound = solver.reading().quality_here().expect("quality").adhesion;
+    let sound = Reading::of(&mut solver)
+        .quality_here()
+        .expect("quality")
+        .adhesion;
     let sound = sound.max(16.0 * f64::EPSILON);
     let n = model.pairs.len();
     assert!(solver.tableau.open()[..2].iter().all(|open| *open));
@@ -315,7 +321,9 @@ fn tension_shows_as_adhesion() {
         let freedom = contact[place];
         for share in [1e-6, 1e-2] {
             let pull = share * solver.scales.force / entry(&system, freedom, freedom);
-            let mut u = solver.reading().displacements().expect("displacements");
+            let mut u = Reading::of(&mut solver)
+                .displacements()
+                .expect("displacements");
             move_by(&mut u, freedom, towards * pull);
             let tension = (0..2 * n).map(|i| {
                 let side = if i < n { 1.0 } else { -1.0 };
@@ -325,7 +333,7 @@ fn tension_shows_as_adhesion() {
             let expected = tension.fold(0.0, f64::max) / solver.scales.force;
             assert!(expected >= share * (1.0 - 1e-12));
             shows(
-                solver.reading().quality_of(&u).unwrap().adhesion,
+                Reading::of(&mut solver).quality_of(&u).unwrap().adhesion,
                 expected,
                 sound,
             );
@@ -339,7 +347,7 @@ fn tension_shows_as_adhesion() {
 fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
     let (model, system) = model();
     let mut solver = loaded(&model, &system);
-    let sound = solver.reading().quality_here().expect("quality");
+    let sound = Reading::of(&mut solver).quality_here().expect("quality");
     let n = model.pairs.len();
     let pole = n - 1;
     let contact = solver.structure.sub.partition.contact.clone();
@@ -349,9 +357,11 @@ fn a_wrong_gap_shows_in_complementarity_and_as_penetration() {
         let apart = shift * solver.scales.displacement;
         // Either the first node moves up by `apart`, or the second node moves down by it.
         for (place, by) in [(pole, apart), (n + pole, -apart)] {
-            let mut u = solver.reading().displacements().expect("displacements");
+            let mut u = Reading::of(&mut solver)
+                .displacements()
+                .expect("displacements");
             u.total[contact[place]] += by;
-            let q = solver.reading().quality_of(&u).unwrap();
+            let q = Reading::of(&mut solver).quality_of(&u).unwrap();
             let scale = solver.scales.displacement.max(widest);
             let product = apart.abs() / scale * share_of_force;
             shows(q.complementarity, product, sound.complementarity);
@@ -373,7 +383,7 @@ fn a_wrong_status_shows_with_its_tension_or_penetration() {
     let (model, system) = model();
     for closed in [true, false] {
         let mut solver = loaded(&model, &system);
-        let sound = solver.reading().quality_here().expect("quality");
+        let sound = Reading::of(&mut solver).quality_here().expect("quality");
         let open = solver.tableau.open().to_vec();
         // The outermost pair is open, the pole is closed.
         let wrong = if closed { 0 } else { open.len() - 1 };
@@ -383,11 +393,13 @@ fn a_wrong_status_shows_with_its_tension_or_penetration() {
         solver.refresh();
         let worst = |values: &[f64]| values.iter().fold(0.0f64, |m, v| m.max(-v));
         let (tension, overlap) = (worst(&solver.now.force), worst(&solver.now.gap));
-        let u = solver.reading().displacements().expect("displacements");
+        let u = Reading::of(&mut solver)
+            .displacements()
+            .expect("displacements");
         for value in solver.now.gap.iter_mut().chain(&mut solver.now.force) {
             *value = value.max(0.0);
         }
-        let q = solver.reading().quality_of(&u).unwrap();
+        let q = Reading::of(&mut solver).quality_of(&u).unwrap();
         if closed {
             shows(q.adhesion, tension / solver.scales.force, sound.adhesion);
         } else {
@@ -406,19 +418,21 @@ fn the_bound_of_forces_follows_the_round_off_of_the_mesh() {
     let model = Model::new(&Scene::parse(&text, "test").expect("scene")).expect("model");
     let system = assemble(&model, Backend::default()).expect("system");
     let mut solver = loaded(&model, &system);
-    let sound = solver.reading().quality_here().expect("quality");
+    let sound = Reading::of(&mut solver).quality_here().expect("quality");
     let tolerances = tolerances(&model);
     assert!(sound.equilibrium > tolerances.equilibrium, "{sound:?}");
     assert_eq!(sound.misses(&tolerances), []);
     // Displacements are accurate to half a rounding error; an error a thousand times larger is a
     // fault.
     for (size, accepted) in [(0.5, true), (500.0, false)] {
-        let mut u = solver.reading().displacements().expect("displacements");
+        let mut u = Reading::of(&mut solver)
+            .displacements()
+            .expect("displacements");
         for (i, value) in u.deformation.iter_mut().flatten().enumerate() {
             let random = ((i * 7919) % 1013) as f64 / 506.0 - 1.0;
             *value += size * f64::EPSILON * random * *value;
         }
-        let q = solver.reading().quality_of(&u).unwrap();
+        let q = Reading::of(&mut solver).quality_of(&u).unwrap();
         let bound = q.round_off.expect("stated");
         assert_eq!(q.equilibrium <= bound, accepted, "{q:?}");
         assert_eq!(q.misses(&tolerances).is_empty(), accepted, "{q:?}");
@@ -460,7 +474,7 @@ fn what_is_not_a_number_ends_in_no_loop_and_is_caught() {
                     solver.now = sound.clone();
                     solver.scales = scales;
                     spoil(&mut solver, k, value);
-                    let Ok(figures) = solver.reading().figures("end", true) else {
+                    let Ok(figures) = Reading::of(&mut solver).figures("end", true) else {
                         continue;
                     };
                     let misses = figures.state.quality.misses(&tolerances(&model));

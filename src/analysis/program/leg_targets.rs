@@ -1,0 +1,70 @@
+//! The targets of a leg of the program.
+
+use crate::model::Model;
+use crate::scene::Target;
+
+/// The targets of the program, and how many of them belong to legs up to the model's.
+pub(super) struct LegTargets<'m> {
+    model: &'m Model,
+    /// Names of the program's targets.
+    labels: Vec<String>,
+    /// Number of targets of the program up to the end of the leg.
+    pub(super) end: usize,
+}
+
+impl<'m> LegTargets<'m> {
+    pub(super) fn of(model: &'m Model) -> Self {
+        LegTargets {
+            model,
+            labels: model.scene.program.labels(),
+            end: model.targets_up_to_end_of_leg(),
+        }
+    }
+
+    /// Number of targets of the whole program.
+    pub(super) fn n_of_program(&self) -> usize {
+        self.labels.len()
+    }
+
+    pub(super) fn target(&self, index: usize) -> &'m Target {
+        &self.model.scene.program.targets[index]
+    }
+
+    pub(super) fn label(&self, index: usize) -> &str {
+        &self.labels[index]
+    }
+
+    /// The program's targets up to the end of the leg.
+    fn up_to_end(&self) -> &'m [Target] {
+        &self.model.scene.program.targets[..self.end]
+    }
+
+    /// Load factors from target `first` on, to the end of the leg.
+    pub(super) fn factors_from(&self, first: usize) -> impl Iterator<Item = f64> + Clone + 'm {
+        let ahead = &self.up_to_end()[first..];
+        ahead.iter().filter_map(|target| target.load_factor)
+    }
+
+    /// The largest absolute load factor among the targets, if there is one.
+    pub(super) fn largest_factor(&self) -> Option<f64> {
+        self.factors_from(0).map(f64::abs).reduce(f64::max)
+    }
+
+    /// The largest and smallest load factor of the program, and the factors in between at which a
+    /// load has a kink. A target half width of m times that at yield counts as m^2 times the yield
+    /// load.
+    pub(super) fn extreme_factors(&self, at_yield: f64) -> Vec<f64> {
+        let mut all: Vec<f64> = Vec::new();
+        for target in self.up_to_end() {
+            all.extend(target.load_factor);
+            all.extend(target.half_width.map(|m| m * m * at_yield));
+        }
+        let high = all.iter().copied().fold(at_yield, f64::max);
+        let low = all.iter().copied().fold(0.0, f64::min);
+        let mut extremes = vec![high];
+        extremes.extend((low < 0.0).then_some(low));
+        let kinks = self.model.kinks();
+        extremes.extend(kinks.filter(|k| (at_yield..high).contains(k) || (low..0.0).contains(k)));
+        extremes
+    }
+}
