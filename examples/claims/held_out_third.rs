@@ -68,12 +68,6 @@ pub fn families(folder: &Path) -> Vec<Family> {
             (80, 6.0, 5),
         ),
         finer("rigid cylinder across a brick", &[6, 8, 10], &across, 20),
-        finer(
-            "crossed cylinders, pressed and off",
-            &[4, 5, 6],
-            &crossed,
-            10,
-        ),
     ]
 }
 
@@ -380,19 +374,4 @@ targets = [{{ name = "half", load_factor = 400.0 }}, {{ name = "full", load_fact
     {{ name = "off", load_factor = 0.0 }}]
 "#
     ))
-}
-
-/// The crossed cylinders of the library of scenes, with smaller bodies and fewer targets.
-fn crossed(n: usize) -> Scene {
-    let growth = 1.4f64.powf(6.0 / n as f64);
-    support::load(
-        "crossed_cylinders",
-        &[
-            &format!("mesh.curved_bodies.resolution={n}"),
-            &format!("mesh.curved_bodies.growth={growth}"),
-            "mesh.curved_bodies.far_size=12.0",
-            "program.targets=[{ yield = true }, { name = \"pressed\", load_factor = 2.0 }, \
-             { name = \"off\", load_factor = 0.0 }]",
-        ],
-    )
 }

@@ -31,6 +31,7 @@ mod check;
 mod program;
 
 pub use check::effects::{Check, check};
+pub(crate) use check::seconds::RunSize;
 pub use program::assembled::Analysis;
 pub use stress::piece::evaluate;
 pub(crate) use stress::recovery::left_of_search;

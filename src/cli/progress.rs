@@ -130,7 +130,7 @@ impl Progress {
 
     /// Announces a run of this scene.
     pub fn scene(&mut self, scene: &Scene) {
-        self.forecast.scene(scene);
+        self.forecast.program(scene.program.targets.len());
     }
 
     /// Starts a new phase and shows its name.

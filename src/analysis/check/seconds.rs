@@ -1,4 +1,4 @@
-//! Rough time of a run, before it begins.
+//! Rough times: of a run before it begins, and of its phases while it runs.
 
 use crate::analysis::structure::flow;
 use crate::linalg::{Backend, Prediction};
@@ -19,14 +19,26 @@ const TYPICAL_NONZEROS: f64 = 2.7e7;
 /// Floating point operations per second of the dense matrices of contact.
 const FLOPS_OF_CONTACT: f64 = 7e9;
 
-/// Seconds that a run takes in addition to its factorisation, measured over the scenes of
-/// `data/scenes` and finer meshes of the paper's two: to start ([`START`]); per freedom, to make
-/// the mesh, assemble and write files ([`SETUP`]); per freedom of the zone, to find first yield
-/// ([`YIELD_LOAD`]); per freedom and state ([`STATE`]).
+/// Seconds to start a run.
 const START: f64 = 1.5e-3;
-const SETUP: f64 = 0.9e-6;
+/// Seconds per freedom: to make mesh and model, to assemble, to write the files of a state; and per
+/// freedom and state, stresses of all elements included. From the timings of `brinell run SCENE
+/// --estimate none` for the paper's two scenes and finer meshes of them, up to 1.56 million
+/// freedoms (November 2026), at the speed of [`TYPICAL_FLOPS`].
+const MODEL: f64 = 6e-7;
+const ASSEMBLY: f64 = 5e-7;
+const FILES: f64 = 6e-7;
+const STATE: f64 = 1.0e-6;
+/// Seconds per freedom of the zone, to find first yield.
 const YIELD_LOAD: f64 = 2e-6;
-const STATE: f64 = 4.5e-7;
+/// Seconds of ordering, factorisation and condensation, as far as they can be told without the
+/// symbolic factorisation: per freedom, per power 3/2 of the freedoms (the growth of nested
+/// dissection in the plane) and per cube of the pairs (the dense matrix of the contact). From the
+/// same runs.
+const FACTORISATION: [f64; 3] = [2.5e-6, 2.5e-9, 5e-11];
+/// Seconds of the increments per square of the pairs: each pair that closes or opens costs solves,
+/// and the zone of these solves grows with the number of pairs. From the same runs.
+const INCREMENTS: f64 = 2e-4;
 /// Seconds of the elastic path, per cube of the number of pairs: each change of contact passes over
 /// the matrix of the pairs.
 const PATH: f64 = 1.5e-9;
@@ -46,6 +58,43 @@ const SOLVES_OF_LONG: [f64; 3] = [25.0, 60.0, 60.0];
 /// Ratio of plastic modulus to Young's modulus below which material counts as almost without
 /// stiffness.
 const SOFT: f64 = 0.1;
+
+/// What is known of the size of a run while its phases begin.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct RunSize {
+    pub freedoms: f64,
+    pub pairs: f64,
+    pub targets: f64,
+}
+
+impl RunSize {
+    /// Rough seconds of a phase; `None` for a phase whose time does not follow from the size.
+    pub(crate) fn seconds_of(&self, phase: &str) -> Option<f64> {
+        let RunSize {
+            freedoms: n,
+            pairs,
+            targets,
+        } = *self;
+        let increments = INCREMENTS * pairs * pairs;
+        let program = increments + STATE * targets * n;
+        let seconds = match phase {
+            "mesh and model" => MODEL * n,
+            "assembly" => ASSEMBLY * n,
+            "factorisation" => {
+                let [each, fill, dense] = FACTORISATION;
+                each * n + fill * n.powf(1.5) + dense * pairs.powi(3)
+            }
+            "yield load" => YIELD_LOAD * n,
+            "preload" => increments,
+            "load program" => program,
+            "output" => FILES * targets * n,
+            going_on if going_on.starts_with("going on") => program,
+            _ => return None,
+        };
+        Some(seconds)
+    }
+}
+
 /// Rough seconds of ordering, analysis and factorisation.
 pub(super) fn of_factorisation(prediction: &Prediction, backend: Backend) -> f64 {
     let speed = match backend {
@@ -171,9 +220,9 @@ pub(super) fn of_run(
     let n = sizes.freedoms as f64;
     let states = model.scene.program.targets.len() as f64;
     let elastic = START
-        + SETUP * n
+        + (MODEL + ASSEMBLY) * n
         + factorisation
-        + STATE * n * states
+        + (STATE + FILES) * n * states
         + PATH * (sizes.contact_pairs as f64).powi(3);
     if sizes.zone_elements == 0 {
         return elastic;
