@@ -80,9 +80,9 @@ const PRICES: &str = "# What demands cost\n\n`cargo run --release --example clai
                       scenes of the fourth set, whose contacts at first yield are ten to forty \
                       times smaller than their elements, were written after that. They judge \
                       it as it is now: a first run, which was stopped half way, showed that their \
-                      truths had to be finer; nothing else was changed. Crossed cylinders in space, \
-                      once the tenth of the third set, are left out: with their truth and the \
-                      meshes by trial they take more than 20 minutes.\n";
+                      truths had to be finer; nothing else was changed. Crossed cylinders in \
+                      space, once the tenth of the third set, are left out: with their truth and \
+                      the meshes by trial they take more than 20 minutes.\n";
 
 fn main() {
     if std::env::args()

@@ -152,6 +152,23 @@ fn leans(doc: &str) -> bool {
     OPENERS.iter().any(open)
 }
 
+/// Types whose methods stand in more than [`MOST_FILES`] files, by folder.
+fn spread_types(library: &[Text]) -> Vec<String> {
+    let mut types: BTreeMap<(String, &str), BTreeSet<&str>> = BTreeMap::new();
+    for t in library {
+        let folder = t.name.split('/').nth(1).unwrap_or("").to_string();
+        for name in of_library(&t.text).lines().filter_map(implemented) {
+            types
+                .entry((folder.clone(), name))
+                .or_default()
+                .insert(&t.name);
+        }
+    }
+    let spread = types.iter().filter(|(_, files)| files.len() > MOST_FILES);
+    let spread = spread.map(|((folder, name), files)| format!("{folder} {name}: {}", files.len()));
+    spread.collect()
+}
+
 /// What is counted of a tree, with the places.
 fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
     let library = texts(base, "src");
@@ -174,19 +191,7 @@ fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
         };
         texts.iter().flat_map(of).collect()
     };
-    let mut types: BTreeMap<(String, &str), BTreeSet<&str>> = BTreeMap::new();
-    for t in &library {
-        let folder = t.name.split('/').nth(1).unwrap_or("").to_string();
-        for name in of_library(&t.text).lines().filter_map(implemented) {
-            types
-                .entry((folder.clone(), name))
-                .or_default()
-                .insert(&t.name);
-        }
-    }
-    let spread = types.iter().filter(|(_, files)| files.len() > MOST_FILES);
-    let spread = spread.map(|((folder, name), files)| format!("{folder} {name}: {}", files.len()));
-    let spread: Vec<String> = spread.collect();
+    let spread = spread_types(&library);
     let modules = Modules::read(base);
     let edges = modules.edges();
     let folders: BTreeSet<&str> = edges.keys().filter_map(|f| f.split('/').nth(1)).collect();
@@ -302,6 +307,16 @@ fn names_mean_no_more_types_than_they_did() {
     assert!(
         shared.len() <= MOST_SHARED,
         "give the new type a name of its own: {shared:#?}"
+    );
+}
+
+/// Whoever looks for a method of a type has few files to look through.
+#[test]
+fn methods_of_a_type_stand_in_few_files() {
+    let spread = spread_types(&texts(&root(), "src"));
+    assert!(
+        spread.is_empty(),
+        "give what several files add to a type objects of their own: {spread:#?}"
     );
 }
 

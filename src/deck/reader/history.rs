@@ -38,7 +38,7 @@ pub(super) struct StepReader {
 }
 
 impl StepReader {
-    /// Begins a step.
+    /// Begins a step of the history.
     pub(super) fn step(&mut self, block: &mut BlockReader) -> Result<()> {
         let keyword = block.keyword;
         let known = "INC INCF NLGEOM NAME AMPLITUDE PERTURBATION THERMALNETWORK EXTRAPOLATION \

@@ -10,7 +10,7 @@ use crate::deck::source::LinePlace;
 use crate::error::{Error, ErrorKind, Result};
 use crate::shape::MAX_NODES;
 
-/// Reads nodes.
+/// Reads the nodes of a deck.
 pub(super) fn nodes(
     block: &mut BlockReader,
     nodes: &mut Nodes,
