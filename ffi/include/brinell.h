@@ -212,7 +212,7 @@ typedef struct brinell_increment {
   uint64_t plastic_points;
   // Largest equivalent plastic strain.
   double max_equivalent_plastic_strain;
-  // Share of the load program that lies behind.
+  // Share of the load program that has been run.
   double fraction;
   // Event that ended the increment, such as "closes: pair 12". Valid during the call only.
   const char *event;

@@ -24,7 +24,8 @@ pub(super) const READABLE: usize = 6;
 const READABLE_PATCH: usize = 4;
 /// The nearest coarser mesh of solids, where others cannot be read: five elements instead of six.
 const NEARER: f64 = 1.2;
-/// Most of a run that other runs may take by default.
+/// Largest time that the other runs of an estimate may take together by default, as a multiple of
+/// the time of the run itself.
 const QUICK: f64 = 1.0;
 /// What a run with half as many increments takes of the same mesh.
 const HALF_THE_INCREMENTS: f64 = 0.5;

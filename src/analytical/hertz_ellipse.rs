@@ -132,7 +132,7 @@ impl HertzEllipse {
         (pressure / self.max_pressure(1.0)).powi(3)
     }
 
-    /// Load at the approach `d >= 0`; `P` is proportional to its power of 3/2.
+    /// Load at `approach >= 0`; it is proportional to `approach^(3/2)`.
     pub fn load_for_approach(&self, approach: f64) -> f64 {
         (approach / self.approach(1.0)).powf(1.5)
     }

@@ -42,7 +42,7 @@ pub struct brinell_increment {
     pub plastic_points: u64,
     /// Largest equivalent plastic strain.
     pub max_equivalent_plastic_strain: f64,
-    /// Share of the load program that lies behind.
+    /// Share of the load program that has been run.
     pub fraction: f64,
     /// Event that ended the increment, such as "closes: pair 12". Valid during the call only.
     pub event: *const c_char,

@@ -5,7 +5,7 @@
 //!
 //! | `event` | further keys |
 //! |---|---|
-//! | `phase` | `name`, `predicted_seconds` (rough: by the size of the model and what lies behind) |
+//! | `phase` | `name`, `predicted_seconds` (rough: by the size of the model and the phases so far) |
 //! | `increment` | `fraction` of the load program done, `seconds_left` of it (predicted), `row` (a row of `history.csv`) |
 //! | `note`, `warning` | `message` |
 //! | `stopping` | `message`: Ctrl-C or another signal was heard |

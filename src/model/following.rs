@@ -17,7 +17,8 @@ pub(super) struct Following {
     pub terms: Vec<(usize, Vector)>,
     /// The values that loads prescribe, which are added, with the numbers of the loads.
     pub moved: Vec<(usize, f64)>,
-    /// The list of the scene in which the equation stands, and its number there.
+    /// Entry of the scene from which the equation comes: the name of the list (`"equation"` or
+    /// `"load"`) and the index of the entry in it, from 0.
     pub of: (&'static str, usize),
 }
 

@@ -63,8 +63,9 @@ impl Gram {
         blocks.collect()
     }
 
-    /// Whether a block minus `shift` times the identity has a Cholesky factor. The factor is stored
-    /// from the first nonzero of each row on.
+    /// Whether a block minus `shift` times the identity is positive definite, that is, has a
+    /// Cholesky factor. The factor is temporary; each of its rows is held from the first nonzero to
+    /// the diagonal.
     pub(super) fn is_definite(&self, block: &[usize], shift: f64) -> bool {
         let mut place = BTreeMap::new();
         place.extend(block.iter().enumerate().map(|(k, &row)| (row, k)));

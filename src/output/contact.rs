@@ -17,9 +17,11 @@ pub(super) struct PairRow {
     pub pair: usize,
     /// Number of the contact, from 1, in the order of the scene.
     pub contact: usize,
-    /// Undeformed position on the second surface; axisymmetric: (r, z).
+    /// First coordinate of the pair's undeformed position on the second surface: x, or r in an
+    /// axisymmetric model.
     #[serde(deserialize_with = "number")]
     x: f64,
+    /// Second coordinate of that position: y, or z in an axisymmetric model.
     #[serde(deserialize_with = "number")]
     y: f64,
     /// Undeformed z; only of a solid.

@@ -339,8 +339,8 @@ impl JsonSchema for History {
         let table = generator.subschema_for::<Vec<[f64; 2]>>();
         json_schema!({
             "description": "How a load depends on the load factor: `\"proportional\"` (the \
-                            default), `\"constant\"` (a preload), or a table of [load factor, \
-                            multiple], piecewise linear.",
+                            default), `\"constant\"` (a preload), or a table of rows \
+                            `[load factor, multiple]`, piecewise linear.",
             "anyOf": [{ "enum": ["proportional", "constant"] }, table],
         })
     }

@@ -217,8 +217,9 @@ impl Scene {
         self.load.iter().any(|load| load.history.varies())
     }
 
-    /// Whether any body can yield, as far as is known. An undefined material counts as able to
-    /// yield: it is reported once, not again by every check that needs it.
+    /// Whether any body can yield, or might: a body whose material is not defined counts as able to
+    /// yield. The missing material is reported elsewhere, and checks that need a yielding body must
+    /// not report a second error because of it.
     fn may_yield(&self) -> bool {
         let mut bodies = self.bodies.values();
         self.any_can_yield() || bodies.any(|body| !self.materials.contains_key(&body.material))

@@ -196,7 +196,8 @@ impl<'m, 'o> Run<'m, 'o> {
         )))
     }
 
-    /// Passes an event to the observer and the results. Returns whether the run continues.
+    /// Records an event in the results; an increment is also passed to the observer. Returns
+    /// whether the run continues.
     fn record(&mut self, event: ProgramEvent) -> bool {
         let row = match event {
             ProgramEvent::Increment(row) => row,

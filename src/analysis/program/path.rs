@@ -22,8 +22,9 @@ const STRAIGHT: f64 = 1e-3;
 /// Number of times that a quarter of the way may be halved.
 const HALVINGS: usize = 3;
 
-/// Figures at a point: the share of the way that lies behind, maximum pressure, half width, and the
-/// uncertainty of the half width if its reading (a patch in space) varies more than a line bends.
+/// Figures at a point: the share of the way that has been covered, maximum pressure, half width,
+/// and the uncertainty of the half width if its reading (a patch in space) varies more than a line
+/// bends.
 type PathFigures = [f64; 4];
 
 impl PathSampler {

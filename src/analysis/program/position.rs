@@ -121,7 +121,7 @@ impl TargetSearch {
         true
     }
 
-    /// Share of the way that lies behind, for a value of the monitored quantity.
+    /// Share of the way that has been covered, for a value of the monitored quantity.
     pub(super) fn share_behind(&self, monitored: f64) -> f64 {
         within_0_and_1(1.0 - monitored.abs() / self.at_first)
     }
@@ -175,8 +175,8 @@ pub(super) struct Start {
     pub(super) rows: usize,
 }
 
-/// Share of the way between two load factors that lies behind. Changes of contact are spread evenly
-/// over the factor to the power `power`.
+/// Share of the way between two load factors that has been covered. Changes of contact are spread
+/// evenly over the factor to the power `power`.
 pub(super) fn share_of_way(alpha: f64, from: f64, to: f64, power: f64) -> f64 {
     if from == to {
         return 1.0;

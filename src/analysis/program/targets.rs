@@ -184,7 +184,7 @@ impl Run<'_, '_> {
         stops
     }
 
-    /// Share of the way to the current target that lies behind.
+    /// Fraction, from 0 to 1, of the way to the current target that has been covered.
     pub(super) fn share_behind(&self, arrival: Option<Arrival>) -> f64 {
         let Some(start) = &self.start else {
             return 0.0;

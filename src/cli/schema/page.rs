@@ -126,11 +126,11 @@ impl Page<'_> {
             "boolean" => "true or false".to_string(),
             "array" => {
                 let count = match (schema["minItems"].as_u64(), schema["maxItems"].as_u64()) {
-                    (Some(least), Some(most)) if least == most => format!("{least} of "),
-                    (Some(least), Some(most)) => format!("{least} to {most} of "),
+                    (Some(least), Some(most)) if least == most => format!("{least} "),
+                    (Some(least), Some(most)) => format!("{least} to {most} "),
                     _ => "list of ".to_string(),
                 };
-                format!("{count}{}", self.kind(&schema["items"]))
+                format!("{count}{}", several(self.kind(&schema["items"])))
             }
             "object" => match &schema["additionalProperties"] {
                 of_names @ Value::Object(_) => {
@@ -185,6 +185,18 @@ fn without_links(text: &str) -> String {
         }
     }
     out + rest
+}
+
+/// Several values of a kind, in words.
+fn several(kind: String) -> String {
+    match kind.as_str() {
+        "number" | "text" | "whole number" => format!("{kind}s"),
+        numbers if numbers.starts_with(|c: char| c.is_ascii_digit()) => format!("rows of {kind}"),
+        _ => match kind.strip_prefix("list of ") {
+            Some(items) => format!("lists of {items}"),
+            None => kind,
+        },
+    }
 }
 
 #[cfg(test)]

@@ -31,8 +31,10 @@ pub(super) struct StrainPath<'a, const S: usize> {
     pub(super) harder: f64,
 }
 
-/// Effect of a small strain across the flow that is spread evenly over the path, divided by `2 G`
-/// times the strain: the stress minus the back stress, and the stress lost to plastic strains.
+/// Response to a small additional strain perpendicular to the direction of plastic flow that grows
+/// evenly along the path. Both numbers are divided by `2 G` times that strain: `stress` is the
+/// change of the stress minus the back stress, `lost` the stress that plastic strains have taken
+/// off.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Across {
     pub(super) stress: f64,

@@ -36,7 +36,7 @@ const ROUND_OFF: f64 = 1e-9;
 struct NearestPoint {
     place: Place,
     point: Vector,
-    /// Outward unit normal of the facet there.
+    /// Outward unit normal of the facet at the nearest point.
     normal: Vector,
     distance: f64,
 }

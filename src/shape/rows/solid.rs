@@ -29,7 +29,8 @@ const GAUSS_3X3X3: &Rule = &{
 };
 const CENTER_OF_CUBE: &Rule = &[([0.0, 0.0, 0.0], 8.0)];
 const CENTROID_OF_TETRAHEDRON: &Rule = &[([0.25, 0.25, 0.25], 1.0 / 6.0)];
-/// Four-point rule, exact to degree 2, with points at `(5 -+ sqrt 5)/20`.
+/// Four-point rule of the tetrahedron, exact to degree 2: at each point one of the four barycentric
+/// coordinates is `(5 + 3 sqrt 5)/20` and the others are `(5 - sqrt 5)/20`.
 const INNER_4: &Rule = {
     const NEAR: f64 = 0.138_196_601_125_010_5;
     const FAR: f64 = 1.0 - 3.0 * NEAR;
