@@ -56,7 +56,8 @@ class InternalError(Error):
 
 
 class InaccurateWarning(UserWarning):
-    """A state's quality misses its tolerance (the result is not to be trusted), or a demanded accuracy was not reached."""
+    """A state's quality misses its tolerance or a contact carries a force though a load takes its surfaces apart (the
+    result is not to be trusted), or a demanded accuracy was not reached."""
 
 
 _KINDS = {
