@@ -214,7 +214,8 @@ pub struct YieldPoint {
 pub struct EdgeReading {
     /// Difference from another reading of the same pressures; half a spacing if there is none.
     pub error: f64,
-    /// Closed pairs on one side of the middle.
+    /// Closed pairs on one side of the middle; half of an odd number is rounded down, so that one
+    /// pair with open ones on both sides gives 0.
     pub pairs: usize,
 }
 

@@ -262,7 +262,5 @@ fn fewest_pairs(results: &Results) -> Option<usize> {
     let state = state.map(|s| (s.half_width, s.half_width_reading));
     let is_read = |(width, reading): &(f64, EdgeReading)| reading.is_of_pressures(*width);
     let read = first.into_iter().chain(state).filter(is_read);
-    read.map(|(_, reading)| reading.pairs)
-        .filter(|n| *n > 0)
-        .min()
+    read.map(|(_, reading)| reading.pairs).min()
 }

@@ -49,7 +49,7 @@ impl ContactSpot {
                 )
             }
         };
-        let is_read = reading.pairs > 0 && reading.is_of_pressures(half_width);
+        let is_read = reading.is_of_pressures(half_width);
         is_read.then(|| ContactSpot {
             state: state.map(str::to_string),
             at: [at[0], at[1]],
@@ -88,7 +88,7 @@ fn most_pressed(state: &State) -> Option<[f64; 3]> {
 /// needed.
 pub(super) fn suggested(scene: &Scene, results: &Results) -> Option<LocalRefinement> {
     let spot = ContactSpot::unresolved(results).filter(|_| !scene.kind.is_solid())?;
-    let halvings = (READABLE as f64 / spot.pairs as f64).log2().ceil();
+    let halvings = (READABLE as f64 / spot.pairs.max(1) as f64).log2().ceil();
     Some(spot.refined(halvings as usize))
 }
 
