@@ -430,8 +430,8 @@ mod tests {
             assert!(line(phase, "["), "{phase}: {text}");
             assert!(line(phase, "left"), "{phase}: {text}");
         }
-        // The prediction follows from the size, corrected by the assembly: 0.3 of 2060 s.
-        assert!(line("factorisation", "about 10 min left"), "{text}");
+        // The prediction follows from the size, corrected by the assembly: 0.3 of 732 s.
+        assert!(line("factorisation", "about 3.7 min left"), "{text}");
         assert!(line("load program", "============            "), "{text}");
         assert!(line("load program", "about 0.50 s left"), "{text}");
     }
