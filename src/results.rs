@@ -166,7 +166,8 @@ fn whole<S: Serializer>(count: &f64, to: S) -> Result<S::Ok, S::Error> {
 /// Name of the row of the time table for all factorisations.
 pub const FACTORISATION_ROW: &str = "factorisation and condensation";
 
-/// Name of the effect that loads are found for targets given by a figure of the state.
+/// Name of the effect that a load is searched for: on if a target gives a figure of the state, such
+/// as a half width, instead of a load.
 pub const LOADS_FOUND: &str = "loads found";
 
 /// A row of the effects ledger.

@@ -25,9 +25,10 @@ const OF_CONTACT: [&str; 4] = [
     "contact_area",
 ];
 
-/// Where the contact of a run is not resolved.
+/// First yield and states at which the mesh is too coarse for the contact, or at which it is not
+/// known whether the surfaces touch; with the refinement that would help.
 pub(super) struct Unresolved {
-    /// Whether it is not at first yield.
+    /// Whether the contact is not resolved at first yield.
     at_yield: bool,
     /// Whether load factors count in the load at first yield.
     in_yield_loads: bool,

@@ -297,8 +297,9 @@ impl<'t> DeckLines<'t> {
     }
 }
 
-/// Names that an `*INCLUDE` may mean, the most likely first: the text in quotes after `INPUT=`; or
-/// the text up to a comma, then all of the rest. No other parameter follows the name.
+/// File names that an `*INCLUDE` may mean, the most likely first. Text in quotes after `INPUT=` is
+/// the only candidate. Otherwise the first candidate is the text up to the first comma, and the
+/// second the whole text: a name may contain commas, since no parameter follows it.
 fn names_of_included(line: &str) -> Vec<&str> {
     let behind = |(at, _): (usize, char)| {
         let (key, value) = line[at + 1..].split_once('=')?;

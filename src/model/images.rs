@@ -36,8 +36,9 @@ pub struct Image {
 pub struct Images(Vec<Image>);
 
 impl Images {
-    /// Builds the images of the first 64 planes at most. Planes that do not meet at pi/n do not
-    /// take part in the same image.
+    /// Builds all mirror images of a model in its planes of symmetry; planes after the first 64 are
+    /// ignored. Two planes take part in the same image only if they meet at an angle of pi/n with a
+    /// whole number n.
     pub fn of(planes: &[Mirror]) -> Self {
         let planes = &planes[..planes.len().min(u64::BITS as usize)];
         let mut out = vec![Image::IN_PLACE];

@@ -49,8 +49,10 @@ pub struct Pair {
     pub gap: f64,
     /// Interference: the overlap that contact has to push apart.
     pub interference: f64,
-    /// Change of the pair's gap for a gap of 1 all over the contact: 1, or at a control point of a
-    /// quadratic face the value that the surrounding normals give.
+    /// Gap of this pair if the surfaces are 1 apart, along the local normal, everywhere; gaps and
+    /// interferences of the scene are multiplied by it. It is 1, except at control points of
+    /// quadratic faces: there it is the component along `normal` of a combination of the
+    /// surrounding normals.
     pub unit_gap: f64,
     /// Area that belongs to the pair: integral of the slave's shape function over the part of its
     /// surface that faces the other surface.

@@ -4,8 +4,9 @@ use super::number::number;
 use crate::space::Vector;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// A patch of contact of a solid model: pairs that touch, joined by faces of the second surface. If
-/// it reaches planes of symmetry it is the patch of the whole contact.
+/// A connected patch of contact in a solid model: closed pairs, neighbours if they share a face of
+/// the slave surface. If the patch ends on planes of symmetry, its figures are those of the whole
+/// patch, mirror images included.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactPatch {
     /// Contact (scene entry) index, from 0; `summary.json` counts from 1.

@@ -13,7 +13,8 @@ const SINGULAR: f64 = 1e-10;
 #[derive(Debug, Clone)]
 pub struct NodalExtrapolation {
     n_points: usize,
-    /// Weights of the points, stored node by node.
+    /// Factors by which the values at the integration points are multiplied and summed to give the
+    /// value at a node: all points of the first node, then of the next.
     weights: Vec<f64>,
 }
 
