@@ -158,58 +158,27 @@ trait GrowsFromContact {
     fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape);
 }
 
-impl GrowsFromContact for CylinderOnHalfPlane {
-    const STEP: usize = 1;
+macro_rules! grows_from_contact {
+    ($generator:ty, $step:literal $(, $far_growth:ident)?) => {
+        impl GrowsFromContact for $generator {
+            const STEP: usize = $step;
 
-    fn settings(&self) -> (usize, f64, Option<f64>, Shape) {
-        (self.resolution, self.growth, self.far_growth, self.element)
-    }
+            fn settings(&self) -> (usize, f64, Option<f64>, Shape) {
+                let far = None$(.or(self.$far_growth))?;
+                (self.resolution, self.growth, far, self.element)
+            }
 
-    fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape) {
-        let far = self.far_growth.as_mut();
-        (
-            &mut self.resolution,
-            &mut self.growth,
-            far,
-            &mut self.element,
-        )
-    }
+            fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape) {
+                let far = None$(.or(self.$far_growth.as_mut()))?;
+                (&mut self.resolution, &mut self.growth, far, &mut self.element)
+            }
+        }
+    };
 }
 
-impl GrowsFromContact for DiscInPlate {
-    const STEP: usize = 2;
-
-    fn settings(&self) -> (usize, f64, Option<f64>, Shape) {
-        (self.resolution, self.growth, self.far_growth, self.element)
-    }
-
-    fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape) {
-        let far = self.far_growth.as_mut();
-        (
-            &mut self.resolution,
-            &mut self.growth,
-            far,
-            &mut self.element,
-        )
-    }
-}
-
-impl GrowsFromContact for CurvedBodies {
-    const STEP: usize = 1;
-
-    fn settings(&self) -> (usize, f64, Option<f64>, Shape) {
-        (self.resolution, self.growth, None, self.element)
-    }
-
-    fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape) {
-        (
-            &mut self.resolution,
-            &mut self.growth,
-            None,
-            &mut self.element,
-        )
-    }
-}
+grows_from_contact!(CylinderOnHalfPlane, 1, far_growth);
+grows_from_contact!(DiscInPlate, 2, far_growth);
+grows_from_contact!(CurvedBodies, 1);
 
 impl<G: GrowsFromContact> Family for G {
     fn resize(&mut self, ratio: f64) -> Result<f64, String> {
