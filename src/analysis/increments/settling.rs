@@ -19,6 +19,8 @@ const PATIENCE: usize = 6;
 pub(super) struct Rounds {
     fewest: usize,
     patience: usize,
+    /// Number of rounds so far.
+    taken: usize,
 }
 
 impl Default for Rounds {
@@ -26,6 +28,7 @@ impl Default for Rounds {
         Rounds {
             fewest: usize::MAX,
             patience: PATIENCE,
+            taken: 0,
         }
     }
 }
@@ -33,15 +36,20 @@ impl Default for Rounds {
 impl Rounds {
     /// Number of pairs to change if `wrong` pairs have a wrong status.
     pub(in crate::analysis) fn take(&mut self, wrong: usize) -> usize {
+        self.taken += 1;
         if wrong < self.fewest {
-            *self = Rounds {
-                fewest: wrong,
-                patience: PATIENCE,
-            };
+            self.fewest = wrong;
+            self.patience = PATIENCE;
         } else {
             self.patience = self.patience.saturating_sub(1);
         }
         if self.patience > 0 { wrong } else { 1 }
+    }
+
+    /// Whether the rounds exceed ten times the number of pairs. Statuses of forces and gaps that
+    /// are round-off may change without end while plastic flow changes with them.
+    fn are_endless(&self, n_pairs: usize) -> bool {
+        self.taken > 10 * (n_pairs + 10)
     }
 }
 
@@ -66,6 +74,9 @@ pub(super) fn settle_contact(
         return Ok(false);
     }
     let take = rounds.take(wrong.len());
+    if rounds.are_endless(state.gap.len()) {
+        return Err(NoIncrement::Undecided);
+    }
     let tableau = &mut solver.tableau;
     if take > 1 {
         // Pairs that close are treated first, which keeps bodies held.
@@ -96,4 +107,23 @@ pub(super) fn wrong_at_end(solver: &Solver, state: &Equilibrium) -> Vec<usize> {
         false => force[k] < -WRONG * largest_force,
     };
     (0..gap.len()).filter(|&k| is_wrong(k)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounds_without_progress_end() {
+        let mut rounds = Rounds::default();
+        let takes: Vec<usize> = (0..8).map(|_| rounds.take(4)).collect();
+        assert_eq!(takes, [4, 4, 4, 4, 4, 4, 1, 1]);
+        assert!(!rounds.are_endless(3));
+        while !rounds.are_endless(3) {
+            rounds.take(4);
+        }
+        assert_eq!(rounds.taken, 131);
+        // Progress gives all of them another try.
+        assert_eq!(rounds.take(3), 3);
+    }
 }
