@@ -47,6 +47,10 @@ const CARRIED: usize = 16;
 /// Number of pairs for each event that may be carried along without a new solution: a solution is
 /// itself a sum of as many terms as there are pairs.
 const PAIRS_PER_CARRIED: usize = 32;
+/// Fraction of the largest rate of a force up to which a pair may be pulled and stay closed, if a
+/// body would be free without the pair: the load passes so near to the other pairs that round-off
+/// decides on which side.
+const PULLED: f64 = 1e-9;
 /// Value of [`Path`]'s event counter before any rates are known.
 const NEVER: usize = usize::MAX;
 /// Fraction of the tolerance of a tie by which a pair may violate its condition at the end of a
@@ -172,10 +176,12 @@ impl Path {
                 let of_gaps = column.map(|(j, t)| (t * self.gap_rate[j]).abs());
                 self.rate[k].abs() + of_gaps.sum::<f64>()
             };
+            let largest = self.force_rate.iter().fold(0.0, |m: f64, r| m.max(r.abs()));
             let rates: Vec<f64> = border
                 .iter()
                 .map(|&k| match self.force_rate[k] {
                     rate if rate.abs() <= ROUND_OFF * terms(k) => 0.0,
+                    rate if rate < 0.0 && -rate <= PULLED * largest && tableau.would_free(k) => 0.0,
                     rate => rate,
                 })
                 .collect();

@@ -5,12 +5,12 @@ use super::load_case::{LoadCase, Magnitude, name, on_freedoms};
 use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
 use super::openings::{Opening, opened};
-use super::tractions::{Tractions, integrate};
+use super::tractions::{NodeForces, Tractions, integrate};
 use super::{ContactSurface, Freedoms, Pair, Slot, volume_loads};
 use crate::analytical::KirschField;
 use crate::error::{Error, Result};
-use crate::mesh::Mesh;
-use crate::scene::{self, Displacement, Field, History, Scene};
+use crate::mesh::{Mesh, Surface};
+use crate::scene::{self, Displacement, Field, History, Kirsch, LoadAction, NodeAction, Scene};
 use crate::space::{Space, Vector, along, dot, length, unit};
 use std::collections::BTreeMap;
 
@@ -112,11 +112,18 @@ fn resolve_load(
     mesh: &Mesh,
 ) -> Result<LoadCase> {
     let entry = SceneEntry::of_list(scene, "load", index);
-    if load.acts_on_volume() {
-        return volume_loads::resolve(index, load, scene, mesh);
-    }
+    let action = match load.action() {
+        Some(LoadAction::OnVolume(action)) => {
+            return volume_loads::resolve(action, (index, load), scene, mesh);
+        }
+        Some(LoadAction::OnNodes(action)) => action,
+        None => {
+            let of_load = entry.on(&load.on);
+            let why = format!("{of_load}: no kind of load is given");
+            return Err(entry.refused(Error::input(why)));
+        }
+    };
     let nodes = entry.nodes(mesh, &load.on)?;
-    let symmetry = scene.symmetry as f64;
     let mut case = LoadCase {
         name: name(index, load),
         nodal: Vec::new(),
@@ -131,28 +138,42 @@ fn resolve_load(
         free_strain: Vec::new(),
         opens: Vec::new(),
     };
-    if let Some(gap) = &load.gap {
-        case.opens = opened(load, (scene, contacts), mesh, gap).map_err(|e| entry.refused(e))?;
-        case.measures = Magnitude::Gap;
-        let sizes = case.opens.iter().map(|(_, opening)| opening.largest());
-        case.magnitude = sizes.fold(0.0, f64::max);
-    } else if let Some(force) = load.force {
-        case.push(force.vector(), load, scene, mesh);
-    } else if let Some(displacement) = &load.displacement {
-        case.displace(displacement, scene, mesh).map_err(|error| {
-            entry.refused(error.within(format!("load {} on `{}`", index + 1, load.on)))
-        })?;
-    } else if let Some(relative) = &load.relative {
-        let moved = unit(relative.direction.axis()).map(|e| e * relative.value);
-        case.set_size(moved, Magnitude::Displacement);
-    } else if let Some(plane) = load.plane_force {
-        let mut force = [0.0; 3];
-        force[plane.direction.axis()] = plane.total;
-        case.set_size(force, Magnitude::Force);
-        // The nodes share one freedom: the whole force may act on any of them.
-        case.nodal = vec![(case.nodes[0], force.map(|f| f / symmetry))];
-    } else {
-        case.press((index, load), &entry, scene, mesh)?;
+    let of_load = |error: Error| entry.refused(error.within(entry.on(&load.on)));
+    let surface = |key: &str| {
+        let surface = mesh.surfaces.get(&load.on);
+        let why = format!("`{key}` needs a surface, this is a node set");
+        surface.ok_or_else(|| of_load(Error::input(why)))
+    };
+    let tractions = Tractions::new(scene, mesh, &entry, load);
+    match action {
+        NodeAction::Gap(gap) => {
+            case.opens =
+                opened(load, (scene, contacts), mesh, gap).map_err(|e| entry.refused(e))?;
+            case.measures = Magnitude::Gap;
+            let sizes = case.opens.iter().map(|(_, opening)| opening.largest());
+            case.magnitude = sizes.fold(0.0, f64::max);
+        }
+        NodeAction::Force(force) => case.push(force.vector(), load, scene, mesh),
+        NodeAction::Displacement(given) => case.displace(given, scene, mesh).map_err(of_load)?,
+        NodeAction::Relative(relative) => {
+            let moved = unit(relative.direction.axis()).map(|e| e * relative.value);
+            case.set_size(moved, Magnitude::Displacement);
+        }
+        NodeAction::PlaneForce(plane) => {
+            let mut force = [0.0; 3];
+            force[plane.direction.axis()] = plane.total;
+            case.set_size(force, Magnitude::Force);
+            // The nodes share one freedom: the whole force may act on any of them.
+            case.nodal = vec![(case.nodes[0], force.map(|f| f / scene.symmetry as f64))];
+        }
+        NodeAction::Pressure(pressure) => {
+            case.press(tractions.of_pressure(pressure, surface("pressure")?)?, None);
+        }
+        NodeAction::Traction(traction) => {
+            let found = tractions.of_vector(traction, surface("traction")?)?;
+            case.press(found, traction.uniform());
+        }
+        NodeAction::Kirsch(kirsch) => case.pull(kirsch, surface("kirsch")?, scene, mesh),
     }
     Ok(case)
 }
@@ -175,63 +196,40 @@ impl LoadCase {
         };
     }
 
-    /// Integrates what acts on each point of a surface: a pressure, a traction, or the tractions of
-    /// a plate with a hole.
-    fn press(
-        &mut self,
-        (index, load): (usize, &scene::Load),
-        entry: &SceneEntry,
-        scene: &Scene,
-        mesh: &Mesh,
-    ) -> Result<()> {
-        let surface = |key: &str| {
-            mesh.surfaces.get(&load.on).ok_or_else(|| {
-                entry.refused(Error::input(format!(
-                    "load {} on `{}`: `{key}` needs a surface, this is a node set",
-                    index + 1,
-                    load.on
-                )))
-            })
-        };
-        let tractions = Tractions::new(scene, mesh, entry, load);
-        if let Some(pressure) = &load.pressure {
-            let (nodal, largest) = tractions.of_pressure(pressure, surface("pressure")?)?;
-            self.nodal = nodal;
-            self.set_size(total(&self.nodal), Magnitude::Stress);
-            self.magnitude = largest;
-        } else if let Some(traction) = &load.traction {
-            let (nodal, largest) = tractions.of_vector(traction, surface("traction")?)?;
-            self.nodal = nodal;
-            match traction.uniform() {
-                Some(uniform) => self.set_size(uniform, Magnitude::Stress),
-                None => {
-                    self.set_size(total(&self.nodal), Magnitude::Stress);
-                    self.magnitude = largest;
-                }
+    /// Takes the nodal forces of what acts on each point of a surface, with its largest size. The
+    /// direction is that of the same traction everywhere, if there is one, else of the resultant.
+    fn press(&mut self, (nodal, largest): (NodeForces, f64), uniform: Option<Vector>) {
+        self.nodal = nodal;
+        match uniform {
+            Some(uniform) => self.set_size(uniform, Magnitude::Stress),
+            None => {
+                self.set_size(total(&self.nodal), Magnitude::Stress);
+                self.magnitude = largest;
             }
-        } else if let Some(k) = load.kirsch {
-            let field = KirschField {
-                stress_x: k.stress_x,
-                stress_y: k.stress_y,
-                radius: k.radius,
-            };
-            self.nodal = integrate(scene.kind, mesh, surface("kirsch")?, |point| {
-                let (x, n) = (point.position, point.normal);
-                let [sxx, syy, sxy] = field.stress(x[0], x[1]);
-                [sxx * n[0] + sxy * n[1], sxy * n[0] + syy * n[1], 0.0]
-            });
-            self.set_size([k.stress_x, k.stress_y, 0.0], Magnitude::Stress);
-            if k.stress_y == 0.0 || k.stress_x == 0.0 {
-                self.magnitude = (k.stress_x + k.stress_y).abs();
-            }
-        } else {
-            return Err(entry.refused(Error::input(format!(
-                "load {} on `{}`: no kind of load is given",
-                index + 1,
-                load.on
-            ))));
         }
-        Ok(())
+    }
+
+    /// Integrates the tractions of a plate with a hole.
+    fn pull(&mut self, kirsch: Kirsch, surface: &Surface, scene: &Scene, mesh: &Mesh) {
+        let Kirsch {
+            stress_x,
+            stress_y,
+            radius,
+        } = kirsch;
+        let field = KirschField {
+            stress_x,
+            stress_y,
+            radius,
+        };
+        self.nodal = integrate(scene.kind, mesh, surface, |point| {
+            let (x, n) = (point.position, point.normal);
+            let [sxx, syy, sxy] = field.stress(x[0], x[1]);
+            [sxx * n[0] + sxy * n[1], sxy * n[0] + syy * n[1], 0.0]
+        });
+        self.set_size([stress_x, stress_y, 0.0], Magnitude::Stress);
+        if stress_y == 0.0 || stress_x == 0.0 {
+            self.magnitude = (stress_x + stress_y).abs();
+        }
     }
 
     /// Sets magnitude (the largest at any node) and direction (the mean) of a prescribed

@@ -8,6 +8,7 @@
 use super::mirror::{Mirror, ON_PLANE, SAME};
 use super::{ContactSurface, Model, Pair, Slot};
 use crate::mesh::Facet;
+use crate::scene::{Load, LoadAction, NodeAction};
 use crate::space::{Vector, along, cross, difference, direction, dot, length as length_of};
 use std::collections::BTreeSet;
 
@@ -144,9 +145,14 @@ impl Conditions {
             }
             out
         };
-        let is_force = |l: &&crate::scene::Load| {
-            let moves = l.displacement.is_some() || l.relative.is_some();
-            !(l.acts_on_volume() || moves || l.plane_force.is_some())
+        let is_force = |load: &&Load| match load.action() {
+            Some(LoadAction::OnNodes(action)) => match action {
+                NodeAction::Displacement(_) | NodeAction::Relative(_) => false,
+                NodeAction::PlaneForce(_) => false,
+                NodeAction::Force(_) | NodeAction::Pressure(_) => true,
+                NodeAction::Traction(_) | NodeAction::Kirsch(_) | NodeAction::Gap(_) => true,
+            },
+            Some(LoadAction::OnVolume(_)) | None => false,
         };
         let scene = &model.scene;
         let mut n_owners = vec![0; model.freedoms.n];

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::convert::Infallible;
 
 /// Nodal forces, nodes ascending.
-type NodeForces = Vec<(usize, Vector)>;
+pub(super) type NodeForces = Vec<(usize, Vector)>;
 
 /// Load of a scene that acts on a surface by a pressure or a traction.
 pub(super) struct Tractions<'a> {

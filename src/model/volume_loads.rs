@@ -8,12 +8,12 @@ use super::{body_forces, heat};
 use crate::error::{Error, Result};
 use crate::material::{Lame, Material};
 use crate::mesh::Mesh;
-use crate::scene::{self, Field, Scene};
+use crate::scene::{self, Field, Scene, VolumeAction};
 use crate::space::Vector;
 
 pub(super) fn resolve(
-    index: usize,
-    load: &scene::Load,
+    action: VolumeAction,
+    (index, load): (usize, &scene::Load),
     scene: &Scene,
     mesh: &Mesh,
 ) -> Result<LoadCase> {
@@ -34,18 +34,15 @@ pub(super) fn resolve(
         let text = format!("needs the {what} of the body; give materials.{material}.{key}");
         value.ok_or_else(|| refused(text))
     };
-    // A temperature load needs only the volumes of the nodes.
-    let density = match load.temperature {
-        Some(_) => 1.0,
-        None => needed("mass", "density", data.density)?,
-    };
-    let on_body = |field: &dyn Fn(Vector) -> Vector| {
+    let density = || needed("mass", "density", data.density);
+    let on_body = |density: f64, field: &dyn Fn(Vector) -> Vector| {
         body_forces::on_body(scene.kind, mesh, body, density, field)
     };
-    let acceleration = load.acceleration.map(|a| a.vector());
-    let forces = match &load.rotation {
-        Some(rotation) => on_body(&body_forces::spinning(scene.kind, rotation)),
-        None => on_body(&|_| acceleration.unwrap_or_default()),
+    let forces = match action {
+        VolumeAction::Acceleration(a) => on_body(density()?, &|_| a.vector()),
+        VolumeAction::Rotation(r) => on_body(density()?, &body_forces::spinning(scene.kind, &r)),
+        // Only the volumes of the nodes are needed.
+        VolumeAction::Temperature(_) => on_body(1.0, &|_| [0.0; 3]),
     };
     let volume: f64 = forces.volumes.iter().sum();
     let mut case = LoadCase {
@@ -62,22 +59,21 @@ pub(super) fn resolve(
         free_strain: Vec::new(),
         opens: Vec::new(),
     };
-    if let Some(temperature) = &load.temperature {
-        let expansion = needed(
-            "thermal expansion",
-            "thermal_expansion",
-            data.thermal_expansion,
-        )?;
-        let changes = changes(temperature, scene, mesh, &case.nodes)
-            .map_err(|error| refused(error.message().to_string()))?;
-        let law = Material::new(material, &data, scene.kind).lame();
-        set_temperature(&mut case, (scene, mesh), (body, law), (&changes, expansion));
-    } else if let Some(a) = acceleration {
-        let mass = scene.symmetry as f64 * density * volume;
-        case.set_size(a.map(|a| mass * a), Magnitude::Force);
-    } else {
+    match action {
+        VolumeAction::Temperature(temperature) => {
+            let expansion = data.thermal_expansion;
+            let expansion = needed("thermal expansion", "thermal_expansion", expansion)?;
+            let changes = changes(temperature, scene, mesh, &case.nodes)
+                .map_err(|error| refused(error.message().to_string()))?;
+            let law = Material::new(material, &data, scene.kind).lame();
+            set_temperature(&mut case, (scene, mesh), (body, law), (&changes, expansion));
+        }
+        VolumeAction::Acceleration(a) => {
+            let mass = scene.symmetry as f64 * density()? * volume;
+            case.set_size(a.vector().map(|a| mass * a), Magnitude::Force);
+        }
         // Forces of rotation have no common direction: their sizes are added.
-        case.magnitude = scene.symmetry as f64 * case.size();
+        VolumeAction::Rotation(_) => case.magnitude = scene.symmetry as f64 * case.size(),
     }
     Ok(case)
 }

@@ -218,11 +218,6 @@ pub struct Load {
 }
 
 impl Load {
-    /// Whether the load acts on the volume of a body; `on` is then the name of the body.
-    pub fn acts_on_volume(&self) -> bool {
-        self.acceleration.is_some() || self.rotation.is_some() || self.temperature.is_some()
-    }
-
     /// The fields of the load that may depend on the position, each with its key relative to the
     /// load's key.
     pub(crate) fn fields(&self) -> Vec<(String, &Field)> {

@@ -23,6 +23,7 @@ mod field;
 mod geometry;
 mod key_places;
 mod listed_materials;
+mod load_action;
 mod local_refinement;
 mod material;
 mod over_temperature;
@@ -55,6 +56,7 @@ pub use geometry::{
     SurfaceSphere, SurfaceTorus,
 };
 pub use key_places::KeyPlaces;
+pub use load_action::{LoadAction, NodeAction, VolumeAction};
 pub use local_refinement::LocalRefinement;
 pub use material::{Body, Material, MaterialRow, Plastic};
 pub use program::{

@@ -1,7 +1,7 @@
 //! The order in which points are run: the points that yield furthest first.
 
 use crate::output::sweep::SweepPoint;
-use crate::scene::{Load, Scene};
+use crate::scene::{Load, LoadAction, NodeAction, Scene};
 use crate::space::length;
 
 /// Returns the largest number of a load over the least yield stress; 0 if either is not known. Only
@@ -18,17 +18,21 @@ pub(super) fn of(scene: &Scene) -> f64 {
 }
 
 fn size(load: &Load) -> f64 {
-    let force = load.force.as_ref().map(|force| length(force.vector()));
-    let plane = load.plane_force.map(|plane| plane.total.abs());
-    let pressure = load.pressure.as_ref().and_then(|of| of.uniform());
-    let moved = load.displacement.as_ref().map(|displacement| {
-        let components = displacement.components().into_iter().flatten();
-        let numbers = components.filter_map(|of| of.uniform());
-        numbers.fold(0.0, |most: f64, u| most.max(u.abs()))
-    });
-    let relative = load.relative.as_ref().map(|relative| relative.value.abs());
-    let sizes = [force, plane, pressure.map(f64::abs), moved, relative];
-    sizes.into_iter().flatten().fold(0.0, f64::max)
+    let Some(LoadAction::OnNodes(action)) = load.action() else {
+        return 0.0;
+    };
+    match action {
+        NodeAction::Force(force) => length(force.vector()),
+        NodeAction::PlaneForce(plane) => plane.total.abs(),
+        NodeAction::Pressure(pressure) => pressure.uniform().map_or(0.0, f64::abs),
+        NodeAction::Displacement(displacement) => {
+            let components = displacement.components().into_iter().flatten();
+            let numbers = components.filter_map(|of| of.uniform());
+            numbers.fold(0.0, |most: f64, u| most.max(u.abs()))
+        }
+        NodeAction::Relative(relative) => relative.value.abs(),
+        NodeAction::Traction(_) | NodeAction::Kirsch(_) | NodeAction::Gap(_) => 0.0,
+    }
 }
 
 /// Returns the indices of the points, the largest demand first; points of equal demand keep their

@@ -22,7 +22,10 @@ pub(super) fn assemble(content: Content, cursor: &Cursor) -> Result<Mesh> {
     let left_out = content.require_one_body(dimension, cursor)?;
     let mut mesh = Mesh {
         dimension: dimension as usize,
-        notes: left_out.into_iter().collect(),
+        notes: left_out
+            .into_iter()
+            .chain(content.centers_left_out())
+            .collect(),
         ..Mesh::default()
     };
     let kept = keep_nodes(&content, cursor, &mut mesh)?;

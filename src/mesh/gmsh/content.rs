@@ -1,7 +1,7 @@
 //! The content of a file, common to both versions of the format, before a mesh is made of it.
 
 use super::cursor::Cursor;
-use super::kind::ElementUse;
+use super::kind::{ElementUse, TypeInFile};
 use crate::labels::LabelIndex;
 use crate::shape::MAX_NODES;
 use crate::{Error, ErrorKind, Result};
@@ -28,6 +28,8 @@ pub(super) struct Content {
     pub connectivity: Vec<u32>,
     /// Points in physical groups.
     pub points: Vec<RawPoint>,
+    /// Number of elements with nodes at centres, which are left out.
+    pub n_with_centers: usize,
 }
 
 /// An element of a body or of the boundary. Nodes are stored in [`Content::connectivity`] in the
@@ -86,8 +88,8 @@ impl Content {
     }
 
     /// The kind of an element type, or an error that names the unsupported type.
-    pub(super) fn kind(cursor: &Cursor, at: usize, element_type: u64) -> Result<ElementUse> {
-        ElementUse::from_type(element_type).map_err(|name| {
+    pub(super) fn kind(cursor: &Cursor, at: usize, element_type: u64) -> Result<TypeInFile> {
+        TypeInFile::of(element_type).map_err(|name| {
             let place = cursor.error_at(at, format!("unsupported {name}"));
             Error::new(
                 ErrorKind::Unsupported,
@@ -106,7 +108,10 @@ impl Content {
     pub(super) fn read_element(
         &mut self,
         cursor: &mut Cursor,
-        kind: ElementUse,
+        TypeInFile {
+            element: kind,
+            n_centers,
+        }: TypeInFile,
         label: u64,
         groups: &[u64],
         at: usize,
@@ -123,6 +128,10 @@ impl Content {
                 )
             })?;
         }
+        for _ in 0..n_centers {
+            cursor.unsigned("a node number")?;
+        }
+        self.n_with_centers += usize::from(n_centers > 0);
         cursor.end_line()?;
         match kind {
             ElementUse::Point => self.points.extend(groups.iter().map(|&group| RawPoint {
@@ -216,6 +225,18 @@ impl Content {
              as element {}: if they are a body, put it into a Physical {group} in Gmsh",
             first.label
         )))
+    }
+
+    /// A note on nodes at centres, if any element has some.
+    pub(super) fn centers_left_out(&self) -> Option<String> {
+        (self.n_with_centers > 0).then(|| {
+            format!(
+                "{} elements of the mesh file have nodes at centres of faces or of the element, \
+                 which are left out: 9-node quadrilaterals are read as 8-node ones, 27-node \
+                 hexahedra as 20-node ones, 18-node prisms as 15-node ones",
+                self.n_with_centers
+            )
+        })
     }
 
     /// The reason why an element in several groups cannot be assigned to a body.

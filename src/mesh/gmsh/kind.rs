@@ -18,13 +18,35 @@ pub(super) enum ElementUse {
     Element(Shape),
 }
 
+/// An element type of the file: its use, and what the file has beyond it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TypeInFile {
+    pub element: ElementUse,
+    /// Number of nodes at the centres of faces and of the element, which come last and are left
+    /// out.
+    pub n_centers: usize,
+}
+
+impl TypeInFile {
+    /// The use of a type number; an error with the name of the type if brinell has no such element.
+    pub(super) fn of(number: u64) -> Result<TypeInFile, String> {
+        let (shape, n_centers) = match number {
+            10 => (Some(Shape::Quad8), 1),
+            12 => (Some(Shape::Hex20), 7),
+            13 => (Some(Shape::Prism15), 3),
+            _ => (Shape::of_gmsh(number), 0),
+        };
+        let element = match shape {
+            Some(shape) => ElementUse::Element(shape),
+            None => ElementUse::of_boundary(number)?,
+        };
+        Ok(TypeInFile { element, n_centers })
+    }
+}
+
 impl ElementUse {
-    /// The kind of a type number; an error with the name of the type if brinell has no such
-    /// element.
-    pub(super) fn from_type(number: u64) -> Result<ElementUse, String> {
-        if let Some(shape) = Shape::of_gmsh(number) {
-            return Ok(ElementUse::Element(shape));
-        }
+    /// The use of a type number that is no element of a body.
+    fn of_boundary(number: u64) -> Result<ElementUse, String> {
         if let Some(facet) = FacetReference::ALL
             .into_iter()
             .find(|f| f.gmsh == number && f.dimension() == 1)
@@ -33,28 +55,7 @@ impl ElementUse {
         }
         let name = match number {
             POINT => return Ok(ElementUse::Point),
-            10 => {
-                return Err(
-                    "9-node quadrilateral (type 10): set Mesh.SecondOrderIncomplete = 1 in Gmsh \
-                     for 8-node quadrilaterals"
-                        .to_string(),
-                );
-            }
-            12 => {
-                return Err(
-                    "27-node hexahedron (type 12): set Mesh.SecondOrderIncomplete = 1 in Gmsh for \
-                     20-node hexahedra"
-                        .to_string(),
-                );
-            }
             7 => "5-node pyramid",
-            13 => {
-                return Err(
-                    "18-node prism (type 13): set Mesh.SecondOrderIncomplete = 1 in Gmsh for \
-                     15-node prisms"
-                        .to_string(),
-                );
-            }
             14 => "14-node pyramid",
             19 => "13-node pyramid",
             20 => "9-node triangle",

@@ -3,7 +3,7 @@
 use super::content::Content;
 use super::cursor::Cursor;
 use super::entities::Partitions;
-use super::kind::ElementUse;
+use super::kind::TypeInFile;
 use crate::Result;
 
 /// Reads `$Nodes`, with `number x y z` per line.
@@ -84,7 +84,7 @@ pub(super) fn read_elements(content: &mut Content, cursor: &mut Cursor) -> Resul
 fn read_tags_and_nodes(
     content: &mut Content,
     cursor: &mut Cursor,
-    (kind, label, at): (ElementUse, u64, usize),
+    (kind, label, at): (TypeInFile, u64, usize),
     n_tags: usize,
 ) -> Result<u64> {
     let [mut physical, mut partition] = [0; 2];

@@ -67,7 +67,7 @@ pub(super) fn read_elements(
         let kind = Content::kind(cursor, at, element_type)?;
         let n = cursor.count("the number of elements in a block")?;
         cursor.end_line()?;
-        if kind.dimension() != dimension {
+        if kind.element.dimension() != dimension {
             return Err(cursor.error_at(
                 at,
                 format!(

@@ -16,7 +16,8 @@ use crate::number::significant;
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
 use std::collections::BTreeMap;
 
-/// Cosine of the largest angle between outward normals that count as equal or as opposed.
+/// Cosine of the largest angle between outward normals that count as equal, or of elements' faces
+/// that count as opposed.
 const AGREE: f64 = 0.5;
 /// Fraction of the depth of a slave's element beyond which an overlap is examined: a face on the
 /// far side is off by the full depth.
@@ -86,7 +87,8 @@ fn is_met(corners: &[Vector], x: Vector, line: Vector) -> bool {
 
 impl ContactInput<'_> {
     /// Refuses a facet of one surface with the same outward normal as the opposite facet of the
-    /// other, unless a facet of its own surface lies between them and looks at the other.
+    /// other, unless a facet of either surface on the line between them looks at the other, at
+    /// whatever angle: a whole circle has facets on its far side, too.
     pub(super) fn check_sides(&self) -> Result<()> {
         let looking = self
             .surfaces
@@ -95,7 +97,7 @@ impl ContactInput<'_> {
             let (own, other) = (&looking[side], &looking[1 - side]);
             for &(facet, middle, normal, _) in &own.facets {
                 let across: Vec<_> = other.met(middle, normal).collect();
-                if across.iter().any(|(_, n, _)| dot(*n, normal) < -AGREE) {
+                if across.iter().any(|(_, n, _)| dot(*n, normal) < 0.0) {
                     continue;
                 }
                 let alike = across.iter().filter(|(_, n, _)| dot(*n, normal) > AGREE);
@@ -103,7 +105,7 @@ impl ContactInput<'_> {
                 let Some(&(opposite, n, off)) = nearest else {
                     continue;
                 };
-                if !own.met(middle, normal).any(|(_, m, _)| dot(m, n) < -AGREE) {
+                if !own.met(middle, normal).any(|(_, m, _)| dot(m, n) < 0.0) {
                     // A facet looks away from what lies behind it; otherwise the facet ahead looks
                     // away.
                     return Err(match off < 0.0 {

@@ -10,7 +10,7 @@ use crate::output::RunHeader;
 use crate::output::columns::of_states;
 use crate::output::labels::{Labels, in_line, labelled};
 use crate::results::Results;
-use crate::scene::{Direction, Field, History, Load};
+use crate::scene::{Direction, Field, History, Load, LoadAction, NodeAction, VolumeAction};
 use crate::space::Components;
 use maud::{Markup, PreEscaped, html};
 use plotters::style::RGBColor;
@@ -187,58 +187,67 @@ fn axis(model: &Model, direction: Direction) -> &'static str {
     model.kind.axes()[direction.axis()]
 }
 
-fn describe(model: &Model, load: &Load, labels: &Labels) -> String {
-    let vector = |v: Components| {
-        let parts: Vec<String> = v.iter().map(given).collect();
-        format!("({})", parts.join(", "))
-    };
-    let mut what = if let Some(force) = load.force {
-        format!("force {}", vector(force))
-    } else if let Some(pressure) = &load.pressure {
-        format!("pressure {}", stated(pressure, labels.stress()))
-    } else if let Some(traction) = &load.traction {
-        let parts: Vec<String> = traction.iter().map(|part| stated(part, "")).collect();
-        format!("traction ({}) {}", parts.join(", "), labels.stress())
-    } else if let Some(kirsch) = load.kirsch {
-        format!(
+fn vector(components: Components) -> String {
+    let parts: Vec<String> = components.iter().map(given).collect();
+    format!("({})", parts.join(", "))
+}
+
+/// Describes what a load does to the nodes of a surface or a node set.
+fn on_nodes(model: &Model, action: NodeAction, labels: &Labels) -> String {
+    match action {
+        NodeAction::Force(force) => format!("force {}", vector(force)),
+        NodeAction::Pressure(pressure) => {
+            format!("pressure {}", stated(pressure, labels.stress()))
+        }
+        NodeAction::Traction(traction) => {
+            let parts: Vec<String> = traction.iter().map(|part| stated(part, "")).collect();
+            format!("traction ({}) {}", parts.join(", "), labels.stress())
+        }
+        NodeAction::Kirsch(kirsch) => format!(
             "traction of a plate with a hole under remote tensions {}",
             vector([kirsch.stress_x, kirsch.stress_y].into())
-        )
-    } else if let Some(d) = &load.displacement {
-        let parts: Vec<String> = Direction::ALL
-            .into_iter()
-            .zip(d.components())
-            .filter_map(|(direction, value)| {
+        ),
+        NodeAction::Displacement(displacement) => {
+            let components = Direction::ALL.into_iter().zip(displacement.components());
+            let given = components.filter_map(|(direction, value)| {
                 let value = stated(value?, labels.length());
                 Some(format!("{} = {value}", axis(model, direction)))
-            })
-            .collect();
-        format!("displacement {}", parts.join(", "))
-    } else if let Some(relative) = &load.relative {
-        let along = axis(model, relative.direction);
-        format!(
-            "displacement along {along}, {} more than of what it follows",
+            });
+            format!("displacement {}", given.collect::<Vec<_>>().join(", "))
+        }
+        NodeAction::Relative(relative) => format!(
+            "displacement along {}, {} more than of what it follows",
+            axis(model, relative.direction),
             stated(&relative.value.into(), labels.length())
-        )
-    } else if let Some(plane) = load.plane_force {
-        format!(
+        ),
+        NodeAction::PlaneForce(plane) => format!(
             "force {} along {}, the surface held plane",
             given(plane.total),
             axis(model, plane.direction)
-        )
-    } else if let Some(acceleration) = load.acceleration {
-        format!("acceleration {} of its mass", vector(acceleration))
-    } else if let Some(rotation) = load.rotation {
-        format!("rotation at {} rpm", given(rotation.rpm))
-    } else if let Some(temperature) = &load.temperature {
-        match temperature {
-            Field::Nodal(_) => format!("temperature changed {temperature}"),
-            _ => format!("temperature changed by {}", stated(temperature, "")),
+        ),
+        NodeAction::Gap(gap) => format!("gap changed by {}", stated(gap, labels.length())),
+    }
+}
+
+/// Describes what a load does to the volume of a body.
+fn on_volume(action: VolumeAction) -> String {
+    match action {
+        VolumeAction::Acceleration(a) => format!("acceleration {} of its mass", vector(a)),
+        VolumeAction::Rotation(rotation) => format!("rotation at {} rpm", given(rotation.rpm)),
+        VolumeAction::Temperature(nodal @ Field::Nodal(_)) => {
+            format!("temperature changed {nodal}")
         }
-    } else if let Some(gap) = &load.gap {
-        format!("gap changed by {}", stated(gap, labels.length()))
-    } else {
-        String::new()
+        VolumeAction::Temperature(change) => {
+            format!("temperature changed by {}", stated(change, ""))
+        }
+    }
+}
+
+fn describe(model: &Model, load: &Load, labels: &Labels) -> String {
+    let mut what = match load.action() {
+        Some(LoadAction::OnNodes(action)) => on_nodes(model, action, labels),
+        Some(LoadAction::OnVolume(action)) => on_volume(action),
+        None => String::new(),
     };
     match &load.history {
         History::Proportional => {}

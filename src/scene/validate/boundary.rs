@@ -207,23 +207,11 @@ fn check_relative(problems: &mut Problems, key: &str, relative: &Relative, space
 
 fn check_load(problems: &mut Problems, key: &str, load: &Load, kind: Space) {
     check_set_name(problems, &format!("{key}.on"), &load.on);
-    problems.exactly_one(
-        key,
-        "load kind",
-        &[
-            ("force", load.force.is_some()),
-            ("pressure", load.pressure.is_some()),
-            ("traction", load.traction.is_some()),
-            ("kirsch", load.kirsch.is_some()),
-            ("displacement", load.displacement.is_some()),
-            ("relative", load.relative.is_some()),
-            ("plane_force", load.plane_force.is_some()),
-            ("acceleration", load.acceleration.is_some()),
-            ("rotation", load.rotation.is_some()),
-            ("temperature", load.temperature.is_some()),
-            ("gap", load.gap.is_some()),
-        ],
-    );
+    let kinds = load.actions();
+    let kinds: Vec<_> = kinds
+        .map(|(name, action)| (name, action.is_some()))
+        .collect();
+    problems.exactly_one(key, "load kind", &kinds);
     if let Some(displacement) = &load.displacement {
         let key = format!("{key}.displacement");
         problems.require(

@@ -47,7 +47,6 @@ fn other_files_binary_files_and_other_versions() {
 #[test]
 fn element_types_that_brinell_does_not_have() {
     for (element_type, name) in [
-        (10, "SecondOrderIncomplete"),
         (7, "5-node pyramid (type 7)"),
         (21, "10-node triangle (type 21)"),
         (26, "4-node line (type 26)"),

@@ -52,6 +52,31 @@ fn solid_elements_come_back_as_they_were() {
     }
 }
 
+/// Gmsh puts nodes at centres of faces and elements last, unless it is told to leave them out.
+#[test]
+fn nodes_at_centers_are_left_out() {
+    for (shape, complete, n_centers) in [(Shape::Hex20, 12, 7), (Shape::Prism15, 13, 3)] {
+        let mesh = one(shape);
+        let incomplete = shape.reference().gmsh;
+        let line = |text: &str| {
+            let is_body = |line: &&str| line.split(' ').nth(1) == Some(&incomplete.to_string());
+            text.lines().find(is_body).unwrap().to_string()
+        };
+        let text = written(&mesh);
+        let old = line(&text);
+        let centers: Vec<String> = (0..n_centers).map(|k| (1 + k).to_string()).collect();
+        let new = old.replacen(&format!(" {incomplete} "), &format!(" {complete} "), 1);
+        let text = text.replace(&old, &format!("{new} {}", centers.join(" ")));
+        let read = parsed(&text);
+        assert_eq!(read.connectivity, mesh.connectivity);
+        assert_eq!((read.shapes, read.surfaces), (mesh.shapes, mesh.surfaces));
+        assert!(read.notes[0].contains("centres"), "{:?}", read.notes);
+        // A line that ends before its last node is still refused.
+        let text = text.replace(&format!(" {}", centers.join(" ")), "");
+        assert!(parse(text.as_bytes(), "solid.msh").is_err());
+    }
+}
+
 /// The two corners of the edge of each mid-side node in the file, as numbered in the manual of Gmsh
 /// ("Node ordering").
 #[test]
