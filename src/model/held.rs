@@ -3,13 +3,17 @@
 //! Rigid motions of all bodies together are tested against the supports and, bilaterally, the
 //! contact pairs. A motion that both leave free causes an error that names the body and the motion,
 //! unless no load does work on it: then one freedom is pinned, which affects only the free motion.
+//! So is a round body that a load turns no more than its flat facets explain; the pin then bears
+//! that little.
 
 use super::far_boundary::{FarBoundary, StoppedMotion};
 use super::motions::{self, FREE, Mode, Motions};
 use super::rigid_motion::RigidMotion;
+use super::round_surfaces::RoundSurfaces;
 use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary, springs};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
+use crate::number::significant;
 use crate::space::Space;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -45,11 +49,15 @@ impl FloatingBodies {
     }
 }
 
-/// A freedom that was pinned because nothing else held it and no load does work on its motion.
+/// A freedom that was pinned because nothing else held it and no load does work on its motion,
+/// apart from what the facets of a round surface explain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pin {
     /// Description of the motion in words.
     pub motion: String,
+    /// The load that does most work on the motion, and that work over the load's size, if a round
+    /// surface explains it.
+    pub driven: Option<(String, f64)>,
     /// Node of the pinned freedom.
     pub node: usize,
 }
@@ -58,6 +66,29 @@ pub struct Pin {
 /// displacement, relative to the sum of the sizes of its terms. The centre of a round surface is
 /// known no more accurately than that, and a load through it does about that much work.
 const NO_WORK_FOUND: f64 = 10.0 * FREE;
+
+impl Pin {
+    fn in_words(&self, mesh: &Mesh) -> String {
+        let Pin {
+            motion,
+            driven,
+            node,
+        } = self;
+        let node = mesh.node_label(*node);
+        match driven {
+            None => format!(
+                "{motion}: nothing holds this motion and no load drives it; it is held at node \
+                 {node}"
+            ),
+            Some((load, share)) => format!(
+                "{motion}: nothing holds this motion, and load `{load}` drives it by {} of its \
+                 size, no more than flat facets of a round surface explain; it is held at node \
+                 {node}, which bears that",
+                significant(*share, 2)
+            ),
+        }
+    }
+}
 
 /// A motion that was pinned, with the node and the number of the axis that are held.
 type Pinned = (Mode, usize, usize);
@@ -80,12 +111,7 @@ pub(super) fn resolve(
         }
     }
     let pinned = pin(&motions, freedoms, pairs, loads, &mut floating.pins)?;
-    for Pin { motion, node } in &floating.pins {
-        let node = mesh.node_label(*node);
-        warnings.push(format!(
-            "{motion}: nothing holds this motion and no load drives it; it is held at node {node}"
-        ));
-    }
+    warnings.extend(floating.pins.iter().map(|pin| pin.in_words(mesh)));
     springs::add(freedoms, pairs, contacts);
     let rows = ContactRows::of(mesh, freedoms, pairs)?;
     let owner = |&freedom: &usize| motions.group_of_node[freedoms.owners[freedom].0 as usize];
@@ -150,6 +176,7 @@ fn pin(
 ) -> Result<Vec<Pinned>> {
     let forces = motions.forces(loads);
     let contact: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
+    let round = RoundSurfaces::of(motions.mesh);
     let mut pinned = Vec::new();
     for _ in 0..motions.per_group() * motions.names.len() {
         let free = motions.free(freedoms, pairs);
@@ -167,14 +194,21 @@ fn pin(
             groups.iter().for_each(|&group| moved[group] = true);
             let motion = motions.describe(mode);
             let unheld = |why: String| Error::new(ErrorKind::Unheld, format!("{motion}: {why}"));
+            let of_facets = round.work_of_facets(motions, mode);
+            let mut driven = None;
             for (load, work) in motions.work(mode, &forces) {
                 let size = motions.size(mode, &forces, load) * mode.largest();
-                if work.abs() > NO_WORK_FOUND * size {
+                if work.abs() > NO_WORK_FOUND.max(of_facets) * size {
                     return Err(unheld(format!(
                         "neither supports nor contact hold this motion, and load `{}` drives it; \
                          add a support or a contact",
                         loads[load].name
                     )));
+                }
+                if work.abs() > NO_WORK_FOUND * size {
+                    let share = work.abs() / size;
+                    let most = driven.take_if(|(_, most)| *most > share);
+                    driven = most.or(Some((loads[load].name.clone(), share)));
                 }
             }
             let freedom = motions.largest(mode, freedoms, &contact);
@@ -182,7 +216,11 @@ fn pin(
             let (node, local) = freedoms.owners[freedom];
             pinned.push((mode.clone(), node as usize, local as usize));
             let node = node as usize;
-            pins.push(Pin { motion, node });
+            pins.push(Pin {
+                motion,
+                driven,
+                node,
+            });
             freedoms.pin(freedom);
         }
     }

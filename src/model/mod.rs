@@ -41,6 +41,7 @@ mod recipe;
 mod resolve;
 mod rigid;
 mod rigid_motion;
+mod round_surfaces;
 mod rows;
 mod solved;
 mod springs;

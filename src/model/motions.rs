@@ -19,7 +19,7 @@ const HELD: f64 = 1e-11;
 /// Rigid motions of groups; a group is a set of bodies that share nodes and move together.
 pub(super) struct Motions<'a> {
     space: Space,
-    mesh: &'a Mesh,
+    pub(super) mesh: &'a Mesh,
     basis: ContactBasis,
     /// Number of the group of each node.
     pub(super) group_of_node: Vec<usize>,

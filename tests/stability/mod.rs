@@ -26,3 +26,4 @@ mod solids;
 mod taken_off;
 mod touching;
 mod whether_it_yields;
+mod whole_rollers;

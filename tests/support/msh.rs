@@ -53,6 +53,73 @@ impl Msh {
     }
 }
 
+/// A whole disc, whose lowest node is its first.
+pub struct Disc {
+    pub name: &'static str,
+    pub center: [f64; 2],
+    pub radius: f64,
+    /// Angles of the nodes of its rings, counted from the lowest point, in turns, ascending from 0.
+    pub angles: Vec<f64>,
+    pub rings: usize,
+}
+
+impl Disc {
+    /// Adds the disc as triangles around its centre and quadrangles (9-node ones with their centres
+    /// for order 2, as Gmsh writes them), and its outline.
+    pub fn plane(&self, msh: &mut Msh, order: usize) {
+        let n = self.angles.len();
+        let center = msh.node([self.center[0], self.center[1], 0.0]);
+        let mut numbers = BTreeMap::new();
+        // Halves of rings and of angles: nodes in the middle of edges stand between.
+        let mut node = |msh: &mut Msh, [ring, at]: [usize; 2]| {
+            let at = at % (2 * n);
+            if ring == 0 {
+                return center;
+            }
+            *numbers.entry([ring, at]).or_insert_with(|| {
+                let next = self.angles.get(at.div_ceil(2)).copied().unwrap_or(1.0);
+                let turn = std::f64::consts::PI * (self.angles[at / 2] + next);
+                let r = self.radius * ring as f64 / (2 * self.rings) as f64;
+                let [x, y] = self.center;
+                msh.node([x + r * turn.sin(), y - r * turn.cos(), 0.0])
+            })
+        };
+        let body = msh.group(2, self.name.to_string());
+        let outline = msh.group(1, format!("{} outline", self.name));
+        let mut add = |msh: &mut Msh, group, types: [u32; 2], nodes: &[[usize; 2]]| {
+            let corners = nodes.len() / 2 + usize::from(nodes.len() == 3);
+            let taken = if order == 1 { corners } else { nodes.len() };
+            let nodes = nodes[..taken].iter().map(|&at| node(msh, at)).collect();
+            msh.elements.push((types[order - 1], group, nodes));
+        };
+        for a in (0..2 * n).step_by(2) {
+            for r in (0..2 * self.rings).step_by(2) {
+                let [b, m] = [a + 2, a + 1];
+                match r {
+                    0 => {
+                        let corners = [[0, 0], [2, a], [2, b]];
+                        let nodes = [corners, [[1, a], [2, m], [1, b]]].concat();
+                        add(msh, body, [2, 9], &nodes);
+                    }
+                    _ => {
+                        let corners = [[r, a], [r + 2, a], [r + 2, b], [r, b]];
+                        let middles = [[r + 1, a], [r + 2, m], [r + 1, b], [r, m]];
+                        let nodes = [&corners[..], &middles, &[[r + 1, m]]].concat();
+                        add(msh, body, [3, 10], &nodes);
+                    }
+                }
+            }
+            let outer = 2 * self.rings;
+            add(
+                msh,
+                outline,
+                [1, 8],
+                &[[outer, a], [outer, a + 2], [outer, a + 1]],
+            );
+        }
+    }
+}
+
 /// A body over `[from, from + width]` (squared in space) between two heights, and how it is meshed.
 pub struct Body<'a> {
     pub name: &'static str,

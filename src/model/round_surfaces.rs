@@ -1,0 +1,78 @@
+//! Round surfaces, which slide along themselves if their body turns about their centre.
+
+use super::motions::{Mode, Motions};
+use crate::mesh::{Curve, Mesh, Surface};
+use crate::space::{Vector, difference, direction, length};
+
+/// Fraction of a mode's largest entry up to which a node counts as moved along the surface.
+const ALONG: f64 = 1e-6;
+
+/// The surfaces of a mesh whose round shape is known.
+pub(super) struct RoundSurfaces {
+    surfaces: Vec<RoundSurface>,
+}
+
+struct RoundSurface {
+    /// Nodes, each with the direction away from the surface's centre.
+    nodes: Vec<(usize, Vector)>,
+    /// Largest deviation of a facet from the round shape, over the radius.
+    deviation: f64,
+}
+
+impl RoundSurfaces {
+    pub(super) fn of(mesh: &Mesh) -> Self {
+        let surfaces = mesh.surfaces.values().filter_map(|surface| {
+            let curve = surface.curve.as_ref()?;
+            RoundSurface::of(mesh, surface, curve)
+        });
+        RoundSurfaces {
+            surfaces: surfaces.collect(),
+        }
+    }
+
+    /// The largest work of a load on a mode, over the size of the load, that may come from facets
+    /// which are not exactly round: a load that is spread over them does not act exactly through
+    /// the centre. Zero if no round surface slides along itself in the mode.
+    pub(super) fn work_of_facets(&self, motions: &Motions, mode: &Mode) -> f64 {
+        let moved = motions.moved(mode);
+        let slides = |surface: &&RoundSurface| {
+            surface.nodes.iter().all(|&(node, out)| {
+                moved.contains(&motions.group_of_node[node])
+                    && motions.along(mode, node, out, 0.0).abs() <= ALONG * mode.largest()
+            })
+        };
+        let sliding = self.surfaces.iter().filter(slides);
+        sliding.map(|s| s.deviation).fold(0.0, f64::max)
+    }
+}
+
+impl RoundSurface {
+    /// `None` for lines, planes and surfaces without facets.
+    fn of(mesh: &Mesh, surface: &Surface, curve: &Curve) -> Option<Self> {
+        let (mut nodes, mut deviation) = (Vec::new(), 0.0f64);
+        for &facet in &surface.facets {
+            let points: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
+            let sum = points
+                .iter()
+                .fold([0.0; 3], |sum, x| crate::space::along(sum, 1.0, *x));
+            let middle = sum.map(|s| s / points.len() as f64);
+            let (_, radius, _) = curve.spine(middle)?;
+            let reach = points.iter().map(|x| length(difference(*x, middle)));
+            let half = reach.fold(0.0, f64::max) / radius;
+            // A chord lies half of its half length squared below the arc, relative to the radius;
+            // what a parabola through a point in the middle leaves is of twice that order.
+            let order = if mesh.shapes[facet.element].is_quadratic() {
+                2
+            } else {
+                1
+            };
+            deviation = deviation.max((half * half / 2.0).powi(order));
+            for node in mesh.facet_nodes(facet) {
+                let x = mesh.point(node);
+                let (center, ..) = curve.spine(x)?;
+                nodes.push((node, direction(difference(x, center))));
+            }
+        }
+        (!nodes.is_empty()).then_some(RoundSurface { nodes, deviation })
+    }
+}
