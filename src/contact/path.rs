@@ -222,6 +222,7 @@ impl Path {
         let mut step = room;
         let mut first = None;
         let (end_gap, end_force) = self.zero(tableau, AT_END);
+        let largest = self.force.iter().fold(0.0, |m: f64, r| m.max(*r));
         // Whether the group of a pair carries no force at the end of the piece any more.
         let comes_loose = |path: &Path, k: usize| {
             let (block, _) = tableau.matrix().place(k);
@@ -235,7 +236,10 @@ impl Path {
             if rate < 0.0 && value + step * rate < 0.0 {
                 let at_end = if tableau.open()[k] {
                     end_gap
-                } else if tableau.would_free(k) || comes_loose(self, k) {
+                } else if tableau.would_free(k) {
+                    // A body hangs on this pair: it may be pulled a little.
+                    (LAST * value).max(PULLED * largest)
+                } else if comes_loose(self, k) {
                     // The last pairs that hold a body cannot open: when the body is unloaded
                     // completely, their forces vanish near the end.
                     LAST * value

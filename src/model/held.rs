@@ -7,7 +7,7 @@
 //! that little.
 
 use super::far_boundary::{FarBoundary, StoppedMotion};
-use super::motions::{self, FREE, Mode, Motions};
+use super::motions::{self, FREE, Forces, Mode, Motions};
 use super::rigid_motion::RigidMotion;
 use super::round_surfaces::RoundSurfaces;
 use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary, springs};
@@ -176,7 +176,7 @@ fn pin(
 ) -> Result<Vec<Pinned>> {
     let forces = motions.forces(loads);
     let contact: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
-    let round = RoundSurfaces::of(motions.mesh);
+    let mut round: Option<RoundSurfaces> = None;
     let mut pinned = Vec::new();
     for _ in 0..motions.per_group() * motions.names.len() {
         let free = motions.free(freedoms, pairs);
@@ -194,23 +194,23 @@ fn pin(
             groups.iter().for_each(|&group| moved[group] = true);
             let motion = motions.describe(mode);
             let unheld = |why: String| Error::new(ErrorKind::Unheld, format!("{motion}: {why}"));
-            let of_facets = round.work_of_facets(motions, mode);
-            let mut driven = None;
-            for (load, work) in motions.work(mode, &forces) {
-                let size = motions.size(mode, &forces, load) * mode.largest();
-                if work.abs() > NO_WORK_FOUND.max(of_facets) * size {
-                    return Err(unheld(format!(
-                        "neither supports nor contact hold this motion, and load `{}` drives it; \
-                         add a support or a contact",
-                        loads[load].name
-                    )));
-                }
-                if work.abs() > NO_WORK_FOUND * size {
-                    let share = work.abs() / size;
-                    let most = driven.take_if(|(_, most)| *most > share);
-                    driven = most.or(Some((loads[load].name.clone(), share)));
-                }
+            let driven = most_driving(motions, mode, &forces);
+            let mut is_explained = |share: f64| {
+                let round = round.get_or_insert_with(|| RoundSurfaces::of(motions.mesh));
+                share <= round.work_of_facets(motions, mode)
+            };
+            if let Some((load, share)) = driven.filter(|(_, share)| !is_explained(*share)) {
+                let how_much = match share < 0.01 {
+                    true => format!(" by {} of its size", significant(share, 2)),
+                    false => String::new(),
+                };
+                return Err(unheld(format!(
+                    "neither supports nor contact hold this motion, and load `{}` drives \
+                     it{how_much}; add a support or a contact",
+                    loads[load].name,
+                )));
             }
+            let driven = driven.map(|(load, share)| (loads[load].name.clone(), share));
             let freedom = motions.largest(mode, freedoms, &contact);
             let freedom = freedom.ok_or_else(|| unheld("nothing holds this motion".to_string()))?;
             let (node, local) = freedoms.owners[freedom];
@@ -225,4 +225,16 @@ fn pin(
         }
     }
     Ok(pinned)
+}
+
+/// The load that does most work on a mode, relative to its size, and that work over the size.
+/// `None` if it is round-off.
+fn most_driving(motions: &Motions, mode: &Mode, forces: &Forces) -> Option<(usize, f64)> {
+    let work = motions.work(mode, forces).into_iter();
+    let shares = work.map(|(load, work)| {
+        let size = motions.size(mode, forces, load) * mode.largest();
+        (load, work.abs() / size)
+    });
+    let driving = shares.filter(|(_, share)| *share > NO_WORK_FOUND);
+    driving.max_by(|a, b| a.1.total_cmp(&b.1))
 }

@@ -1,13 +1,14 @@
 //! Round surfaces, which slide along themselves if their body turns about their centre.
 
 use super::motions::{Mode, Motions};
+use super::pairs::mortar::roundness::true_shape;
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::space::{Vector, difference, direction, length};
 
 /// Fraction of a mode's largest entry up to which a node counts as moved along the surface.
 const ALONG: f64 = 1e-6;
 
-/// The surfaces of a mesh whose round shape is known.
+/// The surfaces of a mesh that are round.
 pub(super) struct RoundSurfaces {
     surfaces: Vec<RoundSurface>,
 }
@@ -21,10 +22,10 @@ struct RoundSurface {
 
 impl RoundSurfaces {
     pub(super) fn of(mesh: &Mesh) -> Self {
-        let surfaces = mesh.surfaces.values().filter_map(|surface| {
-            let curve = surface.curve.as_ref()?;
-            RoundSurface::of(mesh, surface, curve)
-        });
+        let surfaces = mesh
+            .surfaces
+            .values()
+            .filter_map(|surface| RoundSurface::of(mesh, surface, &true_shape(mesh, surface)?));
         RoundSurfaces {
             surfaces: surfaces.collect(),
         }

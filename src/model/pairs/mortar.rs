@@ -20,7 +20,7 @@
 mod dual;
 mod face;
 mod overlap;
-mod roundness;
+pub(in crate::model) mod roundness;
 mod sides;
 mod spheres;
 
@@ -150,9 +150,7 @@ pub(super) fn tied(entries: &ContactInput, distance: Option<f64>) -> Result<(Fou
 /// Surfaces that are not one curve or do not face each other.
 fn coupled<'a>(entries: &'a ContactInput<'a>, slave: SlaveSide) -> Result<Coupled<'a>> {
     let (mesh, contact) = (entries.mesh, &entries.contact);
-    let curves = entries
-        .surfaces
-        .map(|s| s.curve.or_else(|| roundness::find(mesh, s)));
+    let curves = entries.surfaces.map(|s| roundness::true_shape(mesh, s));
     let slave = match slave {
         SlaveSide::First => 0,
         SlaveSide::Second => 1,

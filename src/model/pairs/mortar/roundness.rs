@@ -7,8 +7,14 @@ use crate::mesh::{Curve, Mesh, Surface};
 /// Smallest number of nodes of a circle; fewer form a polygon.
 const FEWEST: usize = 6;
 
+/// The true shape of a surface: the one that the mesh knows, or the circle, sphere or cylinder on
+/// which its nodes lie.
+pub(in crate::model) fn true_shape(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
+    surface.curve.or_else(|| find(mesh, surface))
+}
+
 /// Finds the circle on which the nodes of a plane surface lie; in a solid the sphere or cylinder.
-pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
+fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     if mesh.is_solid() {
         return spheres::find(mesh, surface);
     }
