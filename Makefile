@@ -71,6 +71,7 @@ TEST := $(LINTED) $(ONE_BLAS_THREAD) cargo test --workspace
 
 format: setup
 	@cargo fmt --all --check
+	if command -v python3 >/dev/null; then python3 tests/strength/faults.py . --check; fi
 	if ! command -v clippy-driver >/dev/null; then
 	    echo "clippy is missing: rustup component add clippy (Debian: apt install rust-clippy)" >&2
 	    exit 1

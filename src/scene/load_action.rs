@@ -1,6 +1,8 @@
 //! What a load does: the one of its kinds that the scene gives.
 
-use super::{Displacement, Field, Kirsch, Load, PlaneForce, Relative, Rotation, VectorField};
+use super::{
+    Direction, Displacement, Field, Kirsch, Load, PlaneForce, Relative, Rotation, VectorField,
+};
 use crate::space::Components;
 
 /// What a load does. A `match` on it shows the compiler where a new kind of load is missing.
@@ -75,5 +77,31 @@ impl Load {
     /// load is given.
     pub fn action(&self) -> Option<LoadAction<'_>> {
         self.actions().find_map(|(_, action)| action)
+    }
+
+    /// Size of the force along an axis, of totals and of uniform stresses, each as a force by its
+    /// own rule; zero for what is no force or is given by a formula or at nodes.
+    pub(crate) fn pushes_along(
+        &self,
+        along: Direction,
+        of_total: impl Fn(f64) -> f64,
+        of_stress: impl Fn(f64) -> f64,
+    ) -> f64 {
+        let Some(LoadAction::OnNodes(action)) = self.action() else {
+            return 0.0;
+        };
+        let axis = along.axis();
+        let force = match action {
+            NodeAction::Force(force) => of_total(force.vector()[axis]),
+            NodeAction::PlaneForce(plane) if plane.direction == along => of_total(plane.total),
+            NodeAction::Pressure(pressure) => pressure.uniform().map_or(0.0, of_stress),
+            NodeAction::Traction(traction) => {
+                let uniform = traction.uniform();
+                uniform.map_or(0.0, |traction| of_stress(traction[axis]))
+            }
+            NodeAction::PlaneForce(_) | NodeAction::Kirsch(_) => 0.0,
+            NodeAction::Displacement(_) | NodeAction::Relative(_) | NodeAction::Gap(_) => 0.0,
+        };
+        force.abs()
     }
 }

@@ -11,6 +11,7 @@ use crate::memory;
 use crate::model::{LoadCase, Magnitude, Model};
 use crate::number::exact;
 use crate::results::{Effect, EndState, LOADS_FOUND, Sizes};
+use crate::scene::{LoadAction, VolumeAction};
 use crate::substructure::ContactCost;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -226,7 +227,13 @@ fn yield_by_depth(model: &Model, yields: bool) -> Effect {
 
 fn volume_forces(model: &Model) -> Effect {
     let loads = model.scene.load.iter().zip(&model.loads);
-    let asked = loads.filter(|(load, _)| load.acceleration.is_some() || load.rotation.is_some());
+    let asked = loads.filter(|(load, _)| match load.action() {
+        Some(LoadAction::OnVolume(action)) => match action {
+            VolumeAction::Acceleration(_) | VolumeAction::Rotation(_) => true,
+            VolumeAction::Temperature(_) => false,
+        },
+        Some(LoadAction::OnNodes(_)) | None => false,
+    });
     let (asked, acting) = asked.fold((0, 0), |(n, acting), (_, case)| {
         (n + 1, acting + usize::from(case.magnitude != 0.0))
     });

@@ -7,8 +7,8 @@ use crate::analytical::{self, HertzLine, HertzPoint};
 use crate::error::{Error, Result};
 use crate::root;
 use crate::scene::{
-    CylinderOnHalfPlane, Direction, Displacement, DisplacementTarget, Field, History, Load,
-    Plastic, Scene, TargetFigure, Unit, VectorField,
+    CylinderOnHalfPlane, Direction, Displacement, DisplacementTarget, History, Load, Plastic,
+    Scene, TargetFigure, Unit,
 };
 use std::f64::consts::PI;
 
@@ -368,15 +368,5 @@ fn normal_force(scene: &Scene, p: &CylinderOnHalfPlane, load: &Load, size: f64) 
     let on_cut = [format!("{above}.top"), format!("{below}.bottom")].contains(&load.on);
     let on_area = |stress: f64| if on_cut { stress * area } else { 0.0 };
     let of_model = |total: f64| total / scene.symmetry as f64;
-    let plane = load
-        .plane_force
-        .filter(|plane| plane.direction == Direction::Y);
-    let parts = [
-        plane.map(|plane| of_model(plane.total)),
-        load.force.map(|force| of_model(force.vector()[1])),
-        load.pressure.as_ref().and_then(Field::uniform).map(on_area),
-        (load.traction.as_ref().and_then(VectorField::uniform)).map(|t| on_area(t[1])),
-    ];
-    let parts = parts.into_iter().flatten();
-    models * parts.fold(0.0, |sum, f| sum + f.abs())
+    models * load.pushes_along(Direction::Y, of_model, on_area)
 }

@@ -5,9 +5,7 @@ use super::EllipseSize;
 use super::contact_size::{FULLY_PLASTIC, PILE_UP};
 use crate::analytical::{HertzEllipse, contact_modulus};
 use crate::error::{Error, Result};
-use crate::scene::{
-    CurvedBodies, Direction, Field, History, Load, Scene, TargetFigure, Unit, VectorField,
-};
+use crate::scene::{CurvedBodies, Direction, History, Load, Scene, TargetFigure, Unit};
 use std::f64::consts::PI;
 
 /// Factor by which the mesh of an elastic contact is wider than Hertz's contact, so that results
@@ -141,17 +139,5 @@ fn depth_with_dent(hertz: &HertzEllipse, at_yield: f64, dent: f64) -> f64 {
 fn normal_force(load: &Load, p: &CurvedBodies, semi_axes: [f64; 2]) -> f64 {
     let size = p.far_size * semi_axes[0].max(semi_axes[1]);
     let area = 4.0 * size * size;
-    let plane = load
-        .plane_force
-        .filter(|plane| plane.direction == Direction::Z);
-    let parts = [
-        plane.map(|plane| plane.total),
-        load.force.map(|force| force.vector()[2]),
-        load.pressure
-            .as_ref()
-            .and_then(Field::uniform)
-            .map(|p| p * area),
-        (load.traction.as_ref().and_then(VectorField::uniform)).map(|t| t[2] * area),
-    ];
-    parts.into_iter().flatten().map(f64::abs).sum()
+    load.pushes_along(Direction::Z, |total| total, |stress| stress * area)
 }
