@@ -271,8 +271,8 @@ pub struct State {
     /// Accuracy with which the half width is read from the contact pressures.
     #[serde(default)]
     pub half_width_reading: EdgeReading,
-    /// Area of the contact patch with the largest force, for the whole body; in the plane its
-    /// width.
+    /// Area of the contact patch with the largest force, for the whole body; in plane strain and
+    /// plane stress the width of that patch.
     #[serde(default)]
     pub contact_area: f64,
     /// For contacts on a circle: begin and end of the contact, in degrees from the middle of the

@@ -43,8 +43,9 @@ impl RootTolerance {
 
 /// Finds the root of `f` in `[low, high]` to round-off.
 ///
-/// `f` must change sign once in the interval. Otherwise the end is returned at which a monotone `f`
-/// is closer to a change of sign.
+/// `f` must change sign once in the interval. If its values at the two ends do not have opposite
+/// signs, the end at which `f` is closer to zero is returned; for a monotone `f` this is the end
+/// nearer to the root.
 pub(crate) fn of(f: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let ends = [(low, f(low)), (high, f(high))];
     between(ends, RootTolerance::ROUND_OFF, f)

@@ -17,9 +17,9 @@ pub const HEAD: &str = "\n## What a demand costs\n\nAll runs of a demand togethe
                         ones and, where bodies touch on less than an element, the same with \
                         elements refined around the contact, each 1.2 times coarser than the one \
                         before; the cheapest is the coarsest from which on every mesh is as \
-                        accurate, with the true errors known. The scene is the family's mesh of \
-                        medium size; what is demanded are the quantities that are known and that a \
-                        demand on all asks for. The true error is that of the demand's last mesh; \
+                        accurate, with the true errors known. Each demand is made on the family's scene with its mesh of medium \
+                        size. It covers the quantities whose true value is known and that belong \
+                        to a demand on all quantities ([how accurate](../guide/accuracy.md)). The true error is that of the demand's last mesh; \
                         `-`: no mesh down to 0.4 of the scene's element size (in space 0.7) is as \
                         accurate.\n\n| scene | demand | true error | outcome | seconds | \
                         operations over the cheapest | the last run's \
@@ -92,11 +92,12 @@ pub fn summary(all: &[Priced]) -> String {
                 .collect();
             of.sort_by(f64::total_cmp);
             let worst = of.last().copied().unwrap_or(f64::NAN);
-            (
-                of.get(of.len() / 2).copied().unwrap_or(f64::NAN),
-                worst,
-                of.len(),
-            )
+            // The mean of both in the middle of an even number.
+            let middle = of
+                .get(of.len().saturating_sub(1) / 2)
+                .zip(of.get(of.len() / 2));
+            let median = middle.map_or(f64::NAN, |(a, b)| 0.5 * (a + b));
+            (median, worst, of.len())
         };
         let ((price, worst, n), (last, _, _)) = (median(0), median(1));
         write!(

@@ -173,7 +173,8 @@ fn series(
     out: &mut Vec<Setting>,
 ) {
     for ratio in ratios(scene, levels) {
-        // The scene itself belongs to every series, however its counts are rounded.
+        // At ratio 1 the scene itself is taken, unchanged: making a member of its family would
+        // round its numbers of elements.
         let level = if (ratio - 1.0).abs() < 1e-9 {
             Ok(Level {
                 scene: scene.clone(),

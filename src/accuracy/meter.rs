@@ -83,7 +83,7 @@ const PER_NONZERO: f64 = 250.0;
 const PER_SOLVE: f64 = 4.0;
 
 /// Cost of a run in floating point operations: of its factorisations with what precedes them, and
-/// of its solves. It does not depend on the machine, nor on what else that does.
+/// of its solves. It depends neither on the machine nor on what else the machine is doing.
 pub fn work(results: &Results) -> f64 {
     let (counts, factor) = (&results.counts, &results.factor);
     counts.factorizations as f64 * (factor.flops + PER_NONZERO * factor.factor_nonzeros)

@@ -6,7 +6,8 @@ use crate::number::percent;
 use crate::results::{Accuracy, QuantityError, Results};
 use crate::scene::AccuracyDemand;
 
-/// The next mesh is aimed at this fraction of the demand, so that it is not missed by a little.
+/// The next mesh is chosen for an error of this fraction of the demanded one, so that the demand is
+/// not narrowly missed.
 const AIM: f64 = 0.8;
 /// Fraction of the demand from which on the path is made finer where it limits more than the mesh,
 /// and to which.

@@ -102,9 +102,10 @@ impl HertzLine {
         unit_stress(x / half_width, z / half_width, poisson).map(|s| peak * s)
     }
 
-    /// Compression of a cylinder between the contact and its axis, under `load > 0` per length at
-    /// both ends of a diameter: `P (1 - nu^2)/(pi E) (2 ln(4 R/b) - 1)`, for `b` small compared
-    /// with the radius R of this body.
+    /// Compression of a cylinder from the contact to the cylinder's axis, if a load `P = load > 0`
+    /// (force per unit length) acts at each end of a diameter: `P (1 - nu^2)/(pi E) (2 ln(4 R/b) -
+    /// 1)`. Valid if the half width `b` of the contact is small compared with the radius `R` of
+    /// this cylinder.
     ///
     /// # Source
     /// K. L. Johnson, *Contact Mechanics*, section 5.6, pp. 129-131.

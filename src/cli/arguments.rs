@@ -94,8 +94,8 @@ pub(super) enum Command {
     ///
     /// Takes less than a minute. The exit code is 7 if a family fails.
     Selftest(super::selftest::SelftestArguments),
-    /// Study what accuracy costs: errors against time over mesh, elements, increments, tolerances,
-    /// algorithms
+    /// Show what accuracy costs: the error and the run time of other meshes, elements, increments,
+    /// tolerances and algorithms
     ///
     /// Runs the scene with many settings, cheapest first, and writes accuracy.json, accuracy.csv
     /// and log-log plots of error over time. Errors are measured against the closed form if the

@@ -175,8 +175,8 @@ pub fn predict(
 }
 
 /// Warning if the BLAS uses slower instructions than the processor has, with the environment
-/// setting that corrects this; `None` otherwise. Libraries report it once, through their log; the
-/// program `brinell` restarts itself with the setting.
+/// setting that corrects this; `None` otherwise. The Rust crate and the Python module log the
+/// warning once per process; the program `brinell` restarts itself with the setting instead.
 pub fn slow_kernels() -> Option<String> {
     #[cfg(feature = "cholmod")]
     return cholmod::slow_kernels();

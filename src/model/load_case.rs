@@ -24,7 +24,8 @@ pub enum Magnitude {
     Gap,
     /// Initial strain of a body.
     Strain,
-    /// Displacements and support forces that an earlier leg of the program has left.
+    /// Displacements and support forces carried over from an earlier leg of the load program, a
+    /// stretch in which the same displacements are held.
     Carried,
 }
 

@@ -16,8 +16,8 @@ use std::path::Path;
 
 /// Makes or reads the mesh of a scene.
 ///
-/// # Errors
-/// Errors of the mesh, with its place in the scene.
+/// # Errors If the mesh cannot be made, read, refined or extruded; the message begins with the
+/// place of the responsible key in the scene file, if it is known.
 pub(super) fn build_mesh(scene: &Scene) -> Result<Mesh> {
     let folder = scene.file.as_deref().and_then(Path::parent);
     let made = mesh::generate::from_source(

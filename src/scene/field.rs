@@ -131,8 +131,9 @@ impl JsonSchema for Field {
                             x, y, of a solid z, and r = sqrt(x^2 + y^2); of an axisymmetric model \
                             r and z. exp, log (natural), sqrt, sin, cos, abs, min, max, ^ and the \
                             like. Or \
-                            `{ file = \"heat.msh\" }`: values at nodes, the one section \
-                            $NodeData of a Gmsh file beside the scene.",
+                            `{ file = \"heat.msh\" }`: values at nodes, read from a Gmsh \
+                            file that has exactly one $NodeData section; its path is relative \
+                            to the scene file.",
             "anyOf": [
                 { "type": "number" },
                 { "type": "string" },

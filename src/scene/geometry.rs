@@ -16,8 +16,8 @@ pub struct MeshSource {
     pub cylinder_on_half_plane: Option<CylinderOnHalfPlane>,
     /// Quarter of a disc in the hole of a plate (paper, sec. 5.2).
     pub disc_in_plate: Option<DiscInPlate>,
-    /// Two bodies of any curvature (solid), modelled as half spaces that differ from flat near the
-    /// contact only.
+    /// Two bodies of any curvature (solid), modelled as half spaces that are curved near the
+    /// contact and flat elsewhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub curved_bodies: Option<CurvedBodies>,
     /// Blocks, rings, discs and bricks, each a body of its own.
@@ -180,8 +180,8 @@ pub struct SurfaceCircle {
 /// | `cylinder.pole`, `half_plane.pole` | node sets: the node at the origin |
 ///
 /// The cylinder follows the circle over the contact candidates and levels off beyond them. The
-/// model is therefore Hertz's: two half planes that differ from flat near the contact only. See
-/// [`crate::mesh::generate::cylinder_on_half_plane`].
+/// model is therefore that of Hertz's theory: two half planes, flat but for the cylinder's curve
+/// near the contact. See [`crate::mesh::generate::cylinder_on_half_plane`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CylinderOnHalfPlane {
@@ -269,10 +269,11 @@ pub struct CurvedBodies {
     /// grow by a factor of `1 + 1/resolution`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_width: Option<f64>,
-    /// Depth of the evenly meshed region, in smaller half axes of the contact.
+    /// Depth of the evenly meshed region, as a multiple of the smaller half axis of the contact.
     #[serde(default = "super::defaults::solid_fine_depth")]
     pub fine_depth: f64,
-    /// Size of each body, in larger half axes of the contact. The bodies stand for infinite ones.
+    /// Size of each body, as a multiple of the larger half axis of the contact. The bodies stand
+    /// for infinite ones.
     #[serde(default = "super::defaults::solid_far_size")]
     pub far_size: f64,
     /// Ratio of neighbouring element sizes outside the evenly meshed region.

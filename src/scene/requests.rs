@@ -61,7 +61,7 @@ pub struct Moment {
     pub step_time: f64,
     /// Results for the `.frd` file, in the order of the file.
     pub file: Vec<FileRequest>,
-    /// Tables for the `.dat` file, in the order of the file.
+    /// Tables for the `.dat` file, in the order in which that file lists them.
     pub prints: Vec<Print>,
 }
 

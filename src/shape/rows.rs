@@ -1,4 +1,5 @@
-//! The rows of the table, in the order of [`Shape::ALL`](super::Shape::ALL).
+//! The table of reference elements: one row per element shape, in the order of
+//! [`Shape::ALL`](super::Shape::ALL).
 
 mod plane;
 mod solid;

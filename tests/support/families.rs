@@ -5,7 +5,7 @@
 //! these judge them.
 
 use crate::support;
-use brinell::accuracy::{Effort, Extent, estimate, quantities};
+use brinell::accuracy::{Effort, Extent, estimate, quantities, work};
 use brinell::analysis::Analysis;
 use brinell::analytical::{
     DiscInPlate, HertzPoint, PinInHole, Plane, ShrinkFit, ThickCylinder, contact_modulus,
@@ -48,6 +48,8 @@ pub struct Claim {
     pub stated: f64,
     pub truth: f64,
     pub order: Option<f64>,
+    /// Operations of the run's estimate over those of the run.
+    pub price: f64,
 }
 
 impl Claim {
@@ -102,6 +104,7 @@ impl Family {
                         stated,
                         truth: true_error,
                         order: row.order,
+                        price: found.work / work(&results),
                     });
                 }
             }

@@ -25,7 +25,7 @@ pub struct ContactFigures {
     pub max_pressure: f64,
     /// Half width of the contact patch with the largest force.
     pub half_width: f64,
-    /// Area of this patch including its mirror images; in the plane its width.
+    /// Area of this patch including its mirror images; in plane strain and plane stress its width.
     pub area: f64,
     /// Accuracy of the half width.
     pub half_width_reading: EdgeReading,

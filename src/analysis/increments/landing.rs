@@ -11,8 +11,9 @@ use crate::root::{self, RootTolerance};
 use std::cell::Cell;
 
 impl Stepper<'_, '_> {
-    /// Repeats the increment from the state `from` so that it ends at the zero of the monitored
-    /// quantity, whose value is `was` in the state `from`, and `is` in the current state.
+    /// Repeats the increment that began at the state `from`, so that it ends where the monitored
+    /// quantity is zero. `was` and `is` are the values of that quantity at `from` and at the
+    /// current state.
     pub(super) fn land(
         &mut self,
         end: &LoadPoint,

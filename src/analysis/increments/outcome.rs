@@ -82,7 +82,7 @@ pub struct Attempt {
     /// Out-of-balance force that round-off leaves at the start of the increment, divided by the
     /// force scale.
     pub round_off: f64,
-    /// Fraction of the elastic stiffness along a mechanism in which the structure flows away
-    /// ([`super::collapse::flows_away`]), if one was found.
+    /// The fraction of the elastic stiffness that is left along a mechanism in which the structure
+    /// flows away ([`super::collapse::flows_away`]); `None` if no mechanism was found.
     pub mechanism: Option<f64>,
 }

@@ -26,11 +26,12 @@ pub(in crate::analysis) struct ElementStresses {
     pub(in crate::analysis) beyond_yield_outside: Vec<usize>,
     /// Whether an element of the zone carries more than its initial yield stress.
     pub(in crate::analysis) beyond_yield_inside: bool,
-    /// Values that fields show, if fields are asked for.
+    /// Values for the output fields (stresses, plastic strains); `None` if no such fields are asked
+    /// for.
     pub(in crate::analysis) shown: Option<ShownStresses>,
 }
 
-/// Values that fields show, one element after the other.
+/// Values for the output fields, one element after the other.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct ShownStresses {
     /// Mean stress of each element.

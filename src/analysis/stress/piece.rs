@@ -319,7 +319,8 @@ mod tests {
         }
     }
 
-    /// Evaluates all elements in one process; also returns the largest force of an element.
+    /// Evaluates all elements in one process, as the reference for the evaluation in pieces; also
+    /// returns the largest component, in absolute value, of the nodal forces of any element.
     fn at_once<const D: usize, const S: usize, const P: usize, const N: usize>(
         kernel: Kernel<D, S, P, N>,
         whole: &Whole,

@@ -22,7 +22,8 @@ pub(in crate::analysis) struct Stresses {
     pub(in crate::analysis) beyond_yield_outside: Vec<usize>,
     /// Whether an element of the zone carries more than its initial yield stress.
     pub(in crate::analysis) beyond_yield_inside: bool,
-    /// Values that fields show, if fields are asked for.
+    /// Values for the output fields (stresses, plastic strains); `None` if no such fields are asked
+    /// for.
     pub(in crate::analysis) shown: Option<ShownStresses>,
     /// Number of Gauss points that have yielded, by body.
     pub(in crate::analysis) plastic_points: Vec<usize>,

@@ -23,7 +23,8 @@ pub struct Solver<'m> {
     pub structure: Structure<'m>,
     /// Contact matrix, with springs, and the statuses of the pairs.
     pub tableau: Tableau,
-    /// Springs that keep bodies in place which nothing holds and nothing drives.
+    /// Weak springs that keep bodies in place against motions that nothing holds and nothing
+    /// drives.
     pub springs: Arc<[Springs]>,
     /// Elements that may yield, with their history.
     pub zone: Zone,

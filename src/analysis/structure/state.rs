@@ -21,7 +21,8 @@ pub(in crate::analysis) struct State {
     pub(in crate::analysis) fresh: bool,
     /// Which pairs are open.
     pub(in crate::analysis) open: Vec<bool>,
-    /// Springs that keep bodies in place which nothing holds and nothing drives.
+    /// Weak springs that keep bodies in place against motions that nothing holds and nothing
+    /// drives.
     pub(in crate::analysis) springs: Arc<[Springs]>,
     /// Pairs whose gap or force came to zero at the last change of contact.
     pub(in crate::analysis) border: Vec<usize>,

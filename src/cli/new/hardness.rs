@@ -41,7 +41,8 @@ pub(in crate::cli) struct Hardness {
         allow_negative_numbers = true
     )]
     pub ball_poissons_ratio: f64,
-    /// Elements over the contact radius, at first yield and at least at any larger contact
+    /// Number of elements over the contact radius at first yield; a larger contact has at least as
+    /// many
     #[arg(long, value_name = "N", default_value_t = RESOLUTION)]
     pub resolution: usize,
     #[command(flatten)]

@@ -42,18 +42,18 @@ impl ContactSize {
 /// Half model (x >= 0) of a cylinder or ball on a half plane or half space.
 ///
 /// With `b` = `half_width` (contact half width at first yield, in the unit of the radius `R`) and
-/// `W = far_size b`, the half plane is the block `[0, W] x [-W, 0]` and the cylinder the block
-/// `[0, W]` between its surface and the flat top `y = W`. The surface is the circle
-/// `y = R - sqrt(R^2 - x^2)` over the candidates and levels off beyond: as in Hertz's theory, both
-/// bodies are half planes that differ from flat near the contact only. A body of finite size W
-/// changes the stress under the contact by order b/W (a uniform stress along the surface), a true
-/// cylinder by b/R. `far_size` is therefore large, which the growing elements make cheap. Elements
-/// are even with size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to the
-/// nearest whole element). If the contact may reach further, elements grow by `1 + 1/resolution`
-/// from there out to its reach, and downwards in proportion: a contact of any half width has at
-/// least `resolution` elements over it. Beyond, they grow by `growth`, rising to `far_growth` at
-/// the far end. Both surfaces have nodes at the same `x`. Corner and mid-side nodes of the cylinder
-/// lie on the circle to round-off, so nodal gaps are the exact gaps.
+/// `W = far_size b`, the half plane is the block `[0, W] x [-W, 0]` and the cylinder the block `[0,
+/// W]` between its surface and the flat top `y = W`. The surface is the circle `y = R - sqrt(R^2 -
+/// x^2)` over the candidates and levels off beyond: as in Hertz's theory, both bodies are half
+/// planes, flat but for the cylinder's curve near the contact. A body of finite size W changes the
+/// stress under the contact by order b/W (a uniform stress along the surface), a true cylinder by
+/// b/R. `far_size` is therefore large, which the growing elements make cheap. Elements are even
+/// with size `b/resolution` out to `fine_width b` and down to `fine_depth b` (to the nearest whole
+/// element). If the contact may reach further, elements grow by `1 + 1/resolution` from there out
+/// to its reach, and downwards in proportion: a contact of any half width has at least `resolution`
+/// elements over it. Beyond, they grow by `growth`, rising to `far_growth` at the far end. Both
+/// surfaces have nodes at the same `x`. Corner and mid-side nodes of the cylinder lie on the circle
+/// to round-off, so nodal gaps are the exact gaps.
 ///
 /// Only the even part of the surfaces, and the part beyond that the contact may reach, are contact
 /// candidates (`cylinder.contact`, `half_plane.contact`), which keeps the condensed matrix small.

@@ -11,8 +11,8 @@ pub(super) const MOST_ELEMENTS: f64 = 50e6;
 /// Bound of sizes and coordinates: larger values overflow when multiplied together.
 const LARGEST: f64 = 1e100;
 
-/// Requires a size to be finite, positive, and neither so large nor so small that products of sizes
-/// overflow.
+/// Requires a size to be finite, positive, and neither so large that products of sizes overflow nor
+/// so small that they underflow.
 pub(super) fn positive(key: &str, value: f64) -> Result<()> {
     if value > 0.0 && (1.0 / LARGEST..=LARGEST).contains(&value) {
         return Ok(());

@@ -98,7 +98,8 @@ fn normals_of_round_surfaces_are_those_of_circles_and_spheres() {
         bodies: vec!["a".to_string()],
         ..Mesh::default()
     };
-    // A ring of eight quadrilaterals over 200 degrees, whose inner side is the surface.
+    // Eight quadrilaterals in a sector of a ring of more than 200 degrees; its inner side is the
+    // surface.
     let mut angle = 0.3;
     for _ in 0..=8 {
         for radius in [2.0, 3.0] {

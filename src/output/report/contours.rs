@@ -10,7 +10,8 @@ type LinePoint = [u32; 2];
 pub(super) struct TriangleSheet<'t> {
     /// Corners of the triangles, all in the same sense of rotation.
     pub triangles: &'t [[u32; 3]],
-    /// Sides that belong to only one triangle, in the sense of that triangle.
+    /// Sides that belong to only one triangle, each directed as in that triangle's sense of
+    /// rotation.
     pub border: &'t [[u32; 2]],
     /// Positions of the corners.
     pub places: Vec<[f64; 2]>,

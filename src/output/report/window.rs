@@ -59,8 +59,9 @@ impl Window {
         self
     }
 
-    /// Returns the surroundings of a patch of contact, cut to the window `all` of the model;
-    /// `facet` is the length of its facets.
+    /// Returns the window around this patch of contact, cut to the window `all` of the model and
+    /// framed with some room. `facet` is the length of the contact's facets, from which a small
+    /// patch gets a least size.
     pub(super) fn surroundings(self, all: Window, facet: f64) -> Window {
         let [w, h] = self.size();
         let size = (0.5 * w.max(h)).max(3.0 * facet);
