@@ -116,8 +116,8 @@ impl Balls {
         found
     }
 
-    /// Distance within which `count` items lie, or all items: that of the farthest item in a small
-    /// ball near the point with at least `count` items.
+    /// Upper bound of the distance within which `count` items lie (or all, if there are fewer): the
+    /// distance of the farthest item in a small ball near the point with at least `count` items.
     fn reach(&self, point: Vector, count: usize) -> Option<f64> {
         let off = |node: &BallNode| length(difference(point, node.center));
         let mut at = 0;

@@ -2,8 +2,8 @@
 
 /// Disjoint classes of `0..n` (union-find; R. E. Tarjan, J. ACM 22 (1975) 215-225).
 pub(crate) struct Classes {
-    /// For each member a member of the same class with no larger number; the first of a class has
-    /// itself.
+    /// For each member a member of its class with no larger number; the first member of a class
+    /// refers to itself.
     parent: Vec<u32>,
 }
 

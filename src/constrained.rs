@@ -9,14 +9,15 @@
 //!
 //! A row is any linear combination of freedoms: the relative normal displacement of two nodes, or
 //! of a node and a point between others. The freedoms that occur in rows are the contact freedoms
-//! `c`; `K` is condensed on them to `C`. The rows `s = B u_c` become coordinates: one freedom of
-//! each row follows, the others lead (`v`). Then `v` is eliminated, as in scenes, and
+//! `c`; `K` is condensed on them to `C`. The row displacements `s = B u_c` replace one freedom of
+//! each row, its follower; the other contact freedoms are the leaders `v`. Eliminating `v`, as in
+//! scenes, gives
 //!
 //! ```text
 //!     r = t - T s = q + T g,    q = t - T delta
 //! ```
 //!
-//! is the problem of [`crate::contact`]. Plastic strains are loads like any others:
+//! which is the problem of [`crate::contact`]. Plastic strains are loads like any others:
 //! `f + sum of B_e' D eps_p` over the elements.
 
 mod arrays;

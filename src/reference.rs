@@ -75,7 +75,7 @@ fn at_yield(
     let depth = ["yield.location.y", "yield.location.z"][down - 1];
     let [load, pressure, half_width, below] = exact;
     // Bodies of the same material yield alike on either side of the surface, which is at 0: the
-    // sign of the depth is that of the body in which yield was found.
+    // exact depth takes the sign of the depth at which yield was found.
     let below = below.copysign(first.location[down]);
     let [a, b, c, d] = published;
     vec![

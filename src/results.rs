@@ -65,7 +65,7 @@ pub struct Results {
     pub states: Vec<State>,
     /// Outcome of the cycles, in a program that has them; the states are those of the last cycle.
     pub cycles: Option<Cycles>,
-    /// What each rank did, in a run on several ranks.
+    /// Work of each rank, in a run on several ranks.
     pub ranks: Option<Ranks>,
     /// One row per accepted increment.
     pub history: Vec<HistoryRow>,
@@ -166,8 +166,8 @@ fn whole<S: Serializer>(count: &f64, to: S) -> Result<S::Ok, S::Error> {
 /// Name of the row of the time table for all factorisations.
 pub const FACTORISATION_ROW: &str = "factorisation and condensation";
 
-/// Name of the effect that a load is searched for: on if a target gives a figure of the state, such
-/// as a half width, instead of a load.
+/// Name of the effect in which loads are searched for: it is on if a target gives a figure of the
+/// state, such as a half width, instead of a load.
 pub const LOADS_FOUND: &str = "loads found";
 
 /// A row of the effects ledger.
@@ -215,20 +215,20 @@ pub struct YieldPoint {
 pub struct EdgeReading {
     /// Difference from another reading of the same pressures; half a spacing if there is none.
     pub error: f64,
-    /// Closed pairs on one side of the middle; half of an odd number is rounded down, so that one
-    /// pair with open ones on both sides gives 0.
+    /// Number of closed pairs on one side of the middle: half of all, rounded down, so that a
+    /// single closed pair between open ones gives 0.
     pub pairs: usize,
 }
 
 impl EdgeReading {
-    /// Number of pairs at the edge, including the last closed one, whose pressures are not trusted
-    /// one by one, only their total force: the share of each depends on where in the facet the
-    /// contact ends (on Hertz's line contact the last two put the edge off by 0.08 and -0.06
-    /// elements, those before by 0.01).
+    /// Number of pairs at the edge, the last closed one included, of which only the total force is
+    /// trusted: the share of each depends on where in the facet the contact ends (on Hertz's line
+    /// contact the last two pairs put the edge off by 0.08 and -0.06 elements, those before by
+    /// 0.01).
     pub(crate) const AT_EDGE: usize = 2;
 
-    /// Whether an edge of this half width ends inside the surfaces, where pressures show it; an
-    /// edge of a surface is read twice alike, to round-off.
+    /// Whether the contact of this half width ends inside the surfaces, where pressures show its
+    /// edge; at the edge of a surface both readings agree to round-off.
     pub(crate) fn is_of_pressures(&self, half_width: f64) -> bool {
         self.error > 1e-9 * half_width
     }

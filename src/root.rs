@@ -7,8 +7,8 @@
 
 use std::convert::Infallible;
 
-/// Largest number of evaluations: bisection to round-off takes some 60, interpolation that fails at
-/// most [`PATIENCE`] more for each.
+/// Largest number of evaluations: bisection to round-off takes some 60, and at most [`PATIENCE`]
+/// interpolations fail before each bisection.
 const MOST: usize = 300;
 /// Number of steps that may leave more than half of the bracket before it is bisected.
 const PATIENCE: usize = 3;

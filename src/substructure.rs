@@ -3,17 +3,16 @@
 //! The stiffness is factored in the order `[ interior | zone | contact ]` and condensed. Contact
 //! rows `s = B u_c <= delta` act on the contact freedoms. For the normal displacements `(u^1, u^2)`
 //! of nodes that face each other the unknowns are `v = u^1` and the relative displacement
-//! `s = u^2 - u^1 <= delta`, the paper's u_c^1 and (2.4). In these
+//! `s = u^2 - u^1 <= delta`, the paper's u_c^1 and (2.4). In these unknowns
 //!
 //! ```text
 //!     [ S_vv  S_vs ] [ v ]   [ f_1 + f_2 ]       S_vv = sum of the bodies'
-//!                                                condensed stiffness (paper, eq. 3.8) [ S_sv S_ss
-//!                                                ] [ s ] = [ f_2 - r ]
+//!     [ S_sv  S_ss ] [ s ] = [ f_2 - r   ]       condensed stiffness (paper, eq. 3.8)
 //! ```
 //!
-//! and eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s`,
-//! `q = t - T delta`. General rows, and bodies of which one is much stiffer, are handled in `rows`,
-//! rigid motions of floating bodies in `tied`.
+//! Eliminating `v` leaves `r = t - T s = q + T g` with the gap `g = delta - s` and `q = t - T
+//! delta`. General rows, and bodies of which one is much stiffer, are handled in `rows`; rigid
+//! motions of floating bodies are handled in `tied`.
 
 mod groups;
 mod rigid_slips;
@@ -334,8 +333,8 @@ impl Substructure {
         Ok((recovered, motions))
     }
 
-    /// Number of multiplications that combining leaders and followers of the contact rows took, in
-    /// two products with the weights by which leaders carry followers.
+    /// Number of multiplications in two products with the weights by which leaders carry followers;
+    /// the products combine the leaders and followers of the contact rows.
     pub fn tying_multiplications(&self) -> usize {
         self.tied.as_ref().map_or(0, TiedGroups::multiplications)
     }

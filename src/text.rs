@@ -71,7 +71,7 @@ fn shortened(digits: &str) -> Option<String> {
     (written || whole_part(digits) == value.to_string()).then(|| format!("{value:e}"))
 }
 
-/// Digits of a number before a fraction of zero.
+/// Removes a fraction of zero (`.0`) from the digits of a number.
 fn whole_part(digits: &str) -> &str {
     digits.strip_suffix(".0").unwrap_or(digits)
 }

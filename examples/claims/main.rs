@@ -73,18 +73,18 @@ const HELD_OUT: &str = "# Stated errors by default beside true ones\n\n`cargo ru
                         errors are the differences from meshes two to eight times finer.\n";
 
 const PRICES: &str = "# What demands cost\n\n`cargo run --release --example claims -- prices` \
-                      writes this page. The scenes of the third set were written when the way \
-                      from mesh to mesh and its estimate were finished. They judged it once; what \
-                      they showed has changed it since: when a quantity counts as without a limit, \
-                      and meshes are refined around contacts that they do not resolve. The four \
-                      scenes of the fourth set, whose contacts at first yield are ten to forty \
-                      times smaller than their elements, were written after that. They judge the \
-                      method as it was then: a first run, which was stopped half way, showed that \
-                      their reference solutions needed finer meshes; nothing else was changed, in \
-                      the scenes or in the method. What the page showed then has changed one \
-                      thing: of a contact that one pair carries no error is stated. Crossed cylinders in \
-                      space, once the tenth of the third set, are left out: with their truth and \
-                      the meshes by trial they take more than 20 minutes.\n";
+                     writes this page. The scenes of the third set were written when the way from \
+                     mesh to mesh and its estimate were finished. They judged it once; what they \
+                     showed has changed it since: when a quantity counts as without a limit, and \
+                     meshes are refined around contacts that they do not resolve. The four scenes \
+                     of the fourth set, whose contacts at first yield are ten to forty times \
+                     smaller than their elements, were written after that. They judge the method \
+                     as it was then: a first run, which was stopped half way, showed that their \
+                     reference solutions needed finer meshes; nothing else was changed, in the \
+                     scenes or in the method. What the page showed then has changed one thing: of \
+                     a contact that one pair carries no error is stated. Crossed cylinders in \
+                     space, once the tenth of the third set, are left out: with their truth and \
+                     the meshes by trial they take more than 20 minutes.\n";
 
 fn main() {
     if std::env::args()

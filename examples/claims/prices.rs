@@ -12,18 +12,19 @@ use std::fmt::Write;
 use std::time::Instant;
 
 pub const HEAD: &str = "\n## What a demand costs\n\nAll runs of a demand together, over the one \
-                        run of the cheapest mesh by trial, in floating point operations, and the \
-                        last run of the demand alone over the same. Meshes by trial are uniform \
-                        ones and, where bodies touch on less than an element, the same with \
-                        elements refined around the contact, each 1.2 times coarser than the one \
-                        before; the cheapest is the coarsest from which on every mesh is as \
-                        accurate, with the true errors known. Each demand is made on the family's scene with its mesh of medium \
-                        size. It covers the quantities whose true value is known and that belong \
-                        to a demand on all quantities ([how accurate](../guide/accuracy.md)). The true error is that of the demand's last mesh; \
-                        `-`: no mesh down to 0.4 of the scene's element size (in space 0.7) is as \
-                        accurate.\n\n| scene | demand | true error | outcome | seconds | \
-                        operations over the cheapest | the last run's \
-                        |\n|---|---|---|---|---|---|---|\n";
+                       run of the cheapest mesh by trial, in floating point operations, and the \
+                       last run of the demand alone over the same. Meshes by trial are uniform \
+                       ones and, where bodies touch on less than an element, the same with \
+                       elements refined around the contact, each 1.2 times coarser than the one \
+                       before; the cheapest is the coarsest from which on every mesh is as \
+                       accurate, with the true errors known. Each demand is made on the family's \
+                       scene with its mesh of medium size. It covers the quantities whose true \
+                       value is known and that belong to a demand on all quantities ([how \
+                       accurate](../guide/accuracy.md)). The true error is that of the demand's \
+                       last mesh; `-`: no mesh down to 0.4 of the scene's element size (in space \
+                       0.7) is as accurate.\n\n| scene | demand | true error | outcome | seconds \
+                       | operations over the cheapest | the last run's \
+                       |\n|---|---|---|---|---|---|---|\n";
 
 /// Element sizes of the meshes among which the cheapest is sought, over the scene's: in the plane,
 /// and in space, where the time grows with the sixth power of the fineness.

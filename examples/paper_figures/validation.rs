@@ -46,10 +46,11 @@ spaces, while here
 - The radius by Jackson and Green at 10 and 20 times the interference at first yield is 3.3 and \
 3.2 % smaller than
   computed (Kogut and Etsion's: 1.8 %). This is not explained.
-- SSNA102: the published codes compute large displacements on coarse meshes. A sphere gives way \
-here by 19 % of the
-  distance of its nodes, where small strains end. The figures are within the bounds of the \
-source nevertheless.
+- SSNA102: the published codes compute large displacements on coarse meshes. In this model a \
+sphere gives way by 19
+  % of the distance between its nodes, where small strains no longer hold. The figures are \
+within the bounds of the
+  source nevertheless.
 - CB2: the displacement is 0.8 and 2.5 % larger and the stress 4 and 7 % smaller than in \
 code_aster's models, which
   differ by 1.7 and 3.3 % from each other. With elements half as large (`mesh.subdivisions = \
@@ -57,22 +58,24 @@ code_aster's models, which
   is 0.05 % larger, the stress 0.01 % smaller. The meshes of code_aster are coarse at the \
 rounded edge: this is the
   likely cause, but it was not shown.
-- SSNV506: 1 % more and 9 % less than a formula whose own source meets it within 5 to 15 %. On \
-this mesh the force
-  rises in steps, as one node after the other closes on a body that flows (11 nodes at 1 mm, \
-steps of a fifth); the
-  6 % stated at 0.5 mm do not account for these steps. With twice the elements the results are \
-0.860 and 0.905 of the
-  formula. At 1 mm they have a^2 = 1.41 (2 R h) and a mean pressure of 2.6 Y, while the \
-published force follows from
-  1.36 and 3 Y. At the source's 20 mm, a/R = 0.3, small strains give 0.67 of it (on another \
-mesh): not explained
-  beyond that.
-- deal.II: the published run is one step of Hencky's law with linear hexahedra integrated at \
-all points. With the mean
-  dilatation (`mesh.formulation = \"mean\"`) the same step takes 52.8, the path in small \
-increments 61.0
-  (`stepping = \"auto\"`, on a finer mesh): the published force is that of its law and elements.
+- SSNV506: the computed loads are 1 % more and 9 % less than those of a formula, which its own \
+source meets within 5
+  to 15 %. On this mesh the force rises in steps, as one node after the other closes on a body \
+that flows (11 nodes
+  at 1 mm, steps of a fifth); the 6 % stated at 0.5 mm do not account for these steps. With \
+twice the elements the
+  loads are 0.860 and 0.905 of the formula. At 1 mm this finer mesh has a^2 = 1.41 (2 R h) and \
+a mean pressure of
+  2.6 Y, whereas the published force follows from 1.36 and 3 Y. At the source's 20 mm, where \
+a/R = 0.3, small
+  strains give 0.67 of the published force (on another mesh). No further explanation was found.
+- deal.II: the published run is one step of Hencky's law with linear hexahedra integrated at all \
+points. With the
+  mean dilatation (`mesh.formulation = \"mean\"`) the same step gives a force of 52.8, and the \
+path in small
+  increments gives 61.0 (`stepping = \"auto\"`, on a finer mesh). So the published force \
+depends on its law and its
+  elements.
 
 Not included are measured dents (their tables were not read) and CB1's displacement, which \
 depends on the sizes of a

@@ -36,11 +36,11 @@ pub fn write() -> Outcome<()> {
     let mut quality = String::new();
     scenes(&mut text, &mut quality)?;
     text += "\n## Quality of every state\n\nEach figure is the worst over all states of a \
-             scene. Backward error: that of the full solve. Equilibrium: out-of-balance force \
-             of the stresses over the largest nodal force. Complementarity: gap times force \
-             over the product of their largest values. Penetration: overlap over the largest \
-             displacement.\n\n| scene | states | backward error | equilibrium | \
-             complementarity | penetration |\n|---|---|---|---|---|---|\n";
+             scene. Backward error is that of the full solve; equilibrium is the out-of-balance \
+             force of the stresses divided by the largest nodal force; complementarity is gap \
+             times force divided by the product of their largest values; penetration is the \
+             overlap divided by the largest displacement.\n\n| scene | states | backward error \
+             | equilibrium | complementarity | penetration |\n|---|---|---|---|---|---|\n";
     text += &quality;
     let path = runs::data("verification.md");
     std::fs::write(&path, text)?;

@@ -1,4 +1,5 @@
-//! What a study states about a quantity in words: what accuracies cost, what limits, what would do.
+//! The sentences of a study on a quantity: what accuracies cost, what limits them, and which looser
+//! settings would do.
 
 use super::knobs::Knob;
 use super::quantity_study::{Price, StudyReference};
@@ -6,10 +7,10 @@ use super::record::{StudyRun, is_own, path_correction, value};
 use crate::number::{duration, percent};
 use std::cmp::Ordering;
 
-/// A looser setting would do where its error is this small a fraction of the mesh's.
+/// Fraction of the mesh's error below which the error of a looser setting does not matter.
 const HIDDEN: f64 = 0.1;
 
-/// The sentences on a quantity.
+/// Returns the sentences of a study on a quantity.
 pub(super) fn words(
     runs: &[StudyRun],
     path: &str,
@@ -35,7 +36,7 @@ pub(super) fn words(
     out
 }
 
-/// The cheapest setting for each accuracy.
+/// States the cheapest setting for each accuracy.
 fn costs(runs: &[StudyRun], prices: &[Price]) -> String {
     let cost = |price: &Price| {
         let accuracy = percent(price.accuracy);
@@ -47,15 +48,15 @@ fn costs(runs: &[StudyRun], prices: &[Price]) -> String {
             None => format!("{accuracy} is reached by no setting tried"),
         }
     };
-    // Every other one: 10, 1 and 0.1 %.
+    // Every other accuracy: 10, 1 and 0.1 %.
     let prices = prices.iter().step_by(2);
     prices.map(cost).collect::<Vec<_>>().join("; ")
 }
 
-/// Whether mesh or increments limit the scene as it stands, and which looser settings the mesh
-/// hides. The two errors may cancel, so each is taken for itself: that of the increments is the
-/// distance from many more of them on the same mesh, that of the mesh what is left to the
-/// reference.
+/// States whether the mesh or the increments limit the scene as it stands, and which looser
+/// settings the mesh hides. The two errors may cancel, so each is found separately: the error of
+/// the increments is the distance from many more increments on the same mesh, the error of the mesh
+/// is the rest of the distance to the reference.
 fn limits(runs: &[StudyRun], path: &str, reference: f64, own: f64) -> Vec<String> {
     let many = path_correction(runs, path).map(|(correction, _)| correction);
     let mesh = (own + many.unwrap_or(0.0) - reference).abs();
@@ -78,7 +79,7 @@ fn limits(runs: &[StudyRun], path: &str, reference: f64, own: f64) -> Vec<String
     let loosest: Vec<String> = [Knob::Tolerance, Knob::Gamma, Knob::Stepping]
         .into_iter()
         .filter_map(|knob| {
-            // Fixed steps approach many increments, tolerances the scene's own tight ones.
+            // Fixed steps are compared with many increments, tolerances with the scene's own run.
             let many = many.filter(|_| knob == Knob::Stepping).unwrap_or(0.0);
             let is_hidden = |run: &&StudyRun| {
                 let error = value(run, path).map(|value| (value - own - many).abs());

@@ -7,39 +7,40 @@ use crate::number::significant;
 use crate::results::{EdgeReading, Results, State};
 use crate::scene::Scene;
 
-/// Element sizes of coarser meshes, over that of the run, most wanted first. The first two are near
-/// enough to lie in the same range of convergence, and have 0.7 times the elements of a plane run
-/// together.
+/// Ratios of the element sizes of coarser meshes to that of the run, the preferred ones first. The
+/// first two meshes are near enough to lie in the same range of convergence; together they have 0.7
+/// times the elements of a plane run.
 const COARSER: [f64; 4] = [1.5, 2.0, 3.0, 4.0];
-/// Element sizes of finer meshes, over that of the run, for a run that is too coarse to have
-/// coarser ones.
+/// Ratios of the element sizes of finer meshes to that of the run, for a run that is too coarse to
+/// have coarser companions.
 const FINER: [f64; 4] = [1.0 / 1.5, 0.5, 1.0 / 3.0, 0.25];
-/// Least ratio of two element sizes: nearer meshes differ by how counts are rounded.
+/// Least ratio of two element sizes: meshes nearer to each other differ by how numbers are rounded.
 const LEAST_RATIO: f64 = 1.15;
-/// Closed pairs on a side of a contact over which its edge is read: the last two, and four before
-/// them from which the pressure near it is fitted ([`crate::results::EdgeReading`]).
+/// Number of closed pairs on a side of a contact that its edge is read from: the last two, and the
+/// four before them, to which the pressure is fitted ([`crate::results::EdgeReading`]).
 pub(super) const READABLE: usize = 6;
-/// Closed pairs over the smaller half axis of a patch of solids over which its area is read: the
-/// last one, two that are believed, and the middle.
+/// Number of closed pairs over the smaller half axis of a patch of solids that its area is read
+/// from: the last pair, two that are trusted, and the middle.
 const READABLE_PATCH: usize = 4;
-/// The nearest coarser mesh of solids, where others cannot be read: five elements instead of six.
+/// Ratio for the nearest coarser mesh of solids, if no other can be read: five elements for six.
 const NEARER: f64 = 1.2;
 /// Largest time that the other runs of an estimate may take together by default, as a multiple of
 /// the time of the run itself.
 const QUICK: f64 = 1.0;
-/// What a run with half as many increments takes of the same mesh.
+/// Time of a run with half as many increments, over that of the run on the same mesh.
 const HALF_THE_INCREMENTS: f64 = 0.5;
-/// What a run with twice as many increments, or with other tolerances, takes of the same mesh.
+/// Time of the runs with twice as many increments and with other tolerances together, over that of
+/// the run on the same mesh.
 const MORE_INCREMENTS: f64 = 3.0;
-/// Elements up to which a plane run is compared with meshes of sixteen times as many, where coarser
-/// ones do not suffice; beyond, four times.
+/// Number of elements up to which a plane run is compared with meshes of sixteen times as many
+/// elements, if coarser ones do not suffice. A larger run is compared with four times as many.
 const SMALL: usize = 1000;
-/// Most elements of a mesh that a run of solids is compared with: in space the time grows with the
+/// Most elements of a mesh with which a run of solids is compared: in space the time grows with the
 /// sixth power of the fineness.
 const SOLID: usize = 16 * SMALL;
-/// Most elements of finer meshes for runs on meshes from files, which have no coarser companions
-/// and are refined in steps of two: in the plane the second subdivision, in space the first one,
-/// takes 64 times the run.
+/// Most elements of the finer meshes for a run on a mesh from a file, which has no coarser
+/// companions and is refined by halving its elements. The second subdivision in the plane, or the
+/// first in space, takes 64 times the run.
 const FROM_FILE: usize = 4 * SMALL;
 const SOLID_FROM_FILE: usize = 2 * SMALL;
 
@@ -48,11 +49,11 @@ const SOLID_FROM_FILE: usize = 2 * SMALL;
 pub struct Level {
     /// The scene with that mesh.
     pub scene: Scene,
-    /// Element size over that of the scene it was made from.
+    /// Element size over that of the scene from which this scene was made.
     pub ratio: f64,
 }
 
-/// The scene with elements about `ratio` times as large.
+/// Returns the scene on another mesh of its family, with elements about `ratio` times as large.
 ///
 /// # Errors
 /// Why there is no such member of the family, in words.
@@ -71,14 +72,14 @@ pub fn member(scene: &Scene, ratio: f64) -> Result<Level, String> {
 /// The meshes that a run is compared with.
 #[derive(Debug, Clone, Default)]
 pub struct Companions {
-    /// Two, finer one first; fewer where there are no more.
+    /// At most two meshes, the finer one first.
     pub levels: Vec<Level>,
-    /// Why there are none, in words.
+    /// Reason why there are no companions, in words.
     pub why_none: Option<String>,
 }
 
-/// The two meshes from which the error of a run is extrapolated; fewer where the family has not
-/// that many, or where they would take more than the effort allows.
+/// Chooses the two meshes from which the error of a run is extrapolated; fewer if the family has no
+/// more, or if they would take more time than the effort allows.
 pub fn companions(scene: &Scene, results: &Results, effort: Effort) -> Companions {
     let readable = match scene.kind.is_solid() {
         true => READABLE_PATCH,
@@ -93,8 +94,8 @@ pub fn companions(scene: &Scene, results: &Results, effort: Effort) -> Companion
     }
 }
 
-/// Whatever they take: coarser ones, where every contact of the run is resolved so well that its
-/// edges can still be read on them, else finer ones.
+/// Chooses meshes whatever time they take: coarser ones on which the edges of all contacts can
+/// still be read, otherwise finer ones.
 fn wanted(scene: &Scene, elements: usize, can_be_read: impl Fn(f64) -> bool) -> Companions {
     let finest = finest(scene, elements);
     let nearer = scene.kind.is_solid().then_some(NEARER);
@@ -114,9 +115,9 @@ fn wanted(scene: &Scene, elements: usize, can_be_read: impl Fn(f64) -> bool) -> 
     found.companions("subdivided, the mesh would take many times the run")
 }
 
-/// The nearest two coarser meshes that take no more than [`QUICK`] of the run together with the
-/// estimate of the path's error on the coarser. Meshes on which the contact can be read come before
-/// meshes on which it cannot.
+/// Chooses the nearest two coarser meshes that take no more than [`QUICK`] times the run, together
+/// with the estimate of the path's error on the coarser one. Meshes on which the contact can be
+/// read are preferred.
 fn cheap(scene: &Scene, can_be_read: impl Fn(f64) -> bool) -> Companions {
     let mut found = MembersFound::new(scene);
     for ratio in COARSER {
@@ -141,11 +142,11 @@ fn cheap(scene: &Scene, can_be_read: impl Fn(f64) -> bool) -> Companions {
     found.companions("finer ones would take several times the run")
 }
 
-/// Members of a family as they are asked for.
+/// Members of a mesh family found so far.
 struct MembersFound<'s> {
     scene: &'s Scene,
     levels: Vec<Level>,
-    /// Why the first that there is not is none.
+    /// Reason why the first missing member could not be made.
     failure: Option<String>,
 }
 
@@ -158,8 +159,8 @@ impl<'s> MembersFound<'s> {
         }
     }
 
-    /// Adds the member of a ratio, where it differs from the run and from the others and a model
-    /// can be made of it.
+    /// Adds the member with elements `ratio` times as large, if it differs from the run and from
+    /// the other members and a model can be made of it.
     fn add(&mut self, ratio: f64, is_wanted: impl Fn(&Level) -> bool) {
         let level = member(self.scene, ratio).and_then(|level| {
             let differs =
@@ -193,9 +194,9 @@ impl<'s> MembersFound<'s> {
     }
 }
 
-/// What a run on another mesh takes, as a fraction of the run: on a coarser mesh the fraction of
-/// the elements, which is an upper bound, on a finer mesh that of the factorisation
-/// ([`work_of_finer`]).
+/// Time of a run on another mesh as a fraction of the time of the run. For a coarser mesh it is the
+/// ratio of the numbers of elements, which is an upper bound; for a finer mesh it is the ratio of
+/// the work of the factorisations ([`work_of_finer`]).
 fn share_of_run(scene: &Scene, ratio: f64) -> f64 {
     match ratio < 1.0 {
         true => work_of_finer(scene.kind, 1.0 / ratio),
@@ -203,7 +204,7 @@ fn share_of_run(scene: &Scene, ratio: f64) -> f64 {
     }
 }
 
-/// Least element size of companions, over that of a run with so many elements.
+/// Least element size of companions, over that of a run with this number of elements.
 fn finest(scene: &Scene, elements: usize) -> f64 {
     let from_file = scene.mesh.file.is_some();
     if scene.kind.is_solid() {
@@ -214,8 +215,8 @@ fn finest(scene: &Scene, elements: usize) -> f64 {
     if 16 * elements <= most { 0.25 } else { 0.5 }
 }
 
-/// What the estimate of errors of a run will do and take, in words: before it, with contacts that
-/// can be read on coarser meshes.
+/// Describes what the error estimate of a run will do and what time it will take. As this is told
+/// before the run, contacts are assumed to be readable on coarser meshes.
 pub fn planned(scene: &Scene, elements: usize, effort: Effort) -> String {
     if effort == Effort::None {
         return "not estimated".to_string();
@@ -252,8 +253,9 @@ pub fn planned(scene: &Scene, elements: usize, effort: Effort) -> String {
     format!("{meshes}; {takes}")
 }
 
-/// The fewest closed pairs on one side of a contact: at first yield and in the state that carries
-/// most. `None` without contact, and where it ends with its surfaces, so that nothing is read.
+/// The fewest closed pairs on one side of a contact, at first yield and in the state with the
+/// largest contact force. `None` without contact, or if the contact ends with its surfaces, so that
+/// no edge is read.
 fn fewest_pairs(results: &Results) -> Option<usize> {
     let first = results.first_yield.as_ref();
     let first = first.map(|y| (y.half_width, y.half_width_reading));

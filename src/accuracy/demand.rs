@@ -2,14 +2,14 @@
 //! are within the demand.
 //!
 //! The sequence begins with elements [`COARSEST`] times as large as the scene's. Each mesh is
-//! judged by those before it, the last [`MESHES`] of them, as any run is judged by its companions
-//! ([`super::estimate()`]): they cost nothing again. The order that the meshes show says how much
-//! finer the next has to be. If a mesh as fine as the scene's own leaves a contact unresolved, the
-//! sequence begins anew with meshes that are refined around it ([`super::graded`]). It ends with
-//! the first mesh on which every quantity that is asked for is within its demand, by meshes that
-//! span element sizes of [`SPAN`], or with the reason why not: a quantity that has no limit under
-//! refinement, memory, time, a run that failed. What is reported are the values of the last mesh
-//! that was run to its end.
+//! judged by the [`MESHES`] last meshes, itself included, as any run is judged by its companions
+//! ([`super::estimate()`]); the earlier runs are not repeated. The order of convergence that the
+//! meshes show decides how much finer the next mesh has to be. If a mesh as fine as the scene's own
+//! leaves a contact unresolved, the sequence begins anew with meshes that are refined around this
+//! contact ([`super::graded`]). The sequence ends when every quantity asked for is within its
+//! demand, judged by meshes whose element sizes span a ratio of [`SPAN`]. Otherwise it ends with
+//! the reason for not going on: a quantity that has no limit under refinement, memory, time, or a
+//! failed run. The values reported are those of the last mesh that was run to its end.
 
 use super::companions::{Level, member};
 use super::effort::{Effort, work_of_finer};
@@ -33,26 +33,27 @@ use crate::scene::{AccuracyDemand, Scene};
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// Element size of the first mesh over that of the scene's: a thirtieth of the elements of the
-/// plane, next to no time.
+/// Element size of the first mesh over that of the scene's mesh: a thirtieth of the elements in the
+/// plane, and almost no time.
 const COARSEST: f64 = 6.0;
-/// Ratio of the element sizes of neighbouring meshes, at least and at most, and where nothing is
-/// known. The runs of a plane sequence in steps of [`STEP`] take 1.6 times its last one, which is
-/// at most 1.4 times finer than needed.
+/// Least and largest ratio of the element sizes of neighbouring meshes, and (`STEP`) the ratio if
+/// nothing is known. The runs of a plane sequence in steps of [`STEP`] together take 1.6 times the
+/// last run, whose mesh is at most 1.4 times finer than needed.
 const STEPS: [f64; 2] = [1.2, 1.5];
 const STEP: f64 = 1.4;
-/// Meshes by which the last is judged, itself included: with four or more the scatter is measured.
+/// Number of meshes by which the last one is judged, itself included: four or more show the
+/// scatter.
 const MESHES: usize = 5;
-/// Ratio of the element sizes that they span at least before a demand counts as reached: near
-/// meshes agree by chance. Three in steps of [`STEP`] span 1.96 but for the rounding of counts.
+/// Least ratio of the element sizes that these meshes span before a demand counts as reached, since
+/// near meshes agree by chance. Three in steps of [`STEP`] span 1.96, apart from rounding.
 const SPAN: f64 = 1.9;
-/// How often the increments are made finer: an error that more increments do not reduce has another
-/// source.
+/// Most times that the increments are made finer: an error that more increments do not reduce has
+/// another source.
 const MORE_STEPS: usize = 3;
-/// How many contacts meshes are refined around.
+/// Most contacts around which meshes are refined.
 const MOST_PLACES: usize = 4;
-/// Ratio of element sizes over which a quantity comes hardly nearer until it counts as without a
-/// limit.
+/// Ratio of element sizes over which the error of a quantity hardly falls before the quantity
+/// counts as having no limit.
 const WITHOUT_LIMIT: f64 = 3.0;
 
 /// A run that was made to a demand.
@@ -65,12 +66,12 @@ pub struct Reached {
     pub results: Results,
 }
 
-/// Runs a scene to its demanded accuracy, or as near as seconds of `budget` allow.
+/// Runs a scene to its demanded accuracy, or as near to it as `budget` seconds allow.
 ///
 /// # Errors
-/// `Input` where the scene demands none, where its mesh cannot be refined or where it has no
-/// quantity that is named; those of the runs where no mesh can be run to its end. A demand that was
-/// not reached is no error: [`Demand::reason`] says why.
+/// `Input` if the scene demands no accuracy, if its mesh cannot be refined, or if it has none of
+/// the quantities that the demand names; errors of the runs if no mesh can be run to its end. A
+/// demand that was not reached is no error: [`Demand::reason`] gives the reason.
 pub fn reach(
     scene: &Scene,
     backend: Backend,
@@ -99,35 +100,35 @@ pub fn reach(
     pursuit.run(observer)
 }
 
-/// A demand on its way.
+/// The pursuit of a demand from mesh to mesh.
 struct Pursuit {
     demand: AccuracyDemand,
-    /// The scene, with the steps that the path was found to need.
+    /// The scene, with the increments that were found to be needed for the error of the path.
     base: Scene,
     backend: Backend,
     extent: Extent,
     budget: f64,
-    /// How many more contacts meshes may be refined around.
+    /// Number of further contacts around which meshes may be refined.
     places_left: usize,
     start: Instant,
     runs: Runs,
-    /// Element sizes of the meshes so far over those of the scene, and the seconds they took.
+    /// Element size of each mesh so far, over that of the scene's mesh, and the seconds of its run.
     sequence: Vec<(f64, f64)>,
     choices: Vec<String>,
-    /// Quantities beyond their demand: element size and stated error from which on they came hardly
-    /// nearer.
+    /// Quantities beyond their demand, each with the element size and the stated error from which
+    /// on its error hardly fell.
     slow: BTreeMap<String, (f64, f64)>,
     more_steps: usize,
     work: f64,
 }
 
-/// A mesh that was run, with what its errors say of the demand.
+/// A mesh that was run, with its errors compared with the demand.
 struct MeshRun {
     reached: Reached,
     outcome: Outcome,
 }
 
-/// What comes after a mesh.
+/// The step that follows a mesh.
 enum Next {
     Within,
     Finer(f64),
@@ -215,7 +216,7 @@ impl Pursuit {
         })
     }
 
-    /// Estimates the errors of a mesh by those before it.
+    /// Estimates the errors of a mesh from the meshes before it.
     fn judged(
         &mut self,
         mut reached: Reached,
@@ -248,7 +249,7 @@ impl Pursuit {
         Ok(MeshRun { reached, outcome })
     }
 
-    /// The member of the family nearest to the wanted element size, finer than the last.
+    /// Returns the member of the family that is nearest to the wanted size and finer than the last.
     fn next_level(&self, wanted: f64) -> std::result::Result<Level, String> {
         let is_new = |level: &Level| match self.sequence.last() {
             Some((last, _)) => last / level.ratio >= STEPS[0] - 1e-9,
@@ -256,7 +257,7 @@ impl Pursuit {
         };
         let mut why = "the mesh of this scene has no finer members".to_string();
         let mut ratio = wanted;
-        // Down to a mesh twice as fine as wanted; from the first on down to the scene's own.
+        // The search ends at half the wanted size, or at half the scene's own if that is smaller.
         while ratio > 0.49 * wanted.min(1.0) {
             match member(&self.base, ratio) {
                 Ok(level) if is_new(&level) => return Ok(level),
@@ -268,7 +269,7 @@ impl Pursuit {
         Err(format!("`accuracy`: the mesh cannot be refined: {why}"))
     }
 
-    /// The meshes before one of this element size, by which it is judged.
+    /// Returns the meshes before one of this element size, by which that mesh is judged.
     fn levels_before(&self, ratio: f64) -> Vec<Level> {
         let before = self.sequence.iter().rev().take(MESHES - 1);
         let levels = before.filter_map(|(other, _)| member(&self.base, *other).ok());
@@ -280,7 +281,7 @@ impl Pursuit {
             .collect()
     }
 
-    /// Why a mesh of this element size would take too long.
+    /// Returns the reason why a mesh of this element size would take too long, if it would.
     fn beyond_budget(&self, ratio: f64) -> Option<String> {
         let (last, seconds) = self.sequence.last()?;
         let expected = seconds * work_of_finer(self.base.kind, last / ratio);
@@ -294,8 +295,8 @@ impl Pursuit {
         })
     }
 
-    /// The scene with a mesh that is refined around a contact, where one as fine as the scene's own
-    /// leaves the contact unresolved and figures that are demanded therefore unknown.
+    /// Refines the scene's mesh around a contact, if a mesh as fine as the scene's own leaves this
+    /// contact unresolved and demanded figures are therefore unknown.
     fn graded(&mut self, mesh: &MeshRun, ratio: f64, observer: &mut dyn Observer) -> Option<Next> {
         if ratio > 1.0 || mesh.outcome.unknown.is_empty() || self.places_left == 0 {
             return None;
@@ -305,7 +306,7 @@ impl Pursuit {
         let in_time = || start.elapsed().as_secs_f64() < budget;
         let asked = (self.backend, self.extent);
         let found = graded::resolving(run, asked, (in_time, &mut self.work), observer);
-        // What smaller elements did not resolve once, they do not resolve on the next mesh.
+        // If smaller elements did not resolve a contact once, later meshes do not try again.
         self.places_left = found.as_ref().map_or(0, |_| self.places_left - 1);
         let found = found?;
         let [x, y, radius] = [found.at[0], found.at[1], found.radius].map(|c| significant(c, 3));
@@ -317,7 +318,7 @@ impl Pursuit {
         Some(Next::Graded(Box::new(graded::with(&self.base, found))))
     }
 
-    /// What to do after a mesh.
+    /// Decides on the step that follows a mesh.
     fn after(&mut self, outcome: &Outcome, ratio: f64, results: &Results) -> Next {
         let sizes = self
             .sequence
@@ -351,8 +352,9 @@ impl Pursuit {
         Next::Finer(by.clamp(STEPS[0], STEPS[1]))
     }
 
-    /// A quantity that showed no order that is believed, and whose stated error fell more slowly
-    /// than with the lowest such over element sizes of [`WITHOUT_LIMIT`].
+    /// Returns a quantity without a limit: its meshes show no believable order, and over a ratio of
+    /// element sizes of [`WITHOUT_LIMIT`] its stated error fell more slowly than with the lowest
+    /// such order.
     fn without_limit(&mut self, outcome: &Outcome, ratio: f64, is_judged: bool) -> Option<String> {
         let mut slow = BTreeMap::new();
         for missed in outcome.missed.iter().filter(|_| is_judged) {
@@ -382,7 +384,7 @@ impl Pursuit {
         ))
     }
 
-    /// Ends with the last mesh that was run to its end, at the user's wish.
+    /// Ends with the last mesh that was run to its end, because the user asked to stop.
     fn stopped(&mut self, mut last: MeshRun) -> Result<Reached> {
         let why = "stopped on the way to the demanded accuracy";
         let results = &mut last.reached.results;
@@ -393,7 +395,7 @@ impl Pursuit {
         self.end(Some(last), why.to_string())
     }
 
-    /// Ends with the last mesh; without a reason the demand was reached.
+    /// Ends with the last mesh. The demand was reached if the reason `why` is empty.
     fn end(&mut self, last: Option<MeshRun>, why: String) -> Result<Reached> {
         let Some(MeshRun {
             mut reached,
@@ -419,7 +421,7 @@ impl Pursuit {
 }
 
 impl MeshRun {
-    /// One whose run ended before its program did: nothing is known of its errors.
+    /// A mesh whose run ended before its program did: nothing is known of the errors.
     fn unjudged(reached: Reached) -> Self {
         let outcome = Outcome {
             stated: f64::NAN,

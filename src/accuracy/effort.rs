@@ -1,25 +1,25 @@
-//! How much the estimate of errors may take, and what finer meshes take.
+//! How much time the error estimate may take, and how much time finer meshes take.
 
 use crate::error::{Error, Result};
 use crate::scene::Kind;
 
-/// How much the estimate of the errors of a run may take.
+/// How much time the error estimate of a run may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Effort {
-    /// No more than the run itself.
+    /// No more time than the run itself.
     #[default]
     Quick,
-    /// Whatever two meshes take on which every figure of the run can be read.
+    /// The time of two meshes on which every figure of the run can be read, however long.
     Full,
     /// No error estimate.
     None,
 }
 
 impl Effort {
-    /// The effort of a word.
+    /// Finds the effort with a name.
     ///
     /// # Errors
-    /// `Input` for another word.
+    /// `Input` for an unknown name.
     pub fn from_name(name: &str) -> Result<Self> {
         let all = [Effort::Quick, Effort::Full, Effort::None];
         let found = all.into_iter().find(|effort| effort.name() == name);
@@ -28,7 +28,7 @@ impl Effort {
         })
     }
 
-    /// The word for it.
+    /// Name of the effort.
     pub fn name(self) -> &'static str {
         match self {
             Effort::Quick => "quick",
@@ -38,13 +38,14 @@ impl Effort {
     }
 }
 
-/// Powers of the fineness with which the time of a factorisation grows in the plane, `n^(3/2)` (A.
-/// George, Nested dissection of a regular finite element mesh, SIAM J. Numer. Anal. 10 (1973)
-/// 345-363, doi:10.1137/0710032), and in space, `n^2` (R. Lipton, D. Rose, R. Tarjan, Generalized
-/// nested dissection, SIAM J. Numer. Anal. 16 (1979) 346-358, doi:10.1137/0716027).
+/// Powers of the fineness with which the time of a factorisation grows. With `n` freedoms it grows
+/// as `n^(3/2)` in the plane (A. George, Nested dissection of a regular finite element mesh, SIAM
+/// J. Numer. Anal. 10 (1973) 345-363, doi:10.1137/0710032) and as `n^2` in space (R. Lipton, D.
+/// Rose, R. Tarjan, Generalized nested dissection, SIAM J. Numer. Anal. 16 (1979) 346-358,
+/// doi:10.1137/0716027).
 const FACTORISATION: [f64; 2] = [3.0, 6.0];
 
-/// The work of a factorisation whose mesh is finer by a factor, over that of the mesh itself.
+/// Work of the factorisation of a mesh that is finer by a factor, over that of the mesh itself.
 pub(super) fn work_of_finer(kind: Kind, factor: f64) -> f64 {
     factor.powf(FACTORISATION[usize::from(kind.is_solid())])
 }

@@ -18,7 +18,7 @@ use crate::results::{
 use crate::scene::Scene;
 use std::time::Instant;
 
-/// A run that is judged.
+/// A run whose errors are estimated.
 pub(super) struct Judged<'r> {
     pub scene: &'r Scene,
     pub results: &'r Results,
@@ -26,9 +26,9 @@ pub(super) struct Judged<'r> {
     pub effort: Effort,
 }
 
-/// Estimates the errors of `results`, those of a run of `scene` to `extent`. What could not be
-/// estimated is said in [`Accuracy::notes`]; another run that fails costs its estimate, never the
-/// results. A stop that the observer asks for ends it early.
+/// Estimates the errors of `results`, the results of a run of `scene` to `extent`.
+/// [`Accuracy::notes`] name what could not be estimated. If another run fails, only its estimate is
+/// lost, never the results. If the observer asks to stop, the estimate ends early.
 pub fn estimate(
     scene: &Scene,
     backend: Backend,
@@ -61,7 +61,7 @@ pub fn estimate(
     out
 }
 
-/// The errors of a run by those on other meshes of its family.
+/// Estimates the errors of a run from runs on other meshes of its family.
 pub(super) fn assess(
     run: &Judged,
     levels: Vec<Level>,
@@ -119,7 +119,7 @@ pub(super) fn assess(
     out
 }
 
-/// What is known of the errors of a run: from where those of its quantities follow.
+/// Sources from which the errors of the quantities of a run follow.
 struct ErrorSources<'r> {
     run: &'r Judged<'r>,
     method: EstimateMethod,
@@ -130,7 +130,7 @@ struct ErrorSources<'r> {
 }
 
 impl ErrorSources<'_> {
-    /// The errors of a quantity of the run.
+    /// Returns the errors of a quantity of the run.
     fn of(&self, quantity: &Quantity) -> QuantityError {
         let algebraic = algebraic_error(self.run, quantity);
         let mesh = match self.method {
@@ -163,11 +163,12 @@ impl ErrorSources<'_> {
     }
 }
 
-/// The error of a quantity where no other mesh was run: the energy norm of the stress error, of the
-/// whole for loads, displacements and work, of where bodies touch and yield for all else and for
-/// loads that the material or the contact decides. No bound, and none where a target asks for the
-/// quantity itself. What the reading leaves is added, [`Quantity::least`] too: the norm does not
-/// see how far the outermost points are from a surface, as a comparison of meshes does in part.
+/// Estimates the error of a quantity from the energy norm of the stress error, if no other mesh was
+/// run. Loads, displacements and work take the norm of the whole model. All other quantities, and
+/// loads that the material or the contact decides, take the norm of the region where bodies touch
+/// and yield. The estimate is no bound; `None` if a target asks for the quantity itself. The error
+/// of the reading and [`Quantity::least`] are added: unlike a comparison of meshes, the norm does
+/// not show how far the outermost points are from a surface.
 fn by_energy_norm(run: &Judged, quantity: &Quantity) -> Option<f64> {
     let program = &run.scene.program;
     let labels = program.labels();
@@ -197,10 +198,11 @@ fn by_energy_norm(run: &Judged, quantity: &Quantity) -> Option<f64> {
     Some(norm * per_stress * quantity.scale + quantity.reading + quantity.least)
 }
 
-/// By what share the load at first yield changes if the stress under every load changes by a small
-/// one: `1/m` where stresses go with the power `m` of the load, 1/3 under a ball and 1/2 under a
-/// cylinder (Hertz), 1 where contact does not change. The power is that of the largest pressure
-/// from the increment whose load is nearest to half of that at first yield.
+/// Relative change of the load at first yield for a small relative change of the stress under every
+/// load. It is `1/m` if stresses grow with the power `m` of the load: 1/3 under a ball and 1/2
+/// under a cylinder (Hertz), 1 if contact does not change. The power is that of the largest
+/// pressure between first yield and the increment whose load is nearest to half of that at first
+/// yield.
 fn load_per_stress(results: &Results) -> f64 {
     let Some(first) = &results.first_yield else {
         return 1.0;
@@ -220,7 +222,7 @@ fn load_per_stress(results: &Results) -> f64 {
     }
 }
 
-/// Runs the other meshes; with their element sizes.
+/// Runs the other meshes, and returns the runs with their element sizes.
 fn run_others(
     levels: Vec<Level>,
     runs: &mut Runs,
@@ -255,8 +257,8 @@ fn run_others(
     others
 }
 
-/// The errors of the path, from the coarsest of the other runs in which everything yields that does
-/// in this one, or itself.
+/// Estimates the errors of the path on the coarsest of the other runs in which everything yields
+/// that yields in this run; on this run itself if there is none.
 fn path_errors<'f>(
     run: &Judged,
     others: impl Iterator<Item = &'f Finished>,
@@ -290,7 +292,7 @@ fn path_errors<'f>(
     found
 }
 
-/// What other meshes say of a quantity.
+/// What other meshes show about a quantity.
 #[derive(Default)]
 struct OfMeshes {
     error: Option<f64>,
@@ -298,7 +300,7 @@ struct OfMeshes {
     limit: Option<f64>,
 }
 
-/// The uncertainty that the meshes leave, with that of reading the quantity off this one.
+/// The uncertainty that the meshes leave, including that of reading the quantity on this mesh.
 fn by_other_meshes(
     quantity: &Quantity,
     degree: usize,
@@ -312,7 +314,7 @@ fn by_other_meshes(
     let values: Vec<(f64, f64)> = own.chain(there).collect();
     let found = extrapolate(&values, formal_order(quantity.kind, degree));
     let error = found.map(|f| (f.uncertainty + quantity.reading).max(quantity.least));
-    // What changes by no more than the algebra leaves shows no order.
+    // Values that differ by no more than the error of the algebra show no order.
     let is_same = |value: &(f64, f64)| (value.1 - quantity.value).abs() <= algebraic;
     if values.len() > 1 && values.iter().all(is_same) {
         return OfMeshes {
@@ -328,8 +330,8 @@ fn by_other_meshes(
     }
 }
 
-/// Error of the algebra: that of its state, at least the round-off of a factorisation; at first
-/// yield what `gamma` leaves of the largest stress, too.
+/// Error of the algebra: the errors of the quantity's state, but at least the round-off of a
+/// factorisation. At first yield, the part of the largest stress that `gamma` leaves is added.
 fn algebraic_error(run: &Judged, quantity: &Quantity) -> f64 {
     let results = run.results;
     let of_quantity = |state: &&State| Some(&state.name) == quantity.state.as_ref();
@@ -343,8 +345,8 @@ fn algebraic_error(run: &Judged, quantity: &Quantity) -> f64 {
     relative * quantity.scale
 }
 
-/// What is to be known of targets by half width or another figure: the load at which a mesh reaches
-/// them is a result, and its error one of all that is said of the state and of those after it.
+/// A note on targets by half width or another figure. Each mesh reaches such a target at a load of
+/// its own, and the error of this load is in all figures of this state and of the states after it.
 fn said_by_load(scene: &Scene, quantities: &[QuantityError]) -> Option<String> {
     let labels = scene.program.labels();
     let targets = scene.program.targets.iter().zip(&labels);

@@ -5,27 +5,27 @@
 //!
 //! **Four meshes or more** leave a scatter about the law that can be measured. Both the error and
 //! the scatter grow with `h^p`: a regression with weights `1/h^2p` gives `q0`, `a` and the standard
-//! error `s0` of `q0`. The order is the one between [`LEAST_ORDER`] and the formal one of the
-//! elements for which the values are the most likely. With the factor `t` of Student's distribution
-//! for a confidence of 95 % the uncertainty is
+//! error `s0` of `q0`. Of the orders between [`LEAST_ORDER`] and the formal order of the elements,
+//! the one is taken for which the values are the most likely. With the factor `t` of Student's
+//! distribution for a confidence of 95 % the uncertainty is
 //!
 //! ```text
 //!     F |q - q0| + t s0,     F = 1.25.
 //! ```
 //!
-//! **Three meshes** do not show the scatter. The order follows from a least-squares fit, once with
-//! equal weights and once with weights `1/h`, whichever leaves less. An order between
-//! [`LEAST_ORDER`] and the formal one is believed; else the better of the laws of first and of
-//! formal order takes its place. With `s` the standard deviation of the fit and `d` the range of
-//! the values over the number of meshes less one, the uncertainty of the finest value `q` is
+//! **Three meshes** do not show the scatter. The order follows from a least-squares fit, with equal
+//! weights or with weights `1/h`, whichever leaves the smaller deviation. An order between
+//! [`LEAST_ORDER`] and the formal one is believed; otherwise the better of the laws of first and of
+//! formal order is taken. With `s` the standard deviation of the fit and `d` the range of the
+//! values divided by the number of meshes less one, the uncertainty of the finest value `q` is
 //!
 //! ```text
 //!     F |a| h^p + s + |q - q_fit|              where s < d,
 //!     3 s/d (|a| h^p + s + |q - q_fit|)        else,
 //! ```
 //!
-//! The factor of safety `F` is 1.25 where the order is believed and 3 otherwise; the uncertainty
-//! then is no smaller than `d` either: values that agree by chance have no order.
+//! The factor of safety `F` is 1.25 if the order is believed and 3 otherwise; in the second case
+//! the uncertainty is also no smaller than `d`, since values that agree by chance have no order.
 //!
 //! **Two meshes**, which leave the order open, state 3 times the error of the formal one.
 //!
@@ -48,13 +48,13 @@ const ABOVE_FORMAL: f64 = 0.1;
 const SAFETY: f64 = 1.25;
 /// Factor of safety where the meshes show no order that is believed (Roache).
 const SAFETY_WITHOUT_ORDER: f64 = 3.0;
-/// Range of orders in which the best is sought, and the number of steps over it: beyond this range
-/// meshes do not show the order.
+/// Range of orders in which the best one is sought, and (`STEPS`) the number of steps over it.
+/// Meshes do not show orders beyond this range.
 const SOUGHT: [f64; 2] = [-2.0, 8.0];
 const STEPS: usize = 200;
 /// Fewest meshes whose scatter about a law is measured.
 const SCATTER: usize = 4;
-/// Step of the orders of which the most likely one is sought.
+/// Step between the orders among which the most likely one is sought.
 const LIKELY_STEP: f64 = 0.05;
 /// Two-sided 95 % points of Student's distribution for 2 to 8 degrees of freedom; for more, the
 /// last one (Draper and Smith, table of the t-distribution).
@@ -72,8 +72,9 @@ pub struct Extrapolation {
     pub limit: Option<f64>,
 }
 
-/// The uncertainty of the first of values `(h, q)` with their element sizes, by the formal order of
-/// the elements. `None` for fewer than two values, equal sizes or values that are no numbers.
+/// Estimates the uncertainty of the first of the values `q`, given as `(h, q)` with their element
+/// sizes, by the `formal` order of the elements. `None` for fewer than two values, a second mesh of
+/// the first one's size, or values that are not finite.
 pub fn extrapolate(values: &[(f64, f64)], formal: f64) -> Option<Extrapolation> {
     let [(h, q), others @ ..] = values else {
         return None;
@@ -142,8 +143,8 @@ fn by_fit(values: &[(f64, f64)], formal: f64, free: &FittedLaw, is_reliable: boo
     (uncertainty.max(least), fit.limit)
 }
 
-/// Uncertainty and limit of the first of at least four values: its distance to the limit of the
-/// most likely law, and the half width of the limit's confidence interval.
+/// Uncertainty and limit for the first of at least four values, from its distance to the limit of
+/// the most likely law and from the half width of the limit's confidence interval.
 fn by_confidence(values: &[(f64, f64)], formal: f64) -> (f64, f64) {
     let steps = ((formal - LEAST_ORDER) / LIKELY_STEP).round() as usize;
     let orders = (0..=steps).map(|i| LEAST_ORDER + LIKELY_STEP * i as f64);
@@ -166,7 +167,7 @@ struct Regression {
     limit: f64,
     /// Standard error of the limit.
     limit_deviation: f64,
-    /// Twice the negative logarithm of the likelihood, but for what is the same for all orders.
+    /// Twice the negative logarithm of the likelihood, without terms that all orders share.
     misfit: f64,
 }
 
@@ -177,7 +178,7 @@ impl Regression {
         let total: f64 = weights.clone().sum();
         let fit = fit(values, order, |h| h.powf(-2.0 * order) / total);
         let powers = values.iter().map(|(h, _)| h.powf(order));
-        // Weight and power cancel but for one power: the weighted mean of h^p.
+        // The weights are 1/x^2 with x = h^p, so the weighted sum of x is the sum of 1/x.
         let mean = powers.clone().map(|x| 1.0 / x).sum::<f64>() / total;
         let spread: f64 = (weights.zip(powers))
             .map(|(weight, x)| weight * (x - mean).powi(2))
@@ -192,8 +193,8 @@ impl Regression {
     }
 }
 
-/// Standard deviation of `n` values about a law that was fitted to them, from the mean square of
-/// what it leaves over: each constant of the law takes one value's share of the scatter away.
+/// Standard deviation of `n` values about a law fitted to them, from the mean square of their
+/// deviations. Each constant of the law takes one value's share of the scatter away.
 fn scatter(square: f64, n: usize, constants: usize) -> f64 {
     match n > constants {
         true => (n as f64 * square / (n - constants) as f64).sqrt(),
@@ -201,13 +202,13 @@ fn scatter(square: f64, n: usize, constants: usize) -> f64 {
     }
 }
 
-/// Largest less smallest value.
+/// Largest value minus smallest value.
 fn range(values: &[(f64, f64)]) -> f64 {
     let of = |pick: fn(f64, f64) -> f64| values.iter().map(|v| v.1).reduce(pick).unwrap_or(0.0);
     of(f64::max) - of(f64::min)
 }
 
-/// The orders that are tried; not zero, which is no law.
+/// The orders that are tried. Zero is left out, since it gives no law.
 fn orders() -> Vec<f64> {
     let [low, high] = SOUGHT;
     let step = (high - low) / STEPS as f64;
@@ -224,8 +225,8 @@ struct FittedLaw {
     square: f64,
 }
 
-/// The law that fits best, of these orders and both weightings; between two neighbouring orders by
-/// the parabola through their deviations.
+/// The law that fits best among these orders and both weightings. Between two neighbouring orders
+/// the best one is found on the parabola through their deviations.
 fn best(values: &[(f64, f64)], orders: &[f64]) -> FittedLaw {
     let total: f64 = values.iter().map(|(h, _)| 1.0 / h).sum();
     let equal = |_: f64| 1.0 / values.len() as f64;
@@ -308,9 +309,10 @@ mod tests {
         }
     }
 
-    /// Values with an error of order `p` that scatters by a share of itself: how often the limit
-    /// lies within the stated uncertainty. Two thirds where meshes near each other take a law of
-    /// first order with little scatter for one of higher order, else nearly always.
+    /// Values with an error of order `p` that scatters by a share of itself: counts how often the
+    /// limit lies within the stated uncertainty. It does so in two thirds of the cases if meshes
+    /// near each other take a law of first order with little scatter for one of higher order,
+    /// otherwise nearly always.
     #[test]
     fn the_limit_is_within_the_uncertainty() {
         let mut noise = evenly();
@@ -344,12 +346,12 @@ mod tests {
             extrapolate(&values, 2.0).unwrap().uncertainty
         };
         assert!((values(0.0) / (1.25 * 0.003) - 1.0).abs() < 1e-4);
-        // Twenty times its error: the range of the values over their number less one is 0.25.
+        // The coarsest value is off by twenty times its error: a quarter of the range is 0.25.
         let off = values(20.0 * 0.048);
         assert!(off < 0.2, "{off}");
     }
 
-    /// Where the order is not believed the law of first or formal order has the larger factor.
+    /// If the order is not believed, the law of first or formal order has the larger factor.
     #[test]
     fn an_order_out_of_bounds_costs_the_larger_factor() {
         for order in [0.2, 3.5, -0.5] {
@@ -375,8 +377,8 @@ mod tests {
         assert_eq!(extrapolate(&[(1.0, 3.0), (2.0, f64::NAN)], 2.0), None);
     }
 
-    /// Values that agree on two meshes by chance have at least the range that the third shows, per
-    /// mesh.
+    /// The uncertainty of values that agree by chance on two meshes is at least the range that the
+    /// third mesh shows, divided by the number of meshes less one.
     #[test]
     fn agreement_by_chance_is_no_accuracy() {
         let found = extrapolate(&[(1.0, 7.0), (1.5, 7.0 + 1e-9), (2.0, 7.4)], 2.0).unwrap();
@@ -385,13 +387,13 @@ mod tests {
         assert_eq!((same.uncertainty, same.limit), (0.0, Some(7.0)));
     }
 
-    /// No power law: up and down. The deviation of the best line is in the statement, and more than
-    /// the range per mesh.
+    /// Values that go up and down follow no power law. The uncertainty includes their deviation
+    /// from the best line and exceeds their range per mesh.
     #[test]
     fn scatter_enters_the_uncertainty() {
         let found = extrapolate(&[(1.0, 0.0), (1.5, 1.0), (2.0, -1.0), (2.5, 1.0)], 2.0).unwrap();
         assert!(found.uncertainty > 2.0, "{found:?}");
-        // Units and offsets are no matter.
+        // Units and offsets do not matter.
         let scaled = [
             (2.0, 10.0),
             (3.0, 10.0 + 1e-3),

@@ -1,9 +1,9 @@
 //! Meshes of a plane scene refined around a contact that the scene's own mesh does not resolve.
 //!
-//! A contact may be smaller at first yield than one element, by any factor: under a ball the load
-//! at first yield goes with the cube of the yield stress. Elements that are smaller everywhere
-//! resolve it at a price that grows with the square of this factor, elements that are smaller
-//! around it ([`LocalRefinement`]) at one that grows with its logarithm.
+//! At first yield a contact may be smaller than one element by any factor: under a ball the load at
+//! first yield goes with the cube of the yield stress. If all elements are made smaller, the cost
+//! of resolving the contact grows with the square of this factor; if only the elements around it
+//! are ([`LocalRefinement`]), the cost grows with its logarithm.
 
 use super::companions::READABLE;
 use super::meter::work;
@@ -14,14 +14,14 @@ use crate::progress::Observer;
 use crate::results::{EdgeReading, Results, State};
 use crate::scene::{LocalRefinement, Scene};
 
-/// Half widths around the middle of a contact within which elements are smallest, as the meshes
-/// that are generated around a contact have it.
+/// Distance from the middle of a contact, in half widths, within which elements are smallest, as in
+/// the meshes that are generated around a contact.
 const REACH: f64 = 2.0;
-/// How much narrower a contact has to become by a refinement that does not add pairs to it. One
-/// that misses the contact does neither.
+/// Factor by which a refinement that adds no pairs to a contact must narrow the contact. A
+/// refinement that misses the contact does neither.
 const NARROWER: f64 = 0.9;
 
-/// A contact at first yield or in a state, by what carries a side of it.
+/// A contact at first yield or in a state, with the number of pairs that carry a side of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ContactSpot {
     /// Name of the state; `None` for first yield.
@@ -32,8 +32,8 @@ pub(super) struct ContactSpot {
 }
 
 impl ContactSpot {
-    /// The contact in a state of this name, or at first yield. `None` where no edge of pressures
-    /// ends it.
+    /// Finds the contact in the state of this name, or at first yield. `None` if the contact does
+    /// not end in an edge of pressures.
     fn of(results: &Results, state: Option<&str>) -> Option<Self> {
         let (at, half_width, reading) = match state {
             None => {
@@ -58,7 +58,7 @@ impl ContactSpot {
         })
     }
 
-    /// The first contact that is carried by pairs at its edge alone.
+    /// The first contact that is carried only by pairs at its edge.
     fn unresolved(results: &Results) -> Option<Self> {
         let states = results.states.iter().map(|state| Some(state.name.as_str()));
         let mut all = std::iter::once(None).chain(states);
@@ -84,19 +84,19 @@ fn most_pressed(state: &State) -> Option<[f64; 3]> {
 }
 
 /// The refinement of a plane mesh with which the first unresolved contact of a run would have
-/// [`READABLE`] pairs on a side if it were as wide as the run has it. It is narrower: more may be
-/// needed.
+/// [`READABLE`] pairs on a side if it were as wide as in the run. The true contact is narrower and
+/// may need a finer mesh.
 pub(super) fn suggested(scene: &Scene, results: &Results) -> Option<LocalRefinement> {
     let spot = ContactSpot::unresolved(results).filter(|_| !scene.kind.is_solid())?;
     let halvings = (READABLE as f64 / spot.pairs.max(1) as f64).log2().ceil();
     Some(spot.refined(halvings as usize))
 }
 
-/// The refinement of a plane scene's mesh that resolves the first contact that a run of the scene
-/// leaves unresolved, with [`READABLE`] pairs on a side: the elements there are halved, and the
-/// scene is run again, until it does. `spent` grows by the floating point operations of these runs.
-/// `None` where all contacts are resolved, where the mesh is one of solids, where smaller elements
-/// do not help, or where `may_go_on` ends the search.
+/// Finds the refinement of a plane scene's mesh that gives [`READABLE`] pairs on a side to the
+/// first contact that a run of the scene leaves unresolved. The elements there are halved and the
+/// scene is run again until this is reached; `spent` grows by the floating point operations of
+/// these runs. `None` if all contacts are resolved, if the mesh is one of solids, if smaller
+/// elements do not help, or if `may_go_on` ends the search.
 pub(super) fn resolving(
     (scene, results): (&Scene, &Results),
     (backend, extent): (Backend, Extent),

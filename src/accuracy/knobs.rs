@@ -1,8 +1,8 @@
-//! What a user may turn, and the settings that a study tries.
+//! The knobs that a user may turn, and the settings of them that a study tries.
 //!
-//! A study turns one knob at a time from the scene's own settings, but for the mesh, which is
-//! refined with every element shape and once more with loose tolerances: work and precision both
-//! come from the mesh first.
+//! A study starts from the scene's own settings and turns one knob at a time. The mesh is an
+//! exception: it is refined with every element shape, and once more with loose tolerances, because
+//! cost and accuracy depend first of all on the mesh.
 
 use super::companions::{Level, member};
 use crate::error::{Error, Result};
@@ -21,12 +21,12 @@ const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-6, 1e-8];
 const GAMMAS: [f64; 4] = [1e-2, 1e-3, 1e-4, 1e-6];
 /// Numbers of increments per target that are tried.
 const STEPS: [usize; 5] = [2, 5, 10, 20, 40];
-/// Path errors that are asked for with `stepping = "auto"`.
+/// Path errors that are tried with `stepping = "auto"`.
 const PATH_ERRORS: [f64; 3] = [1e-2, 1e-3, 1e-4];
 /// Tolerance and gamma of the series of meshes with loose tolerances.
 const LOOSE: f64 = 1e-4;
 
-/// A thing to turn.
+/// A setting that a study changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Knob {
@@ -34,7 +34,7 @@ pub enum Knob {
     Resolution,
     /// Element shape, over all resolutions.
     Element,
-    /// From event to event, or `n` steps.
+    /// Increments from event to event, by a path error, or `n` fixed steps.
     Stepping,
     /// Tolerance of the plastic iteration.
     Tolerance,
@@ -42,7 +42,7 @@ pub enum Knob {
     Gamma,
     /// Acceleration of the plastic iteration.
     Algorithm,
-    /// What factors the stiffness.
+    /// Backend that factors the stiffness.
     Backend,
 }
 
@@ -71,10 +71,10 @@ impl Knob {
         }
     }
 
-    /// The knob of a name.
+    /// Finds the knob with a name.
     ///
     /// # Errors
-    /// `Input`, listing the names.
+    /// `Input` with the names that exist.
     pub fn from_name(name: &str) -> Result<Knob> {
         let known = Knob::ALL.map(Knob::name).join(", ");
         Knob::ALL
@@ -87,15 +87,15 @@ impl Knob {
 /// A setting to run.
 #[derive(Debug, Clone)]
 pub struct Setting {
-    /// The curve it belongs to: `quad4`, `quad4, loose`, `steps`, ...
+    /// The curve that the setting belongs to: `quad4`, `quad4, tolerances 1e-4`, `stepping`, ...
     pub series: String,
-    /// What is turned.
+    /// The knob that is turned.
     pub knob: Knob,
-    /// New value of the setting, in words: what `--set` takes where there is such a key.
+    /// New value of the setting, in words; the value for `--set` if that has such a key.
     pub value: String,
     /// Element size over that of the scene.
     pub ratio: f64,
-    /// The scene so set.
+    /// The scene with this setting.
     pub scene: Scene,
     /// The backend that solves.
     pub backend: Backend,
@@ -105,7 +105,7 @@ pub struct Setting {
 /// The other knobs are turned on the scene's own mesh.
 pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) -> Vec<Setting> {
     let mut out = of_meshes(scene, backend, knobs, levels);
-    // Up to first yield there is no iteration and no path to turn anything in.
+    // Up to first yield there is no iteration and no path, so there is nothing to turn in them.
     if scene.any_can_yield() && scene.program.targets.iter().any(|t| !t.first_yield) {
         out.extend(of_path(scene, backend, knobs));
     }
@@ -120,7 +120,7 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
     out
 }
 
-/// The series of meshes: of the scene's element, the same with loose tolerances, of other elements.
+/// Settings of the series of meshes: the scene's element, this with loose tolerances, others.
 fn of_meshes(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) -> Vec<Setting> {
     let own = scene.mesh.shape();
     let name = own.map_or("mesh", Shape::name);
@@ -198,8 +198,8 @@ fn series(
     }
 }
 
-/// Element sizes of a series, finest first; of a mesh from a file, which is cut in halves, over the
-/// same range.
+/// Element sizes of a series, finest first. A mesh from a file can only be cut in halves; its sizes
+/// cover the same range.
 fn ratios(scene: &Scene, levels: usize) -> Vec<f64> {
     let last = levels.max(1) as i32 - 1;
     if scene.mesh.file.is_none() {
@@ -209,7 +209,7 @@ fn ratios(scene: &Scene, levels: usize) -> Vec<f64> {
     (0..=range).map(|i| 0.5f64.powi(range - i)).collect()
 }
 
-/// Tolerances, increments and algorithms.
+/// Settings of tolerances, increments and algorithms.
 fn of_path(scene: &Scene, backend: Backend, knobs: &[Knob]) -> Vec<Setting> {
     let mut out = Vec::new();
     let mut turn = |knob: Knob, value: String, change: &dyn Fn(&mut Scene)| {

@@ -1,4 +1,4 @@
-//! What a run takes from the machine, and what it will take.
+//! Measurement of what a run takes from the machine, and forecast of what it will take.
 
 use crate::analysis::check;
 use crate::error::Result;
@@ -22,18 +22,18 @@ pub struct Meter {
 pub struct Usage {
     /// Wall time in seconds.
     pub wall_seconds: f64,
-    /// Processor time of all threads of this process in seconds; `None` where the system does not
-    /// tell.
+    /// Processor time of all threads of this process in seconds; `None` if the system does not
+    /// report it.
     pub cpu_seconds: Option<f64>,
-    /// Most memory resident during the run, that which the process held before included (the
-    /// allocator returns large blocks at once, small ones late); `None` where the system does not
-    /// let the mark be set back (Linux: `clear_refs`).
+    /// Most memory resident during the run, including what the process held before (the allocator
+    /// returns large blocks at once, small ones late); `None` if the system cannot reset this peak
+    /// (Linux: `clear_refs`).
     pub peak_memory_bytes: Option<u64>,
 }
 
 impl Usage {
-    /// What the run takes when nothing disturbs it: wall time, or processor time where that is
-    /// less, because the machine had other things to do.
+    /// Time of the run if nothing had disturbed it: wall time, or processor time if that is less
+    /// because the machine had other things to do.
     pub fn undisturbed_seconds(&self) -> f64 {
         self.cpu_seconds
             .map_or(self.wall_seconds, |cpu| self.wall_seconds.min(cpu))
@@ -74,16 +74,17 @@ fn processor_seconds() -> Option<f64> {
     None
 }
 
-/// Operations of assembly, ordering and analysis per nonzero of the factor: what they take besides
-/// those of the factorisation (the speeds that [`crate::analysis::check`] assumes). In small meshes
-/// they are most of the time.
+/// Operations of assembly, ordering and analysis per nonzero of the factor, in addition to those of
+/// the factorisation (at the speeds that [`crate::analysis::check`] assumes). On small meshes they
+/// take most of the time.
 const PER_NONZERO: f64 = 250.0;
-/// Operations of a solve per nonzero of the columns it goes through: back and forth, a
-/// multiplication and an addition each.
+/// Operations of a solve per nonzero of the columns that it passes, forth and back: one
+/// multiplication and one addition each.
 const PER_SOLVE: f64 = 4.0;
 
-/// Cost of a run in floating point operations: of its factorisations with what precedes them, and
-/// of its solves. It depends neither on the machine nor on what else the machine is doing.
+/// Cost of a run in floating point operations: of its factorisations, with the assembly and
+/// analysis before them, and of its solves. It does not depend on the machine, nor on its other
+/// work.
 pub fn work(results: &Results) -> f64 {
     let (counts, factor) = (&results.counts, &results.factor);
     counts.factorizations as f64 * (factor.flops + PER_NONZERO * factor.factor_nonzeros)
@@ -96,8 +97,8 @@ pub fn work(results: &Results) -> f64 {
 pub struct Forecast {
     /// The factorisation.
     pub factor: Prediction,
-    /// Seconds at a typical speed; what this machine and this scene make of it is learnt from
-    /// finished runs ([`Pace`]).
+    /// Seconds at a typical speed. How much this machine and this scene differ from it is learnt
+    /// from finished runs ([`Pace`]).
     pub seconds: f64,
 }
 
@@ -114,14 +115,14 @@ pub fn forecast(scene: &Scene, backend: Backend) -> Result<Forecast> {
 }
 
 /// How long runs take compared with their forecasts: `time = a forecast^b`, fitted to the finished
-/// ones. The power differs from 1 where increments, which grow in number with the resolution too,
+/// runs. The power `b` differs from 1 if increments, whose number grows with the resolution too,
 /// cost more than the factorisation.
 #[derive(Debug, Clone, Default)]
 pub struct Pace {
     finished: Vec<(f64, f64)>,
 }
 
-/// Powers that are believed.
+/// Range to which the fitted power is limited.
 const POWERS: [f64; 2] = [0.5, 2.0];
 
 impl Pace {
@@ -141,7 +142,7 @@ impl Pace {
         let mean = |f: &dyn Fn(&(f64, f64)) -> f64| self.finished.iter().map(f).sum::<f64>() / n;
         let (mx, my) = (mean(&|p| p.0), mean(&|p| p.1));
         let variance = mean(&|p| (p.0 - mx).powi(2));
-        // Runs of one size say nothing of the power.
+        // Runs of one size do not determine the power.
         let power = if variance > 0.1 {
             (mean(&|p| (p.0 - mx) * (p.1 - my)) / variance).clamp(POWERS[0], POWERS[1])
         } else {
@@ -170,7 +171,7 @@ mod tests {
         let meter = Meter::start();
         let block = vec![1u8; 64 << 20];
         let mut sum = 0u64;
-        // Once at least: on a busy machine the memory alone may take as long.
+        // At least one pass: on a busy machine, allocating the block may take as long by itself.
         loop {
             sum = block.iter().fold(sum, |s, b| s.wrapping_add(u64::from(*b)));
             if meter.start.elapsed().as_secs_f64() >= 0.1 {

@@ -15,22 +15,24 @@
 //! The stated error is the sum of three:
 //!
 //! - **discretisation**: the scene is run again on two other meshes of its family, with elements
-//!   3/2 and twice as large where the run resolves its contacts well enough for that, else finer
+//!   3/2 and twice as large if the run resolves its contacts well enough for that, otherwise finer
 //!   ones; the uncertainty follows from how each quantity changes (L. Eca, M. Hoekstra 2014, see
-//!   [`extrapolate`]). The difference is that of the quantity itself: contact edges, yielding and
-//!   the way there are in it. A half width has the error of its reading besides, measured on each
-//!   run by reading the same pressures in another way ([`crate::results::EdgeReading`]). The energy
-//!   norm of the recovered stress error ([`crate::results::State::energy_error`], per element in
-//!   the VTU files) says *where* the mesh is too coarse.
-//! - **path**: the coarsest mesh that yields as the run does is run with twice the increments, and
-//!   with other tolerances.
+//!   [`extrapolate`]). The quantities themselves are compared, so the estimate includes contact
+//!   edges, yielding and the path to the state. A half width also has an error of its reading,
+//!   found on each run by reading the same pressures in another way
+//!   ([`crate::results::EdgeReading`]). The energy norm of the recovered stress error
+//!   ([`crate::results::State::energy_error`], per element in the VTU files) shows *where* the mesh
+//!   is too coarse.
+//! - **path**: the coarsest mesh on which everything yields that yields in the run is run with
+//!   other tolerances and with twice the increments (half of them in a quick estimate).
 //! - **algebraic**: backward error, equilibrium and complementarity of the state, relative to the
-//!   largest size of the quantity; at first yield what `gamma` leaves of the largest stress, too.
+//!   largest size of the quantity; at first yield also the part of the largest stress that `gamma`
+//!   leaves.
 //!
 //! Nothing here knows a generator, a closed form or a benchmark: a mesh from a file is judged by
 //! its subdivisions in the same way. A goal-oriented estimate (dual-weighted residuals) was built
-//! and measured before: pressure and stress at a point are so local that its products cancel, and
-//! the reading of a contact's edge is in none of them.
+//! and measured before. Its products cancel for pressure and stress at a point, which are too
+//! local, and none of them contains the reading of a contact's edge.
 
 mod advice;
 mod companions;

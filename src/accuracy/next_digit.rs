@@ -1,4 +1,4 @@
-//! What a tenth of the stated error would take.
+//! Forecast of what a tenth of the stated error would take.
 
 use super::effort::work_of_finer;
 use super::extrapolation::LEAST_ORDER;
@@ -6,10 +6,10 @@ use super::quantities::{formal_order, is_demanded_with_all};
 use crate::results::{FACTORISATION_ROW, QuantityError, Results};
 use crate::scene::Scene;
 
-/// What a mesh takes on which the largest stated error would be a tenth.
+/// Forecast of a mesh on which the largest stated error would be a tenth of the present one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NextDigit {
-    /// The quantity with the largest stated relative error of those that a demand on all asks for.
+    /// The quantity with the largest stated relative error of those that a demand on all includes.
     pub quantity: String,
     /// The stated relative error of that quantity.
     pub relative_error: f64,
@@ -21,14 +21,14 @@ pub struct NextDigit {
     pub memory_bytes: f64,
 }
 
-/// Powers of the fineness with which the time of solves and the memory of a factor grow: `n` but
-/// for a logarithm in the plane, `n^(4/3)` in space (George 1973, Lipton, Rose and Tarjan 1979, as
-/// of the factorisation).
+/// Powers of the fineness with which the time of solves and the memory of a factor grow. With `n`
+/// freedoms they grow as `n` in the plane, apart from a logarithm, and as `n^(4/3)` in space
+/// (George 1973, Lipton, Rose and Tarjan 1979, as the time of the factorisation).
 const SOLVES: [f64; 2] = [2.0, 4.0];
 
-/// What a tenth of the largest stated error takes: the mesh's share of it falls with the order that
-/// the meshes show, or with the first where they show none. `None` where no error is stated, or
-/// where the path or the algebra leaves more than the mesh: no mesh mends that.
+/// Forecasts what a tenth of the largest stated error takes: the mesh's share of the error falls
+/// with the order that the meshes show, or with first order if they show none. `None` if no error
+/// is stated, or if path and algebra leave more than the mesh, so that no mesh would suffice.
 pub fn for_a_tenth(scene: &Scene, results: &Results) -> Option<NextDigit> {
     let rows = &results.accuracy.as_ref()?.quantities;
     let key = |row: &QuantityError| row.quantity.rsplit('.').next().unwrap_or("").to_string();
@@ -63,8 +63,8 @@ mod tests {
     use super::*;
     use crate::results::Accuracy;
 
-    /// Errors of a body, a set and a place, and of a pressure at a point, are larger; no demand on
-    /// all counts them.
+    /// Errors of a body, a set, a place and of a pressure at a point are larger, but a demand on
+    /// all does not include them.
     #[test]
     fn what_a_demand_on_all_counts_is_made_a_tenth() {
         let row = |quantity: &str, share: f64| QuantityError {

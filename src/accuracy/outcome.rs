@@ -1,4 +1,4 @@
-//! What the errors of a mesh say of a demand.
+//! The errors of a mesh compared with a demand.
 
 use super::extrapolation::LEAST_ORDER;
 use super::quantities::{formal_order, is_demanded_with_all, quantities};
@@ -9,8 +9,8 @@ use crate::scene::AccuracyDemand;
 /// The next mesh is chosen for an error of this fraction of the demanded one, so that the demand is
 /// not narrowly missed.
 const AIM: f64 = 0.8;
-/// Fraction of the demand from which on the path is made finer where it limits more than the mesh,
-/// and to which.
+/// Fraction of the demand from which on the path is made finer if it limits more than the mesh, and
+/// the fraction that is then aimed at.
 pub(super) const PATH: [f64; 2] = [0.5, 0.25];
 
 /// A quantity beyond its demand.
@@ -20,18 +20,18 @@ pub(super) struct Missed {
     pub order: Option<f64>,
 }
 
-/// What the errors of a mesh say of the demand.
+/// The errors of a mesh compared with the demand.
 #[derive(Default)]
 pub(super) struct Outcome {
-    /// Relative error of the quantity that is farthest beyond its demand, or nearest to it; NaN
-    /// where none is known.
+    /// Relative error of the quantity that is farthest beyond its demand, or nearest to it if none
+    /// is beyond; NaN if no error is known.
     pub stated: f64,
     pub worst: Option<String>,
     /// Quantities whose error is not known.
     pub unknown: Vec<String>,
     /// Quantities beyond their demand.
     pub missed: Vec<Missed>,
-    /// Largest fraction of the demand of the meshes, of the path and of the algebra.
+    /// Largest error due to the mesh, to the path and to the algebra, as fractions of the demand.
     pub mesh: f64,
     pub path: f64,
     pub algebra: f64,
@@ -50,7 +50,7 @@ impl Outcome {
         };
         let mut excess = 0.0;
         for (quantity, errors) in quantities(results).iter().zip(&found.quantities) {
-            // Nobody demands an accuracy of the parts of a state.
+            // A demand does not include figures of parts of a state.
             if quantity.is_of_part() {
                 continue;
             }
@@ -97,8 +97,8 @@ impl Outcome {
             relative,
             order: errors.order,
         });
-        // An order above the formal one is that of coarse meshes; one below what is believed says
-        // nothing.
+        // An order above the formal one belongs to coarse meshes, and an order below the believed
+        // ones means nothing.
         let order = errors.order.filter(|order| *order >= LEAST_ORDER);
         let order = order.map(|order| order.min(formal));
         let left = (1.0 - path - algebra).max(1.0 - PATH[0]);
@@ -164,15 +164,16 @@ mod tests {
         let near = judged("load = 1 %", [0.09, 0.0, 0.0], 2.0);
         assert!(near.is_within() && (near.stated - 0.009).abs() < 1e-12);
         assert_eq!(near.worst.as_deref(), Some("states.pressed.load"));
-        // The approach is zero with an error that is not: of unknown size, so that a demand on all
-        // is not kept.
+        // The approach is zero but its error is not: its relative error is unknown, so a demand on
+        // all quantities is not met.
         let all = judged("1 %", [0.09, 0.0, 0.0], 2.0);
         assert!(!all.is_within());
         assert_eq!(all.unknown, ["states.pressed.approach"]);
         assert!(judged("dent = 1 %", [0.0; 3], 2.0).is_of_nothing);
     }
 
-    /// Of several demands the one that is farthest beyond what it asks for, not the largest error.
+    /// Of several demands, the worst quantity is the farthest beyond its own, not the least
+    /// accurate.
     #[test]
     fn the_worst_is_the_farthest_beyond_its_demand() {
         let state = State {

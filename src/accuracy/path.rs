@@ -1,14 +1,15 @@
-//! The error of the way through the load program: the size of its increments, the tolerance of the
-//! plastic iteration and that with which changes of contact are found.
+//! The error of the path through the load program: it depends on the size of the increments, on the
+//! tolerance of the plastic iteration and on the tolerance with which changes of contact are found.
 //!
-//! Strains go straight from one end of an increment to the other, and flow is followed along that
-//! path (`material/strain_path.rs`): an error of second order in the increments, of a little less
-//! than that while there are few ([`ORDER`]). With `n` increments it is `c/n^p`, and the difference
-//! to `m`, twice as many or [`FEWEST`] where there were few, shows `c`. The changes of contact end
-//! the increments where the stepping is `events`, so there is nothing to divide; the scene is then
-//! run with fixed steps. Both are done on the coarsest mesh at hand on which everything yields that
-//! does in the run: the error of the path hardly depends on the mesh, but for the number of
-//! increments, by whose ratio it is scaled.
+//! Strains follow a straight line from one end of an increment to the other, and flow is followed
+//! along this line (`material/strain_path.rs`). This leaves an error of second order in the
+//! increments, and of slightly lower order while they are few ([`ORDER`]). With `n` increments the
+//! error is `c/n^p`, and the difference from a run with twice as many increments shows `c`; from a
+//! run with [`FEWEST`] if there were few, or with half as many in a quick estimate. If the stepping
+//! is `events`, changes of contact end the increments, which cannot be divided; the other run then
+//! has fixed steps, or increments by a path error in a quick estimate. All these runs use the
+//! coarsest mesh at hand on which everything yields that yields in the run. The error of the path
+//! hardly depends on the mesh except through the number of increments, by whose ratio it is scaled.
 //!
 //! Where nothing yields there is no such error: elastic contact follows its path exactly from event
 //! to event, and a state depends on its load alone.
@@ -28,17 +29,18 @@ use std::collections::BTreeMap;
 
 /// Fewest increments per target in the finer of two compared runs.
 const FEWEST: usize = 8;
-/// Power of the length of increments with which the error of the path falls, as far as few of them
-/// show it.
+/// Power of the length of increments with which the error of the path falls, as observed with few
+/// increments.
 const ORDER: f64 = 1.5;
-/// Path error of increments that are twice as long, over that of the increments.
+/// Factor by which the error of the path grows if increments are twice as long.
 const TWICE_AS_LONG: f64 = 4.0;
 /// Factor by which tolerances are changed.
 const FACTOR: f64 = 100.0;
-/// Tolerances below this are made looser, not tighter: [`FACTOR`] below them lies round-off.
+/// Least value to which tolerances are tightened. If all are within [`FACTOR`] of it, they are made
+/// looser instead.
 const TIGHT: f64 = 1e-9;
 
-/// Figures that `path_error` speaks of.
+/// Figures to which `path_error` applies.
 const ASKED_FOR: [&str; 2] = [".max_pressure", ".residual_depth"];
 
 /// Errors of the path.
@@ -63,13 +65,14 @@ impl PathErrors {
     }
 }
 
-/// Only beyond yield does the path have an error.
+/// Whether the path has an error: it has one only beyond yield.
 pub(super) fn matters(results: &Results) -> bool {
     results.states.iter().any(|s| s.plastic_points > 0)
 }
 
-/// Estimates the errors of the path of a run by repeating `base`, the coarsest run like it. Returns
-/// them with the operations of the runs that were made for them; what failed is noted.
+/// Estimates the errors of the path of a run by repeating `base`, the run on the coarsest mesh on
+/// which as much yields. Also returns the operations of the runs that this took; runs that fail are
+/// noted.
 pub(super) fn errors(
     base: &Finished,
     runs: &mut Runs,
@@ -88,7 +91,7 @@ pub(super) fn errors(
     let (tolerances, of_tolerances) = with_other_tolerances(&base.scene);
     let fewer = match base.scene.stepping() {
         Stepping::Events => base.results.history.len() as f64 / results.history.len().max(1) as f64,
-        // As many on every mesh.
+        // These steppings take equally many increments on every mesh.
         Stepping::Auto | Stepping::Steps => 1.0,
     };
     let of_increments = of_increments * fewer.min(1.0).powf(ORDER);
@@ -133,15 +136,16 @@ pub(super) fn errors(
     (PathErrors::Estimated(out), made)
 }
 
-/// The note where the path leaves, by the estimate, more of a pressure or a dent than `path_error`
-/// allows: the worst figure with its error.
+/// A note if, by the estimate, the path leaves more of a pressure or a dent than `path_error`
+/// allows. It names the worst figure with its error.
 pub(super) fn beyond_asked(scene: &Scene, quantities: &[QuantityError]) -> Option<String> {
     if scene.stepping() != Stepping::Auto {
         return None;
     }
     let of_key = |q: &&QuantityError| ASKED_FOR.iter().any(|key| q.quantity.ends_with(key));
     let share = |q: &QuantityError| {
-        // The relative error is that of the whole error, against the scale of the figure.
+        // The relative error is the whole error divided by the figure's scale; the path has a
+        // share.
         let whole = q.error.filter(|error| *error > 0.0)?;
         Some((q.path? * q.relative_error? / whole, q.quantity.clone()))
     };
@@ -157,7 +161,7 @@ pub(super) fn beyond_asked(scene: &Scene, quantities: &[QuantityError]) -> Optio
     })
 }
 
-/// The scene with other tolerances, and what share of the difference is their error.
+/// The scene with other tolerances, and the share of the difference that is the present error.
 fn with_other_tolerances(scene: &Scene) -> (Scene, f64) {
     let mut out = scene.clone();
     let loose = scene.analysis.tolerance.max(scene.program.gamma) > TIGHT * FACTOR;
@@ -173,8 +177,8 @@ fn with_other_tolerances(scene: &Scene) -> (Scene, f64) {
     }
 }
 
-/// The scene with more increments than its run took, and what multiple of the difference is their
-/// error: the difference is that from `c/taken^p` to `c/steps^p`.
+/// The scene with more increments than its run took, and the multiple of the difference that is the
+/// present error: the difference is that between `c/taken^p` and `c/steps^p`.
 fn with_more_increments(scene: &Scene, results: &Results) -> (Scene, f64) {
     let share = |fewer: f64| 1.0 / (1.0 - fewer.powf(ORDER));
     if scene.stepping() == Stepping::Auto {
@@ -195,9 +199,10 @@ fn with_tolerances_of(scene: &Scene, other: &Scene) -> Scene {
     out
 }
 
-/// The scene with half as many increments as its run took, and what multiple of the difference is
-/// their error; `None` where they are few already. Increments from change to change of contact are
-/// compared with half as many as the usual path error asks for, which is no smaller than theirs.
+/// The scene with half as many increments as its run took, and the multiple of the difference that
+/// is the present error; `None` if increments are few already. Increments that end at changes of
+/// contact are compared with half as many as the usual path error asks for, since that error is no
+/// smaller than theirs.
 fn with_fewer_increments(scene: &Scene, results: &Results) -> Option<(Scene, f64)> {
     let share = 1.0 / (2f64.powf(ORDER) - 1.0);
     let usual = Program::default().path_error;
@@ -216,8 +221,8 @@ fn with_fewer_increments(scene: &Scene, results: &Results) -> Option<(Scene, f64
     (out.program.path_error <= TWICE_AS_LONG * usual).then_some((out, share))
 }
 
-/// The scene with so many increments that the error of its path is a fraction of what it was, and
-/// that in words.
+/// The scene with so many more increments that the error of its path is divided by `fraction`, and
+/// its increments in words.
 pub(super) fn with_error_over(scene: &Scene, results: &Results, fraction: f64) -> (Scene, String) {
     let more = fraction.max(1.0).powf(1.0 / ORDER);
     if scene.stepping() == Stepping::Auto {
@@ -275,8 +280,8 @@ mod tests {
         assert_eq!(share, 1.0 / 99.0);
     }
 
-    /// An error `c/n^p`: of 3 increments, compared with 8, of 20, compared with 40, and of as many
-    /// as a path error asks for.
+    /// The error is `c/n^p`: 3 increments are compared with 8, 20 with 40, and increments by a path
+    /// error with twice as many.
     #[test]
     fn increments_are_extrapolated_with_their_order() {
         let text = include_str!("../../data/scenes/thick_cylinder.toml");
@@ -294,15 +299,16 @@ mod tests {
         let mut by_error = scene;
         by_error.program.stepping = Stepping::Auto;
         let (more, share) = with_more_increments(&by_error, &Results::default());
-        // A fourth of the error is asked for with half the length.
+        // Half the length corresponds to a fourth of the path error.
         assert_eq!(more.program.path_error, 0.25 * by_error.program.path_error);
         assert!((share * (error(1) - error(2)) - 1.0).abs() < 1e-12);
         let (other, _) = with_error_over(&by_error, &Results::default(), 1e30);
         assert_eq!(other.program.path_error, LEAST_PATH_ERROR);
     }
 
-    /// Half as many increments: of steps their number, of increments by a path error four times
-    /// that; few are not halved. Their error follows with the same order.
+    /// Half as many increments: fixed steps are halved in number, increments by a path error get
+    /// four times that error, and few increments are not halved. The errors follow with the same
+    /// order.
     #[test]
     fn fewer_increments_cost_less_and_show_the_same_order() {
         let text = include_str!("../../data/scenes/thick_cylinder.toml");

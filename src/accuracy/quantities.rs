@@ -14,13 +14,12 @@ pub struct Quantity {
     pub kind: &'static str,
     /// Value of the quantity in the unit of the run.
     pub value: f64,
-    /// The largest size that a quantity of this kind has in the run: what its error is measured
-    /// against.
+    /// The largest size of quantities of this kind in the run, against which the error is measured.
     pub scale: f64,
-    /// Error of the reading off the pressures: of half widths and areas, else 0.
+    /// Error of reading half widths and areas off the pressures; 0 for other quantities.
     pub reading: f64,
-    /// Least error of the quantity: of plastic zones a layer of Gauss points, of plastic strains
-    /// what is between the outermost points and the surface, else 0.
+    /// Least error of the quantity: one layer of Gauss points for plastic zones, the part between
+    /// the outermost points and the surface for plastic strains, 0 for others.
     pub least: f64,
 }
 
@@ -69,10 +68,10 @@ pub(super) fn is_demanded_with_all(kind: &str) -> bool {
     estimated(kind).is_none_or(|estimated| estimated.in_all)
 }
 
-/// Formal order of convergence: that of the displacements, one more than the degree of the elements
-/// (G. Strang, G. J. Fix, *An Analysis of the Finite Element Method*, Prentice-Hall 1973, chapter
-/// 3). What single Gauss points have is that of the nearest one, a share of an element away: of
-/// first order.
+/// Formal order of convergence. The displacements have the degree of the elements plus one (G.
+/// Strang, G. J. Fix, *An Analysis of the Finite Element Method*, Prentice-Hall 1973, chapter 3).
+/// Values at single Gauss points are of first order, since the nearest point lies a share of an
+/// element away from the place sought.
 pub(super) fn formal_order(key: &str, degree: usize) -> f64 {
     match estimated(key) {
         Some(estimated) if estimated.is_of_points => 1.0,
@@ -80,8 +79,8 @@ pub(super) fn formal_order(key: &str, degree: usize) -> f64 {
     }
 }
 
-/// What the reading of a contact's edge leaves in a quantity: in the half width, and in the area,
-/// which goes at most with its square.
+/// Error that the reading of a contact's edge leaves in a quantity: in the half width, and in the
+/// area, which grows at most with the square of the half width.
 fn read_with(key: &str, value: f64, (width, reading): (f64, &EdgeReading)) -> f64 {
     match key {
         "half_width" => reading.error,
@@ -166,9 +165,9 @@ pub fn quantities(results: &Results) -> Vec<Quantity> {
     out
 }
 
-/// Figures of the parts of a state: the dents of bodies if several have one, the forces of contacts
-/// if there are several, of a solid the patches, the strongest first, and the columns that the
-/// scene adds to the history.
+/// Figures of the parts of a state: the dents of bodies if several bodies have one, the forces of
+/// contacts if there are several, the patches of a solid (the strongest first), and the columns
+/// that the scene adds to the history.
 fn of_parts(state: &State, results: &Results) -> Vec<Quantity> {
     let mut out: Vec<Quantity> = Vec::new();
     let mut add = |part: String, kind: &'static str, value: f64| {
@@ -259,7 +258,7 @@ fn at_places(results: &Results) -> Vec<Quantity> {
 }
 
 /// The kind of a column of the history; `None` for the approach of the loads and for forces of
-/// contacts, which are figures of the state.
+/// contacts, which are figures of the state already.
 fn kind_of_column(column: &str) -> Option<&'static str> {
     let (_, key) = column.rsplit_once('.')?;
     let key = key.trim_end_matches(['x', 'y', 'z']).trim_end_matches('_');

@@ -1,8 +1,8 @@
-//! What a study says about a quantity.
+//! Results of a study for a quantity.
 
 use serde::Serialize;
 
-/// What the runs are measured against.
+/// The reference value against which runs are measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StudyReference {
     /// The reference value.
@@ -11,24 +11,24 @@ pub struct StudyReference {
     pub uncertainty: f64,
     /// The closed form's source, or how it was extrapolated.
     pub source: String,
-    /// The value extrapolated from the meshes, where the reference is a closed form from which it
-    /// differs by more than it is uncertain: what the model itself converges to.
+    /// The value to which the model itself converges, extrapolated from the meshes; given if the
+    /// reference is a closed form and differs from it by more than its uncertainty.
     pub limit: Option<f64>,
 }
 
-/// The cheapest setting that reaches an accuracy.
+/// The cheapest setting with which an accuracy is reached.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Price {
     /// Relative accuracy.
     pub accuracy: f64,
-    /// Index of the run; `None` where none reaches it.
+    /// Index of the run with this setting; `None` if no run reaches the accuracy.
     pub run: Option<usize>,
 }
 
 /// A quantity over all runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct QuantityStudy {
-    /// Path of the quantity; `all` stands for the worst of those that govern.
+    /// Path of the quantity; `all` stands for the worst quantity that a demand on all includes.
     pub quantity: String,
     /// The reference; `None` for `all`.
     pub reference: Option<StudyReference>,
@@ -37,10 +37,10 @@ pub struct QuantityStudy {
     pub errors: Vec<Option<f64>>,
     /// Observed order of convergence in the element size, by series of meshes.
     pub orders: Vec<(String, f64)>,
-    /// Runs of which none is both faster and more accurate, by time.
+    /// Runs to which no other run is superior in both time and accuracy, ordered by time.
     pub pareto: Vec<usize>,
-    /// What accuracies cost.
+    /// The cheapest setting for each accuracy.
     pub prices: Vec<Price>,
-    /// The verdict in words, what limits, and which looser settings would do.
+    /// Sentences: what accuracies cost, what limits them, and which looser settings would do.
     pub words: Vec<String>,
 }

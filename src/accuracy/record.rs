@@ -1,4 +1,4 @@
-//! What is kept of a run of a study.
+//! The record of a run of a study.
 
 use super::knobs::{Knob, Setting};
 use super::meter::{Forecast, Usage, work};
@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::results::{Counts, Results};
 use serde::Serialize;
 
-/// A setting with what came out and what it took.
+/// A setting with its results and its cost.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StudyRun {
     /// The curve it belongs to.
@@ -42,7 +42,7 @@ pub struct StudyRun {
 }
 
 impl StudyRun {
-    /// What a setting came to.
+    /// Records the run of a setting.
     pub(super) fn of(
         setting: &Setting,
         cost: &Forecast,
@@ -105,9 +105,9 @@ pub(super) fn value(run: &StudyRun, path: &str) -> Option<f64> {
     run.values.iter().find(|v| v.0 == path).map(|v| v.1)
 }
 
-/// What the increments of the scene's own run lack: the two finest runs with fixed steps, on the
-/// same mesh, extrapolated with the first order of the flow rule; and by how much that may be
-/// wrong: the last change.
+/// Correction for the length of the increments in the scene's own run, and its uncertainty. The two
+/// runs with the most increments on the same mesh, other than from event to event, are extrapolated
+/// with first order; the last change is the uncertainty.
 pub(super) fn path_correction(runs: &[StudyRun], path: &str) -> Option<(f64, f64)> {
     let own = runs.iter().find(|r| is_own(r))?;
     let mut stepped: Vec<(usize, f64)> = runs
@@ -124,7 +124,7 @@ pub(super) fn path_correction(runs: &[StudyRun], path: &str) -> Option<(f64, f64
     Some((at_fine + last - value(own, path)?, last.abs()))
 }
 
-/// Whether this is the scene as it stands.
+/// Whether this is the run of the scene as it stands.
 pub(super) fn is_own(run: &StudyRun) -> bool {
     run.knob == Knob::Resolution && run.ratio == 1.0 && !run.series.contains(',')
 }

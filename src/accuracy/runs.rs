@@ -64,10 +64,10 @@ impl Runs {
         self.finished.push(Finished { seconds, ..run });
     }
 
-    /// The run of a scene, and whether it was made for this.
+    /// Returns the run of a scene, and whether the run was made by this call.
     ///
     /// # Errors
-    /// Errors of the run; one that ended before its program did is one.
+    /// Errors of the run; a run that ended before its program did counts as an error.
     pub(super) fn of(
         &mut self,
         scene: &Scene,
@@ -92,7 +92,7 @@ impl Runs {
 /// Runs a scene without fields, unless it names places whose values are read from them.
 ///
 /// # Errors
-/// Errors of the run; one that ended before its program did is one.
+/// Errors of the run; a run that ended before its program did counts as an error.
 pub(super) fn run(
     scene: &Scene,
     backend: Backend,
@@ -127,8 +127,8 @@ pub(super) fn analyse(
     Ok((analysis, results))
 }
 
-/// Passes on only the wish to stop: phases, increments and warnings of another run would be taken
-/// for the run's own.
+/// Observer that passes on only the request to stop: phases, increments and warnings of another run
+/// would be taken for those of the run itself.
 pub(super) struct Quiet<'o>(pub &'o mut dyn Observer);
 
 impl Observer for Quiet<'_> {

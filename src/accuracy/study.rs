@@ -14,7 +14,7 @@ use crate::scene::Scene;
 use serde::Serialize;
 use std::time::{Duration, Instant};
 
-/// Runs after which the remaining time is reported: fewer say little of the machine and the scene.
+/// Number of finished runs from which the remaining time is predicted: fewer show too little.
 const TRUSTED: usize = 4;
 
 /// What a study turns, on how many meshes and in what time.
@@ -24,8 +24,8 @@ pub struct Plan {
     pub knobs: Vec<Knob>,
     /// Meshes in a series.
     pub levels: usize,
-    /// Seconds that the study may take, but for its cheapest run, which is always made: runs that
-    /// would not fit are left out, one that is under way at the end is given up.
+    /// Seconds that the study may take, except for its cheapest run, which is always made. Runs
+    /// that would not fit are left out, and a run that is under way at the end is given up.
     pub budget: Option<f64>,
 }
 
@@ -80,7 +80,7 @@ pub fn study(
         }
         let name = format!("{}, {}", setting.series, setting.value);
         let expected = pace.seconds(cost.seconds);
-        // The cheapest run is made whatever the budget: else there would be nothing to go by.
+        // The cheapest run is made whatever the budget: without it there would be no result at all.
         let budget = plan.budget.filter(|_| !out.runs.is_empty());
         if let Some(budget) = budget.filter(|b| start.elapsed().as_secs_f64() + expected > *b) {
             let why = format!("about {expected:.1} s, beyond the budget of {budget} s");
@@ -130,7 +130,7 @@ pub fn study(
     Ok(out)
 }
 
-/// The settings with their forecasts, by predicted time; those that make no model are left out.
+/// The settings with their forecasts, ordered by time; settings without a model are left out.
 fn cheapest_first(
     settings: Vec<Setting>,
     left_out: &mut Vec<String>,
@@ -141,8 +141,8 @@ fn cheapest_first(
         if observer.stop_requested() {
             break;
         }
-        // Settings on one mesh have one forecast; the symbolic factorisation of a large one takes
-        // its time.
+        // Settings on the same mesh have the same forecast, and the symbolic factorisation of a
+        // large mesh takes time.
         let is_alike = |(other, _): &&(Setting, Forecast)| {
             other.scene.mesh == setting.scene.mesh && other.backend == setting.backend
         };
@@ -160,7 +160,7 @@ fn cheapest_first(
     queue
 }
 
-/// Asks to stop when the observer does, or when it is late.
+/// Observer that asks to stop if another observer does or if the time is over.
 struct Hurried<'o> {
     observer: &'o mut dyn Observer,
     end: Option<Instant>,
@@ -168,7 +168,7 @@ struct Hurried<'o> {
 
 impl<'o> Hurried<'o> {
     fn new(observer: &'o mut dyn Observer, start: Instant, seconds: Option<f64>) -> Self {
-        // A time beyond what the clock knows is none.
+        // A time beyond the range of the clock counts as no limit.
         let end = seconds
             .and_then(|s| Duration::try_from_secs_f64(s).ok())
             .and_then(|s| start.checked_add(s));

@@ -1,10 +1,10 @@
 //! Contacts that a mesh does not resolve, and the figures whose error is therefore unknown.
 //!
 //! The pressures of the last pairs at the edge of a contact ([`EdgeReading::AT_EDGE`]) are not
-//! those of points. Where a side of a contact has no other pairs, no pressure is known, nor is the
-//! stress below it: meshes that agree there do so because all of them replace the contact by the
-//! same few forces. Where surfaces are apart on all meshes, by less than the meshes leave
-//! uncertain, it is not known whether they touch.
+//! pressures at points. If a side of a contact has no other pairs, neither a pressure nor the
+//! stress below it is known: meshes agree there only because all of them replace the contact by the
+//! same few forces. If surfaces are apart on all meshes, but by less than the uncertainty that the
+//! meshes leave, it is not known whether they touch.
 
 use super::extrapolation::extrapolate;
 use super::graded;
@@ -14,7 +14,7 @@ use crate::results::{EdgeReading, Results, State};
 use crate::scene::{LocalRefinement, Scene, Unit};
 use std::collections::BTreeSet;
 
-/// Figures of a state that the contact does not decide, but the equilibrium of the whole.
+/// Figures of a state that the equilibrium of the whole decides, not the contact.
 const OF_THE_WHOLE: [&str; 4] = ["load", "approach", "contact_force", CONTACT_FORCE];
 
 /// Figures of a state that are zero as long as the surfaces are apart.
@@ -25,12 +25,12 @@ const OF_CONTACT: [&str; 4] = [
     "contact_area",
 ];
 
-/// First yield and states at which the mesh is too coarse for the contact, or at which it is not
-/// known whether the surfaces touch; with the refinement that would help.
+/// First yield and states in which the mesh is too coarse for the contact, states in which it is
+/// not known whether the surfaces touch, and the refinement that would help.
 pub(super) struct Unresolved {
     /// Whether the contact is not resolved at first yield.
     at_yield: bool,
-    /// Whether load factors count in the load at first yield.
+    /// Whether load factors are in units of the load at first yield.
     in_yield_loads: bool,
     /// States that are reached at first yield.
     yielding: BTreeSet<String>,
@@ -41,8 +41,8 @@ pub(super) struct Unresolved {
     refinement: Option<LocalRefinement>,
 }
 
-/// The smallest gap of a loaded state without contact forces; `None` if there are any, no pairs, or
-/// no load: then nothing presses the surfaces on each other, whether or not they touch.
+/// The smallest gap of a loaded state without contact forces. `None` if there are contact forces or
+/// no pairs, or if there is no load, so that nothing presses the surfaces on each other.
 fn gap_of_open(state: &State) -> Option<f64> {
     let gaps = state.pairs.iter().map(|pair| pair.gap);
     let is_open = state.contact_force == 0.0 && state.is_loaded;
@@ -72,9 +72,9 @@ impl Unresolved {
         }
     }
 
-    /// Finds the states in which all contacts are open on all meshes, while the smallest gap is no
-    /// larger than its uncertainty. `others` are the runs on other meshes, with their element sizes
-    /// and `formal` the order of displacements.
+    /// Finds the states in which all contacts are open on all meshes while the smallest gap is no
+    /// larger than its uncertainty. `others` are the runs on other meshes with their element sizes,
+    /// `formal` is the order of displacements.
     pub(super) fn find_nearly_closed(
         &mut self,
         results: &Results,
@@ -165,8 +165,8 @@ mod tests {
     use super::*;
     use crate::results::{PairState, State, Status, YieldPoint};
 
-    /// Quantities whose error is hidden, of a run whose contact has so many pairs on a side at
-    /// first yield and in its state.
+    /// Quantities with a hidden error, for a run whose contact has the given numbers of pairs on a
+    /// side at first yield and in its state.
     fn hidden([at_yield, in_state]: [usize; 2], error: f64, unit: Unit) -> Vec<String> {
         let text = include_str!("../../data/scenes/thick_cylinder.toml");
         let mut scene = Scene::parse(text, "scene.toml").unwrap();
@@ -199,7 +199,7 @@ mod tests {
         hidden
     }
 
-    /// A state with a gap between its surfaces, under a load that does not lead, or none.
+    /// A state with a gap between its surfaces, under a load that is not the leading one, or none.
     fn apart(gap: f64, is_loaded: bool) -> Results {
         let pair = PairState {
             pair: 0,
@@ -228,7 +228,8 @@ mod tests {
     fn surfaces_that_may_touch_have_no_error() {
         let text = include_str!("../../data/scenes/thick_cylinder.toml");
         let scene = Scene::parse(text, "scene.toml").unwrap();
-        // Gaps of three meshes, which change by more than their size, or by less; no load presses.
+        // The gaps of three meshes change by more or by less than their size; the last have no
+        // load.
         for (gaps, is_loaded, expected) in [
             ([0.1, 0.3, 0.7], true, true),
             ([0.1, 0.1001, 0.1004], true, false),
@@ -257,12 +258,13 @@ mod tests {
         assert!(of_state.contains(&"states.pressed.max_pressure".to_string()));
         assert!(!of_state.contains(&"states.pressed.load".to_string()));
         assert!(!of_state.iter().any(|path| path.starts_with("yield.")));
-        // One pair between open ones is none on either side of the middle.
+        // One closed pair between open ones counts as no pair on either side of the middle.
         assert_eq!(all([0, 3]), all([1, 3]));
         let of_yield = all([1, 3]);
         assert!(of_yield.contains(&"yield.load".to_string()));
         assert!(of_yield.iter().all(|path| path.starts_with("yield.")));
-        // Load factors in loads at first yield pass what is unknown there on to every state.
+        // If loads are in units of the load at first yield, every state has the unknown error of
+        // that.
         let passed_on = hidden([1, 3], 0.01, Unit::Yield);
         assert!(passed_on.contains(&"states.pressed.load".to_string()));
     }

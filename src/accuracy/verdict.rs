@@ -1,5 +1,5 @@
-//! What a study says: the error of each run, the order of convergence, the Pareto front, and the
-//! price of a digit.
+//! Judgement of the runs of a study: the error of each run, the order of convergence, the Pareto
+//! front, and the cost of each accuracy.
 
 use super::advice;
 use super::extrapolation::extrapolate;
@@ -11,9 +11,9 @@ use crate::results::ReferenceRow;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// Accuracies that are priced.
+/// Accuracies whose cost is found.
 pub(super) const TARGETS: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
-/// Finest meshes from which a reference is extrapolated.
+/// Number of finest meshes from which a reference is extrapolated.
 const FINEST: usize = 4;
 /// Error below which a difference is round-off and shows no order.
 const ROUND_OFF: f64 = 1e-12;
@@ -43,7 +43,7 @@ pub fn assess(runs: &[StudyRun], references: &[ReferenceRow]) -> Vec<QuantityStu
             .iter()
             .map(|run| value(run, path).map(|v| (v - reference.value).abs() / scale))
             .collect();
-        // What the program gives and no run computes has no error to speak of.
+        // A quantity that the program prescribes has no error in any run.
         if errors.iter().flatten().all(|e| *e <= ROUND_OFF) {
             continue;
         }
@@ -85,14 +85,14 @@ fn mesh_series(runs: &[StudyRun]) -> Vec<&str> {
             }
         }
     }
-    // The plain name of the element before its loose variant.
+    // The series of an element comes before its series with loose tolerances.
     out.sort_by_key(|name| name.len());
     out.sort_by_key(|name| runs.iter().find(|r| r.series == *name).map(|r| r.knob));
     out
 }
 
-/// The closed form that the scene names, else the extrapolation of the scene's own series of
-/// meshes.
+/// The reference of a quantity: the closed form that the scene names, otherwise the extrapolation
+/// of the scene's own series of meshes.
 fn reference(runs: &[StudyRun], references: &[ReferenceRow], path: &str) -> Option<StudyReference> {
     let own = mesh_series(runs).first().copied()?;
     let values: Vec<(f64, f64)> = series(runs, own)
@@ -116,7 +116,7 @@ fn reference(runs: &[StudyRun], references: &[ReferenceRow], path: &str) -> Opti
             limit: other.map(|(limit, _)| limit),
         });
     }
-    // Meshes that show no order have no better value than that of the finest.
+    // If the meshes show no order, no value is better than that of the finest mesh.
     let finest = || Some((values.first()?.1, found?.uncertainty));
     let (limit, doubt_of_mesh) = limit.or_else(finest)?;
     let (correction, doubt) = path_correction(runs, path).unwrap_or_default();
@@ -136,8 +136,8 @@ fn reference(runs: &[StudyRun], references: &[ReferenceRow], path: &str) -> Opti
     })
 }
 
-/// The quantities a reader wants first: `all`, those at first yield, and of the states, key by key,
-/// the one of the largest size.
+/// The quantities that a reader wants first: `all`, the quantities at first yield, and for each key
+/// the largest of the quantities of states.
 pub fn foremost(quantities: &[QuantityStudy]) -> Vec<&QuantityStudy> {
     let mut largest: BTreeMap<&str, (f64, usize)> = BTreeMap::new();
     let mut out: Vec<usize> = Vec::new();
@@ -203,7 +203,7 @@ fn order(levels: &[(usize, f64)], errors: &[Option<f64>]) -> Option<f64> {
     Some(mean(&|p| (p.0 - mx) * (p.1 - my)) / mean(&|p| (p.0 - mx).powi(2)))
 }
 
-/// Runs by time, each more accurate than all faster ones.
+/// Runs in the order of their times, each of them more accurate than all faster ones.
 fn pareto(runs: &[StudyRun], errors: &[Option<f64>]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..runs.len()).filter(|&i| errors[i].is_some()).collect();
     order.sort_by(|&a, &b| faster(&runs[a], &runs[b]));
@@ -217,8 +217,8 @@ fn pareto(runs: &[StudyRun], errors: &[Option<f64>]) -> Vec<usize> {
     order
 }
 
-/// The fastest run that reaches an accuracy not by chance: in a series of meshes every finer one
-/// reaches it too.
+/// The fastest run that reaches an accuracy, unless by chance: in a series of meshes every finer
+/// mesh must reach the accuracy, too.
 fn cheapest(runs: &[StudyRun], errors: &[Option<f64>], accuracy: f64) -> Option<usize> {
     let reaches = |i: usize| errors[i].is_some_and(|e| e <= accuracy);
     (0..runs.len())
@@ -228,8 +228,8 @@ fn cheapest(runs: &[StudyRun], errors: &[Option<f64>], accuracy: f64) -> Option<
                 .into_iter()
                 .filter(|(_, h)| *h < runs[i].ratio)
                 .all(|(finer, _)| errors[finer].is_none() || reaches(finer)),
-            // Turned on the scene's own mesh, a looser path is no better than the scene but by
-            // chance.
+            // On the scene's own mesh, a run with a looser path is better than the scene's run only
+            // by chance.
             _ => runs.iter().position(is_own).is_none_or(reaches),
         })
         .min_by(|&a, &b| faster(&runs[a], &runs[b]))

@@ -1,7 +1,8 @@
 //! The analysis: yield load, then the load program, increment by increment.
 //!
-//! Eight rooms, from the bottom; each imports from those above it in this file only, and no two
-//! files use each other (a test holds both). The table of a room names its files.
+//! The analysis has eight modules (rooms), listed here from the bottom up. Each imports only from
+//! modules above it in this table, and no two files use each other; a test checks both. The
+//! documentation of each module lists its files.
 //!
 //! | room | what | paper |
 //! |---|---|---|

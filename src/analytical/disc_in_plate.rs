@@ -26,16 +26,17 @@ use std::sync::OnceLock;
 /// E* g(t)/(2 a) = S/4 (1 - 2 cos 2t) + q_0/2 + sum_{n>=2} n/(n^2-1) q_n cos n t.
 /// ```
 ///
-/// Zero gap on `|t| < e`, acted on by `d^2/dt^2 + 1`, is a Hilbert transform, finite in `tan t`.
-/// Inverted with `p` zero at both ends it is the closed form
+/// Applying `d^2/dt^2 + 1` to the zero gap on `|t| < e` gives a finite Hilbert transform in
+/// `tan t`. Its inverse with `p` zero at both ends is the closed form
 ///
 /// ```text
 /// p(t) = (q_0/2 + S/4) atanh w + (3/2) S w cos^2 t,        w = sqrt(1 - cos^2 e/cos^2 t),
 /// q_0 (1 - L/2) = S/4 L + 3/4 S sin^2 e,                   L = -ln cos e,
 /// ```
 ///
-/// and `e` is the root of the one condition the differentiation loses, `g(0) = 0`. The stress
-/// fields follow from `F(z) = q_0 + sum q_n z^n`, also closed. So nothing here is a table.
+/// where `e` is the root of `g(0) = 0`, the one condition that the differentiation loses. The
+/// stress fields follow from `F(z) = q_0 + sum q_n z^n`, which is closed too: nothing here is a
+/// table.
 ///
 /// Stresses are positive in tension, pressures in compression. Units are any consistent ones.
 ///
@@ -199,8 +200,8 @@ impl DiscInPlate {
     }
 }
 
-/// The distance from the rim, set to zero within round-off of `|z|^2`, because the slope it
-/// multiplies is singular at the edges of the contact.
+/// Distance from the rim, set to zero within round-off of `|z|^2`, because the distance multiplies
+/// a slope that is singular at the edges of the contact.
 fn edge_factor(distance: f64) -> f64 {
     if distance.abs() <= 8.0 * f64::EPSILON {
         0.0

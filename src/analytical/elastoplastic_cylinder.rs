@@ -84,7 +84,7 @@ impl ElastoplasticCylinder {
     /// Stresses `[s_rr, s_tt (hoop), s_zz]` at the radius `r` in `[a, b]` under `pressure`.
     ///
     /// # Errors
-    /// As for [`plastic_front`](Self::plastic_front).
+    /// Errors of [`plastic_front`](Self::plastic_front).
     pub fn stress(&self, r: f64, pressure: f64) -> Result<[f64; 3]> {
         let front = self.plastic_front(pressure)?;
         if pressure <= self.yield_pressure() {
@@ -105,7 +105,7 @@ impl ElastoplasticCylinder {
     /// Radial displacement at the radius `r` under `pressure`.
     ///
     /// # Errors
-    /// As for [`plastic_front`](Self::plastic_front).
+    /// Errors of [`plastic_front`](Self::plastic_front).
     pub fn displacement(&self, r: f64, pressure: f64) -> Result<f64> {
         let front = self.plastic_front(pressure)?;
         if pressure <= self.yield_pressure() {
@@ -117,8 +117,8 @@ impl ElastoplasticCylinder {
     /// Residual stresses `[s_rr, s_tt, s_zz]` after `pressure` has been removed (autofrettage).
     ///
     /// # Errors
-    /// As for [`plastic_front`](Self::plastic_front), and `Input` if the pressure exceeds twice the
-    /// yield pressure, because the bore then yields again in unloading.
+    /// Errors of [`plastic_front`](Self::plastic_front), and `Input` if the pressure exceeds twice
+    /// the yield pressure, because the bore then yields again in unloading.
     pub fn residual_stress(&self, r: f64, pressure: f64) -> Result<[f64; 3]> {
         let loaded = self.stress(r, pressure)?;
         refuse_reverse_yield("elastoplastic cylinder", pressure, self.yield_pressure())?;

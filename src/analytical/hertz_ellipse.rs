@@ -177,12 +177,12 @@ impl HertzEllipse {
     /// Shear stress `s_xz` at `y = 0`, or `s_yz` at `x = 0`, in either body: `axis` is 0 or 1, `at`
     /// the distance from the centre along this axis, `z >= 0` the depth.
     ///
-    /// With `lambda >= 0` (l for short) the root of `x^2/(a^2 + lambda) + z^2/lambda =
-    /// 1`, the shear stress is `-p0 a b x z^2/((a^2 + l)^(3/2) (b^2 + l)^(1/2) l^(3/2) S)`, `S =
-    /// x^2/(a^2 + l)^2 + z^2/l^2`, for any Poisson's ratio.
+    /// With `lambda >= 0` (l for short) the root of `x^2/(a^2 + lambda) + z^2/lambda = 1`, the
+    /// shear stress is `-p0 a b x z^2/((a^2 + l)^(3/2) (b^2 + l)^(1/2) l^(3/2) S)` with
+    /// `S = x^2/(a^2 + l)^2 + z^2/l^2`, for any Poisson's ratio.
     ///
     /// # Source
-    /// As for [`stress_below_middle`](Self::stress_below_middle): `s_xz = -z psi_xz/(2 pi)`.
+    /// Sources of [`stress_below_middle`](Self::stress_below_middle): `s_xz = -z psi_xz/(2 pi)`.
     pub fn shear(&self, axis: usize, at: f64, z: f64, load: f64) -> f64 {
         let axes = self.semi_axes(load);
         let (along, across) = (axes[axis], axes[1 - axis]);

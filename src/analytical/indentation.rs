@@ -145,8 +145,8 @@ mod tests {
     use super::*;
     use crate::analytical::HertzPoint;
 
-    /// An elastic contact unloads as it was loaded: both moduli equal the contact modulus, the one
-    /// by depth up to `h_c/(2 R)`, because the ball is not a paraboloid.
+    /// An elastic contact unloads as it was loaded: both moduli equal the contact modulus, the
+    /// modulus by depth only up to `h_c/(2 R)`, because the ball is not a paraboloid.
     #[test]
     fn an_elastic_contact_gives_its_modulus() {
         let (radius, modulus, load) = (5.0, 1e5, 100.0);

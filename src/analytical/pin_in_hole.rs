@@ -66,8 +66,9 @@ impl PinInHole {
     /// Load per thickness at which the half angle of the contact is `half_angle`.
     ///
     /// # Errors
-    /// `Input` if no positive load gives this angle: with clearance, for angles from that of the
-    /// neat fit upwards; with interference, for angles up to it; with neither, for all angles.
+    /// `Input` if no positive load gives this angle: with clearance, for angles from the angle of
+    /// the neat fit upwards; with interference, for angles up to that angle; with a neat fit, for
+    /// all angles.
     pub fn load_for_half_angle(&self, half_angle: f64) -> Result<f64> {
         let load = self.contact_modulus * self.clearance / Self::clearance_ratio(half_angle);
         if half_angle > 0.0 && half_angle < PI && load.is_finite() && load > 0.0 {
@@ -96,7 +97,7 @@ impl PinInHole {
     /// Contact pressure at the angle `from_load` (radians from the line of the load) under `load`.
     ///
     /// # Errors
-    /// As for [`half_angle`](Self::half_angle).
+    /// Errors of [`half_angle`](Self::half_angle).
     pub fn pressure(&self, from_load: f64, load: f64) -> Result<f64> {
         let half_angle = self.half_angle(load)?;
         let (sin, cos) = from_load.sin_cos();
@@ -111,7 +112,7 @@ impl PinInHole {
     /// Greatest pressure, on the line of the load.
     ///
     /// # Errors
-    /// As for [`half_angle`](Self::half_angle).
+    /// Errors of [`half_angle`](Self::half_angle).
     pub fn max_pressure(&self, load: f64) -> Result<f64> {
         self.pressure(0.0, load)
     }

@@ -1,14 +1,13 @@
 //! Integrals over an interval by the double-exponential rule, for integrands with weak
 //! singularities (roots, logarithms) at the ends.
 
-/// Integral of `f` over `[a, b]`: `x = (a+b)/2 + (b-a)/2 tanh(pi/2 sinh
-/// t)`, trapezoidal rule in `t`.
+/// Integral of `f` over `[a, b]`: `x = (a+b)/2 + (b-a)/2 tanh(pi/2 sinh t)`, trapezoidal rule in
+/// `t`.
 ///
-/// The ends themselves are never evaluated. The relative error is about 1e-14 for integrands that
-/// are analytic inside the interval at distances from it of the order of its length or, towards the
-/// ends, of the order of the distance to the end. For a root singularity at `b` the error is about
-/// 1e-8 times the strength of the singularity if `|b|` exceeds `b - a` (the distance to `b` is then
-/// rounded).
+/// The ends themselves are never evaluated. The relative error is about 1e-14 if the integrand is
+/// analytic around the interval, up to distances of the order of the interval's length or, near an
+/// end, of the distance to the end. For a root singularity at `b` the error is about 1e-8 times the
+/// strength of the singularity if `|b|` exceeds `b - a` (the distance to `b` is then rounded).
 ///
 /// # Source
 /// H. Takahasi, M. Mori, Publ. RIMS Kyoto Univ. 9 (1974) 721-741.

@@ -61,8 +61,8 @@ impl ThickCylinder {
         ]
     }
 
-    /// Radial displacement `u = [(k - 1) A r/2 + B/r]/(2
-    /// G)` at the radius `r`, with Kolosov's constant `k`.
+    /// Radial displacement `u = [(k - 1) A r/2 + B/r]/(2 G)` at the radius `r`, with Kolosov's
+    /// constant `k`.
     pub fn displacement(&self, r: f64, inner_pressure: f64, outer_pressure: f64) -> f64 {
         let (uniform, ring) = self.constants(inner_pressure, outer_pressure);
         let bulk = 0.5 * (self.plane.kolosov(self.poisson) - 1.0);

@@ -35,8 +35,8 @@ impl ThickSphere {
     /// A sphere with the given radii and material.
     ///
     /// # Errors
-    /// `Input` unless `0 < inner_radius < outer_radius`, `young > 0`, `-1 < poisson <=
-    /// 1/2` and `yield_stress > 0`, all finite.
+    /// `Input` unless `0 < inner_radius < outer_radius`, `young > 0`, `-1 < poisson <= 1/2` and
+    /// `yield_stress > 0`, all finite.
     pub fn new(
         inner_radius: f64,
         outer_radius: f64,
@@ -86,7 +86,7 @@ impl ThickSphere {
     /// are equal.
     ///
     /// # Errors
-    /// As for [`plastic_front`](Self::plastic_front).
+    /// Errors of [`plastic_front`](Self::plastic_front).
     pub fn stress(&self, r: f64, pressure: f64) -> Result<[f64; 2]> {
         let front = self.plastic_front(pressure)?;
         let y = self.yield_stress;
@@ -100,7 +100,7 @@ impl ThickSphere {
     /// Radial displacement at the radius `r` under `pressure`.
     ///
     /// # Errors
-    /// As for [`plastic_front`](Self::plastic_front).
+    /// Errors of [`plastic_front`](Self::plastic_front).
     pub fn displacement(&self, r: f64, pressure: f64) -> Result<f64> {
         let front = self.plastic_front(pressure)?;
         let bulk = 2.0 / 3.0 * (1.0 - 2.0 * self.poisson);
@@ -118,8 +118,8 @@ impl ThickSphere {
     /// Residual stresses `[s_rr, s_tt]` after `pressure` has been removed.
     ///
     /// # Errors
-    /// As for [`plastic_front`](Self::plastic_front), and `Input` if the pressure exceeds twice the
-    /// yield pressure, because the bore then yields again in unloading.
+    /// Errors of [`plastic_front`](Self::plastic_front), and `Input` if the pressure exceeds twice
+    /// the yield pressure, because the bore then yields again in unloading.
     pub fn residual_stress(&self, r: f64, pressure: f64) -> Result<[f64; 2]> {
         let loaded = self.stress(r, pressure)?;
         refuse_reverse_yield("thick sphere", pressure, self.yield_pressure())?;

@@ -1,4 +1,4 @@
-//! How the program ends with an error: its exit code and its message.
+//! Exit code and message of the program if it ends with an error.
 
 use super::interrupt;
 use crate::error::{Error, ErrorKind};

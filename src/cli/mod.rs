@@ -60,9 +60,9 @@ pub fn main() -> ExitCode {
     ExitCode::from(program(std::env::args_os().collect()))
 }
 
-/// Runs the program within another one, such as an interpreter, which the command `itself` starts
-/// so that it runs this program. The arguments begin with the name of the program; returns the exit
-/// code.
+/// Runs the program within another one, such as an interpreter. The words `itself` are a command
+/// that starts the other program so that it runs this one. The arguments begin with the name of
+/// the program; returns the exit code.
 pub fn program_within(itself: Vec<OsString>, arguments: Vec<OsString>) -> u8 {
     itself::set(itself);
     program(arguments)

@@ -1,11 +1,12 @@
 //! The remaining time as it is shown: it never grows while time passes.
 //!
 //! If the share `p` of a load program is done in `e` seconds, and `P` seconds are predicted for all
-//! of it, the rest takes `rest (w P + e) / (w + p)`: the prediction has the weight of the first `w`
-//! of the program. Between two such estimates the last one counts down. The time shown is the
-//! smallest so far: an estimate that rises stops the countdown until the run has caught up with it.
+//! of it, the share `rest` still takes `rest (w P + e) / (w + p)`: the prediction counts as much as
+//! a share `w` of the program. Between two such estimates the last one counts down. The time shown
+//! is the smallest so far: an estimate that rises stops the countdown until the run has caught up
+//! with it.
 
-/// Share of a load program whose weight a prediction has.
+/// Share of a load program that has as much weight as the prediction.
 const WEIGHT: f64 = 0.05;
 /// Fraction of an estimate below which it counts down more slowly than one second per second: no
 /// phase is shown as complete before its end.

@@ -1,4 +1,4 @@
-//! What is written to standard output and to standard error.
+//! Output to standard output and to standard error.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::text::{self, shown_json};

@@ -309,13 +309,13 @@ pub(super) struct Condition {
     pub(super) range: [usize; 2],
     pub(super) value: f64,
     pub(super) amplitude: Option<String>,
-    /// Whether the value is the one with which the step before ended.
+    /// Whether the value stays as it was at the end of the step before.
     pub(super) is_fixed: bool,
     pub(super) place: LinePlace,
 }
 
 impl Condition {
-    /// What lines of a keyword have in common.
+    /// Makes a condition with the data that all lines of a keyword have in common.
     pub(super) fn of_keyword(kind: ConditionKind, place: LinePlace) -> Self {
         Condition {
             kind,
@@ -416,7 +416,8 @@ pub(super) struct DeckStep {
     /// For each kind, the place at which the step declares that conditions replace those of earlier
     /// steps.
     pub(super) renewed: [Option<LinePlace>; ConditionKind::COUNT],
-    /// Whether conditions of each kind have been given, whose `OP` is that of the first keyword.
+    /// Whether the step gives conditions of each kind; the `OP` of a kind is that of its first
+    /// keyword.
     pub(super) is_begun: [bool; ConditionKind::COUNT],
 }
 

@@ -52,8 +52,8 @@ impl Expansion {
         share(temperature) - share(initial)
     }
 
-    /// Equivalent changes for changes of temperature since an initial one; linear between the times
-    /// of these changes and the given times.
+    /// Changes of temperature that give the same strains with the scene's coefficient as `change`
+    /// since the initial temperature; linear between the times of `change` and the given times.
     pub(super) fn equivalents(&self, initial: f64, change: &Series, times: &[f64]) -> Series {
         let mut all: Vec<f64> = change.times().chain(times.iter().copied()).collect();
         all.sort_by(f64::total_cmp);

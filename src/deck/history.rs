@@ -83,7 +83,7 @@ struct Interval {
 /// The values that a step gives for a key, with their amplitudes.
 struct StepGiven<'d> {
     values: Vec<(f64, Option<&'d str>)>,
-    /// Whether the value with which the step before ended stays.
+    /// Whether the value stays as it was at the end of the step before.
     is_fixed: bool,
     place: LinePlace,
 }
@@ -124,12 +124,12 @@ impl GivenDisplacements {
 /// The histories of all keys of a kind of load.
 ///
 /// # Errors
-/// As for [`GivenDisplacements::of`].
+/// Errors of [`GivenDisplacements::of`].
 pub(super) fn histories(deck: &Deck, kind: ConditionKind) -> Result<Map> {
     histories_of(deck, kind, &mut Vec::new())
 }
 
-/// The histories of all keys of one kind. Those of displacements that are released are added to
+/// The histories of all keys of one kind. Histories of displacements that are released are added to
 /// `ended`.
 fn histories_of(
     deck: &Deck,
@@ -166,7 +166,7 @@ fn histories_of(
     Ok(map)
 }
 
-/// A step through which the histories of one kind go on.
+/// A step through which the histories of one kind are continued.
 struct HistoryStep<'d> {
     deck: &'d Deck,
     kind: ConditionKind,
@@ -296,8 +296,8 @@ impl<'d> HistoryStep<'d> {
             entry.series = Series::starting(start);
         }
         let jumps = (start - last).abs() > JUMP * start.abs().max(last.abs());
-        // A jump at the start of the step is taken over the first increment; a node that comes from
-        // wherever it is has no value there.
+        // A jump at the start of the step is taken over the first increment; a node that starts
+        // from its current place has no value at the start.
         let from = match self.number > 0 && (jumps || !entry.series.is_begun()) {
             true => time.first,
             false => time.start,

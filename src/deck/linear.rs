@@ -78,8 +78,8 @@ pub(super) fn reduce(
     }
     let follows = loose.into_iter().map(|(row, key)| matrix.follows(row, key));
     out.loose.extend(follows);
-    // A loose displacement that is not known no longer occurs in a remaining row, because it would
-    // have been eliminated.
+    // The remaining rows contain no loose displacement that is not known, because it would have
+    // been eliminated.
     let rows: Vec<usize> = (0..matrix.rows.len())
         .filter(|r| !done.contains(r))
         .collect();

@@ -14,7 +14,7 @@ pub fn is_deck(path: &Path) -> bool {
 /// Reads and validates a scene file, or the scene that a deck describes.
 ///
 /// # Errors
-/// As for [`load_with`].
+/// Errors of [`load_with`].
 pub fn load(path: impl AsRef<Path>) -> Result<Scene> {
     load_with(path, &[], Options::default())
 }

@@ -93,7 +93,7 @@ impl Deck {
         &self.account
     }
 
-    /// What names and numbers in the deck stand for.
+    /// Looks up the nodes, elements and faces for which names and numbers in the deck stand.
     fn lookup(&self) -> Lookup<'_> {
         Lookup {
             mesh: &self.mesh,

@@ -1,8 +1,8 @@
 //! Slave surfaces that a deck gives by nodes (`TYPE=NODE`) which do not make up whole faces of one
 //! piece: a single node, a row, or the corners of faces alone.
 //!
-//! Their contact is that of the faces around them which face the master surface, in which no other
-//! node may touch.
+//! Contact is found on the faces around these nodes that face the master surface; no other node of
+//! these faces may touch.
 
 use super::adjust::SurfacePieces;
 use super::data::{ContactPair, SurfacePart};
@@ -15,7 +15,7 @@ use crate::space::{direction, dot};
 use std::collections::{BTreeSet, HashMap};
 
 /// Cosine of the angle between the outward normals of two faces below which they face each other: a
-/// face that stands upright on the other does not, by any round-off.
+/// face perpendicular to the other does not, whatever the round-off.
 const FACING: f64 = -1e-3;
 
 /// A slave surface of nodes.
@@ -61,7 +61,7 @@ impl Lookup<'_> {
         if nodes.iter().all(|node| is_in(&of_faces, node)) {
             return Ok(in_pieces.then_some(nodes));
         }
-        // Nodes inside the body, which a set of all its nodes has too, touch nothing.
+        // Nodes inside the body touch nothing; a set of all nodes of the body has such nodes too.
         let boundary = self
             .mesh
             .nodes_of(&self.mesh.free_faces_at(nodes.iter().copied()));
@@ -70,8 +70,8 @@ impl Lookup<'_> {
         Ok((!are_all || in_pieces).then_some(nodes))
     }
 
-    /// Whether a surface is given by nodes that make up no face at all. Contacts alone may have it
-    /// then.
+    /// Whether a surface is given by nodes that make up no face at all. Only a contact may use such
+    /// a surface.
     pub(super) fn is_of_nodes_alone(self, name: &str) -> bool {
         let slaves = self.loose_slaves(name).ok().flatten();
         slaves.is_some_and(|nodes| self.mesh.free_faces_among(nodes).is_empty())

@@ -55,7 +55,7 @@ impl Deck {
     /// ```
     ///
     /// # Errors
-    /// As for [`Deck::read`].
+    /// Errors of [`Deck::read`].
     pub fn parse(text: &[u8], name: &str) -> Result<Deck> {
         Reader::new(DeckLines::new(Cow::Borrowed(text), name, None)).read()
     }
@@ -68,7 +68,7 @@ struct Reader<'t> {
     contents: DeckContents,
 }
 
-/// What the keywords of a deck have given so far.
+/// Data that the keywords of a deck have given so far.
 #[derive(Default)]
 struct DeckContents {
     deck: Deck,

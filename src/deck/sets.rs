@@ -31,7 +31,7 @@ impl What {
 /// The place at which a name or number is used: line and keyword.
 pub(super) type At<'k> = (LinePlace, &'k str);
 
-/// What names and numbers in a deck stand for: nodes, elements and faces.
+/// The nodes, elements and faces for which names and numbers in a deck stand.
 #[derive(Clone, Copy)]
 pub(super) struct Lookup<'d> {
     pub(super) mesh: &'d DeckMesh,

@@ -7,10 +7,11 @@
 //! du/dx = J^-T sum_k u_k dN_k/dxi          f_k = sum_g (J^-1 w sigma) dN_k/dxi
 //! ```
 //!
-//! so that for each element only `J^-1` and the weights are kept, a third of the size of `dN_k/dx`.
-//! With a mean dilatation (B-bar) the trace of the strain is replaced by its mean over the element,
-//! and in the forces the mean stress by its mean, which is equivalent to averaging `tr B` over the
-//! element. The points are computed in parallel: every quantity is an array over the points.
+//! Only `J^-1` and the weights are therefore kept for each element, a third of the size of
+//! `dN_k/dx`. With a mean dilatation (B-bar) the trace of the strain is replaced by its mean over
+//! the element, and in the forces the mean stress by its mean over the element; this is equivalent
+//! to averaging `tr B`. The points are computed in parallel: every quantity is an array over the
+//! points.
 //!
 //! # Source
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 2.7 and 4.5 (B-bar).

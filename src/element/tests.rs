@@ -354,8 +354,8 @@ fn no_other_motion_of_a_ring_is_free() {
         let matrix = nalgebra::SMatrix::<f64, 8, 8>::from_fn(|i, j| k[packed(i, j)]);
         let mut sizes = matrix.symmetric_eigenvalues().data.0[0];
         sizes.sort_by(f64::total_cmp);
-        // The softest motion is the bending of a plate: compared with the shear, the fourth power
-        // of its slenderness, 1/20, times about a tenth.
+        // The softest motion is the bending of a plate: its stiffness over that of the shear is
+        // about a tenth of the fourth power of the slenderness, 1/20.
         assert!(sizes[0].abs() < 1e-12 * sizes[7], "{x:?}: {sizes:?}");
         assert!(
             sizes[1] > 0.01 / 20f64.powi(4) * sizes[7],

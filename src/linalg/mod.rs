@@ -8,9 +8,9 @@
 //!     [ S_cz S_cc ] [ u_c ] = [ f_c ]      S = K_tt - K_ti K_ii^-1 K_it,  t = z + c
 //! ```
 //!
-//! and everything that the analysis needs is: the fully condensed contact stiffness
-//! `C = S_cc - S_cz S_zz^-1 S_zc`, static condensation of a load onto (z, c), the elimination of
-//! the zone for given (f_z, f_c), its recovery for given u_c, and the recovery of all freedoms.
+//! The analysis needs the fully condensed contact stiffness `C = S_cc - S_cz S_zz^-1 S_zc`, static
+//! condensation of a load onto (z, c), the elimination of the zone for given (f_z, f_c), its
+//! recovery for given u_c, and the recovery of all freedoms.
 //!
 //! | backend | how | for |
 //! |---|---|---|

@@ -4,9 +4,9 @@ use super::row_sums::largest;
 use super::{Condensed, Partition, Symmetric};
 use crate::error::Result;
 
-/// Backward error above which a refinement step is tried: one rounding error for each entry of a
-/// row, for the mean number of entries. A smaller residual may consist only of its own round-off,
-/// and a step computed from it gains nothing.
+/// Backward error above which a refinement step is tried: as many rounding errors as a row has
+/// entries on average. A smaller residual may consist only of its own round-off, and a step
+/// computed from it gains nothing.
 pub(super) fn refine_above(matrix: &Symmetric) -> f64 {
     let (n, upper) = (matrix.n().max(1) as f64, matrix.n_entries() as f64);
     (2.0 * upper / n - 1.0).max(1.0) * f64::EPSILON

@@ -9,7 +9,7 @@ use std::path::Path;
 /// Reads the mesh of a deck.
 ///
 /// # Errors
-/// As for [`Deck::read`] and [`mesh`].
+/// Errors of [`Deck::read`] and [`mesh`].
 pub fn read(path: &Path) -> Result<Mesh> {
     mesh(&Deck::read(path)?)
 }

@@ -2,9 +2,9 @@
 //!
 //! In pass `k` of `times`, each element that touches the disc of radius `2^(times-k)` radii around
 //! the point, or one of its neighbours, is divided into four ([`crate::shape::cuts`]). Element
-//! sizes so double with the distance, and each pass divides about as many elements. Of the elements
-//! beside them only the sides that they share with divided ones are divided ([`partial_cuts`]);
-//! where no division fits these sides, the whole element is. Because of the layer of neighbours no
+//! sizes so double with the distance, and each pass divides about as many elements. An element
+//! beside these is divided only at the sides that it shares with divided elements
+//! ([`partial_cuts`]), or into four if no such division fits. Because of the layer of neighbours no
 //! later pass divides such an element again, which would make its angles sharper. Surfaces that
 //! face each other node by node continue to do so.
 
@@ -56,7 +56,7 @@ fn too_many(pass: usize, passes: usize) -> Error {
     ))
 }
 
-/// Refuses what would divide the elements inside one disc into too many, before any is divided.
+/// Refuses a refinement that would make too many elements in one disc, before any is divided.
 fn check_size(mesh: &Mesh, around: &[LocalRefinement]) -> Result<()> {
     for refinement in around {
         let is_inside = |&element: &usize| {
@@ -115,8 +115,9 @@ fn divided(mesh: &Mesh, element: usize, sides: &HashSet<ElementSide>) -> usize {
         .fold(0, |bits, (k, _)| bits | 1 << k)
 }
 
-/// The divided sides where these elements are divided into four: their own, those opposite them on
-/// facing surfaces, and those of further elements that cannot be divided otherwise.
+/// All sides that are divided if the given elements are divided into four: sides of these elements,
+/// sides opposite them on facing surfaces, and sides of further elements that fit no other
+/// division.
 fn closed(mesh: &Mesh, elements: &[usize], contacts: &[Contact]) -> HashSet<ElementSide> {
     let facing = facing_nodes(mesh, contacts);
     let mut sides = HashSet::new();

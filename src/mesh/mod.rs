@@ -84,7 +84,7 @@ pub struct Mesh {
     pub element_labels: Vec<u64>,
     /// Integration of each body's elements; empty if all bodies use reduced integration.
     pub integration: Vec<Integration>,
-    /// What was left out when the mesh was read, for the warnings of a model.
+    /// Remarks on what was left out when the mesh was read, for the warnings of a model.
     pub notes: Vec<String>,
 }
 

@@ -1,10 +1,10 @@
-//! Loads with equal factors, to whose sum the structure responds, whatever their number.
+//! Groups of loads with equal factors: the structure responds to the sum of each group.
 
 use super::load_case::LoadCase;
 
-/// Groups the loads by their histories and by what they measure, each list ascending: the factors
-/// of the loads of one list are equal at every point of the load path. The leading load, whose
-/// force or displacement is reported, has a list of its own.
+/// Groups loads that have the same history and measure the same quantity, so that their factors are
+/// equal at every point of the load path. Each list is ascending. The leading load, whose force or
+/// displacement is reported, has a list of its own.
 pub(super) fn alike(loads: &[LoadCase], leading: Option<usize>) -> Vec<Vec<usize>> {
     let mut lists: Vec<Vec<usize>> = Vec::new();
     for (index, load) in loads.iter().enumerate() {

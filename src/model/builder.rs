@@ -17,8 +17,8 @@ use std::collections::BTreeMap;
 
 /// Builds a [`Model`] from arrays, without a scene file or a mesh file. Nodes and elements are
 /// numbered from 0 in the order in which they were given, and messages name them by these numbers.
-/// Entries of a scene's tables are given by the same types ([`crate::scene`]). A refused call
-/// leaves the builder unchanged.
+/// Contacts, loads and other entries have the types of a scene's entries ([`crate::scene`]). A
+/// refused call leaves the builder unchanged.
 ///
 /// ```
 /// use brinell::analysis::Analysis;

@@ -1,7 +1,8 @@
-//! What one leg of the program leaves to the next, in which other supports hold the model.
+//! State that one leg of the load program hands to the next, in which other supports hold the
+//! model.
 //!
-//! Displacements are total ones in every leg. At the load factor `a` at which a leg begins, with
-//! displacements `u_a`:
+//! In every leg, displacements are counted from the start of the program. If a leg begins at the
+//! load factor `a` with the displacements `u_a`, then
 //!
 //! ```text
 //! a support that begins         u(t) = u_a
@@ -10,14 +11,14 @@
 //! a support that ends           f(t) = f_a (c - t)/(c - a),   a <= t <= c
 //! ```
 //!
-//! with the support forces `f_a` at its end, and the load factor `c` at which they have been taken
-//! away. The displacements `u_a`, and the support forces, are load cases of their own.
+//! where `f_a` are the forces of the support when it ends, and `c` is the load factor at which they
+//! have fallen to zero. The displacements `u_a` and the support forces are load cases of their own.
 
 use crate::scene::{Load, Scene};
 use crate::space::Vector;
 use serde::{Deserialize, Serialize};
 
-/// What one leg of the program leaves to the next.
+/// State that one leg of the load program hands to the next.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(crate) struct Carried {
     /// Load factor at which the next leg begins.
@@ -31,21 +32,21 @@ pub(crate) struct Carried {
 /// Forces of supports that have ended.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(super) struct Released {
-    /// Load factors at which the supports ended, and at which nothing is left of the forces.
+    /// Load factors at which the supports ended and at which their forces have fallen to zero.
     pub(super) until: [f64; 2],
     /// Force on the control point of each node.
     pub(super) forces: Vec<(usize, Vector)>,
 }
 
 impl Carried {
-    /// Whether all data are those of a mesh with so many nodes.
+    /// Whether all displacements and forces belong to a mesh with `n_nodes` nodes.
     pub(super) fn is_of(&self, n_nodes: usize) -> bool {
         let forces = self.released.iter().flat_map(|released| &released.forces);
         let mut nodes = forces.map(|(node, _)| *node);
         self.displacements.len() == n_nodes && nodes.all(|node| node < n_nodes)
     }
 
-    /// Number of the load case of supports that hold nodes where they were.
+    /// Number of the load case of the displacements at which supports begin to hold nodes.
     pub(super) fn held_case(scene: &Scene) -> usize {
         scene.load.len()
     }
@@ -55,8 +56,9 @@ impl Carried {
         self.displacements[node]
     }
 
-    /// Loads of the scene whose nodes are on their way to the values of their histories, with the
-    /// number of the load case for the displacements from which they come.
+    /// Loads of the scene whose nodes still move from where the leg found them to the value of the
+    /// load's history. Each load comes with the number of the load case of the initial
+    /// displacements and the load factor of arrival.
     pub(super) fn on_their_way(&self, scene: &Scene) -> Vec<(usize, usize, f64)> {
         let is_on_its_way = |load: &Load| {
             let arrives = load.arrives().filter(|arrives| self.at < *arrives);
@@ -71,9 +73,10 @@ impl Carried {
             .collect()
     }
 
-    /// What a load of the scene prescribes, by the numbers of load cases: where its nodes came to
-    /// be, `before`, or a sum of shares of this and of the `value` at its factor 1. `None` if it is
-    /// the value alone, or if the load does not hold in this leg.
+    /// Displacement that a load of the scene prescribes at a node, as numbers of load cases with
+    /// their values: `before` alone if the load holds the node where it is, or shares of `before`
+    /// and of the load's `value` at factor 1 while the node is on its way. `None` if the load
+    /// prescribes the value alone, or does not hold in this leg.
     pub(super) fn taken_over(
         &self,
         scene: &Scene,

@@ -1,4 +1,4 @@
-//! Load cases of what an earlier leg of the program has left.
+//! Load cases of the displacements and support forces that an earlier leg of the program has left.
 
 use super::carried::Carried;
 use super::freedoms::Freedoms;
@@ -7,8 +7,8 @@ use crate::scene::{History, Scene};
 use crate::space::length;
 
 impl Carried {
-    /// Adds the load cases of what was carried over, and lets loads whose nodes come from elsewhere
-    /// begin with nothing.
+    /// Adds the load cases of the displacements and forces carried over. A load whose nodes are
+    /// still on their way to its value begins at zero.
     pub(super) fn add_cases(
         &self,
         scene: &Scene,

@@ -205,9 +205,10 @@ impl ContactBasis {
         out.into_iter().collect()
     }
 
-    /// Converts the sum that the displacement of a node along a direction is to control points. The
-    /// middle of an edge moves by `w q + sum w_e q_e`, so its own control point moves by the sum
-    /// less `w_e q_e` of the edge's ends, over `w`.
+    /// Converts terms whose sum is the displacement of a node along a direction to terms whose sum
+    /// is the displacement of its control point. The middle of an edge moves by
+    /// `w q + sum w_e q_e`, so its control point moves by the sum less `w_e q_e` of the edge's
+    /// ends, over `w`.
     pub(super) fn at_control_point(
         &self,
         node: usize,

@@ -56,8 +56,8 @@ pub(super) fn resolve(
     Ok(whole)
 }
 
-/// Displacements along axes that supports hold, or loads prescribe, in the leg of the program that
-/// begins at a load factor.
+/// Nodes and axes along which supports hold the displacement, or loads prescribe it, in the leg of
+/// the program that begins at the load factor `start`.
 fn held_in_leg(scene: &Scene, mesh: &Mesh, start: f64) -> Result<Vec<(usize, usize)>> {
     let mut out = Vec::new();
     let supports = Supports::resolve(scene, mesh)?.in_leg(scene, start);
@@ -127,8 +127,8 @@ fn of_entries(scene: &Scene, mesh: &Mesh, carried: Option<&Carried>) -> Result<V
     Ok(out)
 }
 
-/// Prescribed displacements whose nodes come from where an earlier leg of the program left them: a
-/// share of that place and a share of the prescribed value are added.
+/// Equations for prescribed displacements of nodes that start from where an earlier leg of the
+/// program left them: a share of that displacement plus a share of the prescribed one.
 fn on_their_way(scene: &Scene, mesh: &Mesh, carried: &Carried) -> Result<Vec<Following>> {
     let mut out = Vec::new();
     for (index, load) in scene.load.iter().enumerate() {
@@ -161,8 +161,8 @@ fn on_their_way(scene: &Scene, mesh: &Mesh, carried: &Carried) -> Result<Vec<Fol
 /// A list of the scene, and the number of an entry.
 type EntryNumber = (&'static str, usize);
 
-/// All equations with their terms, the one that follows first; of a prescribed difference the value
-/// too.
+/// All equations with their terms, the displacement that follows first, and with the value of a
+/// prescribed difference.
 fn all(scene: &Scene) -> impl Iterator<Item = (EntryNumber, Vec<EquationTerm>, Option<f64>)> {
     let equations = scene.equation.iter().enumerate();
     let equations =

@@ -86,7 +86,7 @@ impl FarBoundary<'_> {
                 .collect();
             let weights = [self.on_freedoms(loaded), self.on_freedoms(all)];
             // All rigid motions are fitted, or only the free ones if the nodes do not distinguish
-            // all.
+            // all motions.
             let fitted = weights.iter().find_map(|weights| {
                 fit(&values, weights).or_else(|| fit(&values[..of_part.len()], weights))
             });

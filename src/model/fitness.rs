@@ -35,8 +35,8 @@ fn integration(scene: &Scene, mesh: &Mesh) -> Vec<Integration> {
     }
 }
 
-/// Warns of elements that lock where bodies flow: elements of the mesh, or those that a local
-/// refinement of quadrilaterals leaves at its rim.
+/// Warns of elements that lock in bodies that may yield, whether the mesh has them from the start
+/// or a local refinement of quadrilaterals leaves them at its rim.
 pub(super) fn warn_of_locking(
     scene: &Scene,
     mesh: &Mesh,

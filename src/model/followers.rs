@@ -49,7 +49,7 @@ pub(super) struct Followers {
     of_ties: usize,
 }
 
-/// Other uses of nodes' axes besides supports and prescribed displacements.
+/// Uses of nodes' axes by other conditions than supports and prescribed displacements.
 pub(super) struct Others<'a> {
     /// Whether an axis belongs to a surface that is held plane.
     pub plane: &'a dyn Fn(Axis) -> bool,
@@ -187,7 +187,8 @@ impl Followers {
         Ok(())
     }
 
-    /// Passes the condition of a slave along a used axis on to the rows of its neighbours.
+    /// Passes the tie of a slave along an axis in other use on to the rows of the slave's
+    /// neighbours.
     fn hand_on(
         &mut self,
         freedoms: &Freedoms,

@@ -15,7 +15,7 @@ pub(super) struct Following {
     pub direction: usize,
     /// Nodes on the right-hand side, each with its vector `v`.
     pub terms: Vec<(usize, Vector)>,
-    /// The values that loads prescribe, which are added, with the numbers of the loads.
+    /// Prescribed values that are added to the sum, each with the number of its load.
     pub moved: Vec<(usize, f64)>,
     /// Entry of the scene from which the equation comes: the name of the list (`"equation"` or
     /// `"load"`) and the index of the entry in it, from 0.

@@ -18,8 +18,8 @@ fn are_aligned(a: Vector, b: Vector) -> bool {
 /// the third axis is the one out of the plane.
 ///
 /// # Errors
-/// The number of a held direction that is not at right angles to the normal; in the plane also of
-/// one that is neither at right angles to nor along the directions before it.
+/// Number of a held direction that is not at right angles to the normal, or that in the plane is
+/// neither parallel nor at right angles to the directions before it.
 pub(super) fn frame(
     dimension: usize,
     normal: Option<Vector>,

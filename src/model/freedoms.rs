@@ -58,7 +58,7 @@ pub struct Freedoms {
     pub prescribed: Vec<Prescribed>,
     /// Node and local direction of each free freedom, for messages.
     pub owners: Vec<(u32, u8)>,
-    /// Control points to whose displacements freedoms belong on quadratic faces in contact.
+    /// Control points of quadratic faces in contact, whose displacements are the freedoms there.
     pub basis: ContactBasis,
     /// Springs of soft contact, whose freedoms are the last of the free freedoms.
     pub springs: Vec<Spring>,
@@ -68,7 +68,7 @@ pub struct Freedoms {
     pub(super) followers: Vec<Vec<(u32, u8, f64)>>,
     /// Numbers of prescribed values that are added to the sum of each follower, and coefficients.
     pub(super) follower_values: Vec<Vec<(u32, f64)>>,
-    /// How many of the followers belong to ties; those of equations come after them.
+    /// Number of followers by ties; the followers by equations come after them.
     pub(super) n_followers_of_ties: usize,
 }
 
@@ -205,13 +205,12 @@ impl Freedoms {
         self.followers.len()
     }
 
-    /// Whether the displacement of a slot that is a sum follows others through a tie, not through
-    /// an equation.
+    /// Whether a follower, given by its number, follows by a tie rather than by an equation.
     pub(crate) fn is_of_tie(&self, tied: u32) -> bool {
         (tied as usize) < self.n_followers_of_ties
     }
 
-    /// Nodes, axes and coefficients whose sum a tied slot is.
+    /// Nodes, axes and coefficients of the sum that a tied slot equals.
     pub fn followed_axes(&self, tied: u32) -> &[(u32, u8, f64)] {
         &self.followers[tied as usize]
     }
@@ -239,6 +238,6 @@ impl Freedoms {
     }
 }
 
-/// Group of each node and local direction that belong to a surface held plane (load index) or to a
-/// rigid one (numbers beyond those of the loads).
+/// Group of each node and local direction on a surface held plane (numbered by its load) or on a
+/// rigid surface (numbered after all loads).
 pub(super) type Planes = BTreeMap<(usize, usize), usize>;

@@ -7,8 +7,8 @@ use crate::space::{Vector, direction, dot, in_words, length};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Two nodes that may touch, given by their indices, with normal and gap if these are known better
-/// than from the mesh.
+/// Two nodes that may touch, given by their indices. Normal and gap may be stated if they are known
+/// more accurately than from the mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct NodePair {
     /// Node of the first surface.
@@ -29,7 +29,7 @@ pub(crate) struct Given {
     pub(super) pairs: BTreeMap<usize, Vec<NodePair>>,
     /// Forces on the model itself (not on the whole of a symmetric one) at factor 1.
     pub(super) forces: BTreeMap<usize, Vec<(usize, Vector)>>,
-    /// What an earlier leg of the program has left.
+    /// State that an earlier leg of the program has left.
     pub(super) carried: Option<Carried>,
 }
 
@@ -61,7 +61,7 @@ pub(super) struct Partner {
     /// Place among the nodes of the first surface.
     pub(super) first: usize,
     pub(super) normal: Vector,
-    /// Gap of the pair; `None` for that of the contact, or else the geometric one.
+    /// Gap of the pair; `None` if the contact's own gap, or else the geometric one, applies.
     pub(super) gap: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! Gram matrix of the rows that hold rigid motions, and the motions that it leaves free.
+//! Gram matrix of the rows that hold rigid motions, and the motions that these rows leave free.
 
 use crate::classes::Classes;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -16,8 +16,8 @@ impl Gram {
         }
     }
 
-    /// Adds `row row'`. Entries of the row at the same place are added first, which reduces a
-    /// contact row with many masters to the motions of two bodies.
+    /// Adds the product `row row'`. Entries of `row` with the same index are summed first, which
+    /// reduces a contact row with many masters to the motions of two bodies.
     pub(super) fn add(&mut self, row: &[(usize, f64)]) {
         let mut summed: BTreeMap<usize, f64> = BTreeMap::new();
         for &(i, a) in row {

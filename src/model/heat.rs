@@ -21,7 +21,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-/// Some components of a free strain that have the same value at each node.
+/// Components of a free strain that share one value at each node.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FreeStrain {
     /// Range of the components that have this value.

@@ -3,8 +3,8 @@
 //! Rigid motions of all bodies together are tested against the supports and, bilaterally, the
 //! contact pairs. A motion that both leave free causes an error that names the body and the motion,
 //! unless no load does work on it: then one freedom is pinned, which affects only the free motion.
-//! So is a round body that a load turns no more than its flat facets explain; the pin then bears
-//! that little.
+//! A round body is pinned too if a load turns it no more than its flat facets explain; the pin then
+//! bears this small load.
 
 use super::far_boundary::{FarBoundary, StoppedMotion};
 use super::motions::{self, FREE, Forces, Mode, Motions};
@@ -55,16 +55,16 @@ impl FloatingBodies {
 pub struct Pin {
     /// Description of the motion in words.
     pub motion: String,
-    /// The load that does most work on the motion, and that work over the load's size, if a round
-    /// surface explains it.
+    /// Load that does most work on the motion, with its work over its size, which a round surface
+    /// explains; `None` if no load does work on the motion.
     pub driven: Option<(String, f64)>,
     /// Node of the pinned freedom.
     pub node: usize,
 }
 
-/// Work that counts as zero on a motion that moves no pair by more than [`FREE`] of its own
-/// displacement, relative to the sum of the sizes of its terms. The centre of a round surface is
-/// known no more accurately than that, and a load through it does about that much work.
+/// Work that counts as zero, relative to the sum of the sizes of its terms. A free motion moves
+/// pairs by up to [`FREE`] of its own displacement, so the centre of a round surface is known no
+/// more accurately, and a load through the centre does about that much work.
 const NO_WORK_FOUND: f64 = 10.0 * FREE;
 
 impl Pin {
@@ -227,8 +227,8 @@ fn pin(
     Ok(pinned)
 }
 
-/// The load that does most work on a mode, relative to its size, and that work over the size.
-/// `None` if it is round-off.
+/// Finds the load that does most work on a mode relative to the load's size, and returns this ratio
+/// too; `None` if all ratios are round-off.
 fn most_driving(motions: &Motions, mode: &Mode, forces: &Forces) -> Option<(usize, f64)> {
     let work = motions.work(mode, forces).into_iter();
     let shares = work.map(|(load, work)| {

@@ -18,7 +18,7 @@ const MOST: f64 = 180.0;
 /// equal; different images differ by `2 sin(pi/MOST)` or more.
 const SAME_MATRIX: f64 = 1e-3;
 
-/// One or several reflections after one another, as an orthogonal matrix, row by row.
+/// A reflection or a sequence of reflections, as an orthogonal matrix stored row by row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reflection([Vector; 3]);
 
@@ -59,8 +59,8 @@ impl Images {
         Images(out)
     }
 
-    /// Splits planes into those that make images of images, the first ones first, and planes
-    /// opposite to one of these: between two opposite planes a model repeats without end.
+    /// Splits planes, taken in order, into those that make images of images and those opposite to
+    /// one of these: between two opposite planes a model repeats without end.
     pub fn planes(of: impl Iterator<Item = Mirror>) -> (Vec<Mirror>, Vec<Mirror>) {
         let (mut out, mut opposite): (Vec<Mirror>, Vec<Mirror>) = (Vec::new(), Vec::new());
         for plane in of {

@@ -43,8 +43,8 @@ pub(super) fn resolve(
         .collect()
 }
 
-/// Number of the load by which results are reported: the first that varies, otherwise the first.
-/// Loads that act in all legs of the program come before others.
+/// Number of the load by which results are reported: the first load that varies, or the first of
+/// all if none varies. Loads that act in all legs of the program come before others.
 pub(super) fn leading(scene: &Scene, loads: &[LoadCase]) -> Option<usize> {
     let own = || loads.iter().enumerate();
     let varies = |load: &LoadCase| !matches!(load.history, History::Constant);
@@ -66,8 +66,8 @@ pub(super) fn renumber(mut loads: Vec<LoadCase>, freedoms: &Freedoms) -> Vec<Loa
     loads
 }
 
-/// Lets prescribed displacements of masters change the gaps of their pairs: by `n . sum_k w_k d_k`,
-/// with the normal `n` from the slave towards the masters `k`, which move by `d_k`.
+/// Adds to the gaps of pairs what prescribed displacements `d_k` of their masters `k` open:
+/// `n . sum_k w_k d_k`, with the normal `n` from the slave towards the masters.
 pub(super) fn open_by_moved_masters(
     loads: &mut [LoadCase],
     freedoms: &Freedoms,
@@ -196,8 +196,8 @@ impl LoadCase {
         };
     }
 
-    /// Takes the nodal forces of what acts on each point of a surface, with its largest size. The
-    /// direction is that of the same traction everywhere, if there is one, else of the resultant.
+    /// Takes over the nodal forces of a pressure or traction on a surface, with its largest size.
+    /// The direction is that of the traction if it is uniform, otherwise that of the resultant.
     fn press(&mut self, (nodal, largest): (NodeForces, f64), uniform: Option<Vector>) {
         self.nodal = nodal;
         match uniform {

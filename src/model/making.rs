@@ -1,4 +1,4 @@
-//! Making a model: of a scene, of a scene and a mesh, and for each leg of the program.
+//! Makes models from a scene, from a scene and a mesh, and for each leg of the load program.
 
 use super::carried::{Carried, Released};
 use super::given::Given;
@@ -60,7 +60,7 @@ impl Model {
         Ok(model)
     }
 
-    /// Load factor at which the leg of the program begins in which the model's supports hold.
+    /// Load factor at which the model's leg of the program begins: its supports hold in this leg.
     fn start_of_leg(&self) -> f64 {
         match &self.origin {
             Origin::Arrays(given) => given.carried.as_ref().map_or(0.0, |carried| carried.at),
@@ -68,14 +68,13 @@ impl Model {
         }
     }
 
-    /// Load factor at which the leg of the program ends in which the model's supports hold; `None`
-    /// if it is the last.
+    /// Load factor at which the model's leg of the program ends; `None` if it is the last leg.
     pub(crate) fn end_of_leg(&self) -> Option<f64> {
         let mut changes = self.scene.changes_of_support().into_iter();
         changes.find(|change| *change > self.start_of_leg())
     }
 
-    /// Number of the program's targets that are reached once the leg ends.
+    /// Number of the program's targets that are reached by the end of the leg.
     pub(crate) fn targets_up_to_end_of_leg(&self) -> usize {
         let targets = &self.scene.program.targets;
         let Some(end) = self.end_of_leg() else {
@@ -85,8 +84,8 @@ impl Model {
         factors.filter(|factor| *factor <= end).count()
     }
 
-    /// The model of the next leg, which begins at the load factor `at` from the given displacements
-    /// of all nodes, the external forces on them, and the factors of the loads.
+    /// Builds the model of the next leg, which begins at the load factor `at`, from the
+    /// displacements of all nodes, the external forces on them, and the factors of the loads.
     ///
     /// # Errors
     /// Errors of [`Model::new`], for the supports of the next leg.
@@ -127,7 +126,7 @@ impl Model {
         Ok(())
     }
 
-    /// Builds the model of a later leg; fails if contact nodes differ or pins are new.
+    /// Builds the model of a later leg; fails if it has other contact nodes or additional pins.
     fn of_leg(&self, given: Given, at: f64) -> Result<Model> {
         let made = resolve::model(&self.scene, self.mesh.clone(), Origin::Arrays(given));
         let mut next = made.map_err(|error| words::of_deck(&self.scene, error))?;
@@ -162,7 +161,8 @@ impl Model {
         }
     }
 
-    /// Forces on control points that are not those of loads, from the external forces on all nodes.
+    /// Subtracts the forces of loads from the external forces, and returns the rest on control
+    /// points.
     fn less_loads(&self, mut external: Vec<Vector>, factors: &[f64]) -> Vec<Vector> {
         self.freedoms.basis.share(&mut external);
         // The forces of free strains stand for stresses, and are not external.
@@ -175,9 +175,10 @@ impl Model {
         external
     }
 
-    /// The forces of supports, equations and prescribed displacements, if any of them ends at a
-    /// load factor. Those that go on bear the same forces in the next leg, in which these forces do
-    /// no work. All nodes are taken: the middle of an edge that is held acts on its ends, too.
+    /// Forces of supports, equations and prescribed displacements, if a support or load ends at the
+    /// load factor `at`. Constraints that go on bear their forces in the next leg, where these do
+    /// no work. All nodes are taken, because a held middle of an edge also acts on the ends of the
+    /// edge.
     fn ending_at(&self, at: f64, forces: &[Vector]) -> Option<Released> {
         let supports = self.scene.support.iter().map(Support::span);
         let spans = supports.chain(self.scene.load.iter().map(Load::span));

@@ -3,7 +3,7 @@
 use crate::space::{Vector, along, cross, dot, length};
 
 /// Sine of the angle up to which directions count as equal, and share of a facet's length up to
-/// which positions do.
+/// which positions count as equal.
 pub(super) const SAME: f64 = 1e-9;
 /// Fraction of a facet's length within which a pair counts as lying on a plane.
 pub(super) const ON_PLANE: f64 = 1e-6;

@@ -11,9 +11,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Singular values below this fraction of the largest belong to free motions.
 pub(super) const FREE: f64 = 1e-7;
-/// Fraction of the largest entry by which a block of the motions must be definite to have no free
-/// motion: well above the square of [`FREE`] and the round-off of a factorisation of some thousand
-/// rows.
+/// Fraction of the largest entry by which a block is shifted: a block that is still definite has no
+/// free motion. It lies well above the square of [`FREE`] and above the round-off of a
+/// factorisation of some thousand rows.
 const HELD: f64 = 1e-11;
 
 /// Rigid motions of groups; a group is a set of bodies that share nodes and move together.
@@ -146,7 +146,7 @@ impl<'a> Motions<'a> {
         let largest = gram.largest_diagonal().max(1.0);
         let mut free: Vec<Plain> = Vec::new();
         for block in gram.uncoupled(per) {
-            // Most blocks are held, which takes no more than a factorisation to find out.
+            // Most blocks are held, and a single factorisation is enough to show this.
             if !gram.is_definite(&block, HELD * largest) {
                 let (rows, vectors) = gram.null_vectors(&block, FREE * FREE * largest);
                 free.extend(plain(&rows, vectors, per));
@@ -156,7 +156,7 @@ impl<'a> Motions<'a> {
         free.into_iter().map(|motion| motion.mode).collect()
     }
 
-    /// Sum of the squares of all conditions that supports and pairs impose on the motions.
+    /// Gram matrix of all conditions that supports and pairs impose on the motions.
     fn gram(&self, freedoms: &Freedoms, pairs: &[Pair]) -> Gram {
         let per = self.per_group();
         let mut gram = Gram::new(per * self.names.len());
@@ -260,8 +260,8 @@ impl<'a> Motions<'a> {
         classes.firsts()
     }
 
-    /// Displacement of a node along `axis` in a mode, without shares of rigid motions up to
-    /// `round_off`.
+    /// Displacement of a node along `axis` in a mode, without the rigid motions whose shares in the
+    /// mode are at most `round_off`.
     pub(super) fn along(&self, mode: &Mode, node: usize, axis: Vector, round_off: f64) -> f64 {
         let group = self.group_of_node[node];
         let row = self.row(node, axis);

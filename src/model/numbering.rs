@@ -76,8 +76,8 @@ impl Freedoms {
         Ok((freedoms, followers))
     }
 
-    /// Holds a node along the directions of its supports, in axes of which the first is the contact
-    /// normal if there is one.
+    /// Holds a node along the directions of its supports. If the node has a contact normal, the
+    /// normal is the first of its axes.
     fn hold(
         &mut self,
         scene: &Scene,
@@ -127,7 +127,7 @@ impl Freedoms {
         Ok(())
     }
 
-    /// Holds a node where it is along the directions of supports that began within the program.
+    /// Holds a node at its carried displacement along supports that began within the program.
     fn hold_where_it_is(
         &mut self,
         scene: &Scene,
@@ -205,12 +205,12 @@ impl ContactNormals {
             }
         }
         // A node may be the slave of one contact and the master of another with the opposite
-        // normal: contact rows count on the slave's.
+        // normal: its first axis is its normal as a slave, on which contact rows rely.
         for pair in pairs {
             of_node[pair.slave] = Some(pair.normal);
         }
-        // Other masters do not need the normal as an axis. Where nothing holds them, such an axis
-        // keeps contact rows short.
+        // Masters that face no single node do not need the normal as an axis, but on a master
+        // without supports such an axis keeps contact rows short.
         let mut touches: Vec<bool> = of_node.iter().map(Option::is_some).collect();
         for &(node, normal) in master_normals {
             touches[node] = true;

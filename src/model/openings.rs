@@ -46,7 +46,7 @@ impl Opening {
     }
 }
 
-/// Finds the contacts of a surface whose gaps a load changes, and the openings.
+/// Finds the contacts whose gaps a load on a surface changes, each with its opening.
 pub(super) fn opened(
     load: &Load,
     (scene, contacts): (&Scene, &[ContactSurface]),

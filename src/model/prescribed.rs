@@ -10,8 +10,8 @@ use crate::mesh::Mesh;
 use crate::scene::{Direction, Load, Scene};
 use crate::space::{Vector, dot, unit};
 
-/// A displacement of the middle of an edge that is given while the ends of the edge move otherwise:
-/// the control point of the middle follows those of the ends.
+/// Middle of an edge whose displacement is given while the ends of the edge move otherwise: its
+/// control point follows the control points of the ends.
 pub(super) struct FollowingMiddle {
     pub(super) node: usize,
     /// Number of the local axis.
@@ -109,7 +109,7 @@ impl<'a> Moving<'a> {
 }
 
 /// Turns displacements prescribed at the middles of edges into those of their control points.
-/// Returns the middles for which these depend on ends that are free, or moved by another load.
+/// Returns the middles whose control points depend on ends that are free or moved by another load.
 /// `n_loads` is the number of loads of the scene.
 pub(super) fn give_to_control_points(
     freedoms: &mut Freedoms,
@@ -190,7 +190,7 @@ pub(super) fn apply_loads(
     let is_plane = |load: &Load| load.plane_force.is_some();
     let displaced = loads().filter(|(_, load)| !is_plane(load));
     for (index, load) in displaced.chain(loads().filter(|(_, load)| is_plane(load))) {
-        // Displacements on their way are equations.
+        // Displacements that start from where an earlier leg left the nodes are equations.
         let is_taken_over = |carried: &Carried| carried.taken_over(scene, index, [0.0; 2]);
         let comes = carried.and_then(is_taken_over).is_some();
         if comes || !load.span().holds_from(start) {

@@ -16,8 +16,9 @@ use std::path::Path;
 
 /// Makes or reads the mesh of a scene.
 ///
-/// # Errors If the mesh cannot be made, read, refined or extruded; the message begins with the
-/// place of the responsible key in the scene file, if it is known.
+/// # Errors
+/// The mesh cannot be made, read, refined or extruded; the message begins with the place of the
+/// responsible key in the scene file, if it is known.
 pub(super) fn build_mesh(scene: &Scene) -> Result<Mesh> {
     let folder = scene.file.as_deref().and_then(Path::parent);
     let made = mesh::generate::from_source(
@@ -162,8 +163,8 @@ fn completed(mut model: Model) -> Model {
     model
 }
 
-/// Load cases of the scene, of displacements carried over from an earlier leg, and of the strains
-/// that bodies bring along. Masters that loads move open or close their contacts.
+/// Load cases of the scene, of displacements carried over from an earlier leg, and of the initial
+/// strains of bodies. Masters that loads move open or close their contacts.
 fn load_cases(
     scene: &Scene,
     mesh: &Mesh,
@@ -210,7 +211,8 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
     let mut may_yield = Vec::new();
     for name in &mesh.bodies {
         if scene.rigid.contains_key(name) {
-            // Never strained, so any material will do; similar moduli give similar round-off.
+            // A rigid surface is never strained: any material will do, similar moduli keep
+            // round-off alike.
             materials.extend(materials.first().cloned());
             may_yield.push(false);
             continue;
@@ -235,8 +237,8 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
     Ok((materials, may_yield))
 }
 
-/// Moves tied nodes onto what they follow, unless that would damage the mesh: then they stay where
-/// they are, which the returned warning says.
+/// Moves nodes that follow others to where they follow without strain. If this would damage the
+/// mesh, they stay where they are, and a warning is returned.
 ///
 /// # Errors
 /// Ties and equations that form a circle.

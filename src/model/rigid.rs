@@ -89,8 +89,8 @@ impl RigidBodies {
         self.bodies.first().map(|body| body.nodes.start)
     }
 
-    /// Holds the nodes of each surface except along its push. Returns the nodes and local axes that
-    /// share a displacement, with the number of the surface.
+    /// Holds the nodes of each surface except along the directions in which it may move. Returns
+    /// the nodes and local axes that share a displacement, with the number of the surface.
     pub fn hold(&self, freedoms: &mut Freedoms) -> Vec<((usize, usize), usize)> {
         let mut shared = Vec::new();
         for (k, body) in self.bodies.iter().enumerate() {

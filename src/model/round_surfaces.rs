@@ -31,9 +31,9 @@ impl RoundSurfaces {
         }
     }
 
-    /// The largest work of a load on a mode, over the size of the load, that may come from facets
-    /// which are not exactly round: a load that is spread over them does not act exactly through
-    /// the centre. Zero if no round surface slides along itself in the mode.
+    /// Largest work of a load on a mode, over the size of the load, that facets may cause because
+    /// they are not exactly round: a load that is spread over them does not act exactly through the
+    /// centre. Zero if no round surface slides along itself in the mode.
     pub(super) fn work_of_facets(&self, motions: &Motions, mode: &Mode) -> f64 {
         let moved = motions.moved(mode);
         let slides = |surface: &&RoundSurface| {
@@ -60,8 +60,8 @@ impl RoundSurface {
             let (_, radius, _) = curve.spine(middle)?;
             let reach = points.iter().map(|x| length(difference(*x, middle)));
             let half = reach.fold(0.0, f64::max) / radius;
-            // A chord lies half of its half length squared below the arc, relative to the radius;
-            // what a parabola through a point in the middle leaves is of twice that order.
+            // A chord of half length `half`, in units of the radius, lies `half^2 / 2` below the
+            // arc; a parabola through the middle node leaves about the square of this.
             let order = if mesh.shapes[facet.element].is_quadratic() {
                 2
             } else {

@@ -134,16 +134,16 @@ impl ContactRows {
         [faced, contact[slave.0]]
     }
 
-    /// Freedoms on which no other row acts and on which this row acts with its whole force, with
-    /// the sign of their coefficients.
+    /// Freedoms on which no other row acts and on which this row acts with its whole force, each
+    /// with its coefficient, 1 or -1.
     pub fn own(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let entries = self.entries[row].iter().copied();
         entries.filter(|&(i, b)| b.abs() == 1.0 && self.rows_at[i] == 1)
     }
 
-    /// Moves the part of a load on the contact freedoms that rows can carry to `carried`, as
-    /// compressive forces of the rows. In a pair of nodes the remaining loads of both are equal; in
-    /// other pairs the slave has no load left. Open rows are left out.
+    /// Moves the part of a load that closed rows can carry from the contact freedoms to `carried`,
+    /// as compressive forces of the rows. If no two rows share a freedom, the loads that remain on
+    /// both nodes of a pair are equal; otherwise no load remains on the slaves.
     pub(crate) fn take_carried(&self, contact: &mut [f64], carried: &mut [f64], open: &[bool]) {
         if self.are_apart {
             let (first, second) = contact.split_at_mut(carried.len());
@@ -157,8 +157,8 @@ impl ContactRows {
             }
             return;
         }
-        // A slave may be the master of another row: a chain of bodies is at most as long as the
-        // rows.
+        // A slave may be the master of another row; such a chain of bodies has at most as many
+        // links as there are rows.
         for _ in 0..self.entries.len() {
             let mut changed = false;
             let closed = self
@@ -196,7 +196,7 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Vec<(usize, f64)> {
         let axes = freedoms.local(node);
         let along_normal = axes[0] == pair.normal;
         for (local, slot) in freedoms.of_node(node).iter().enumerate() {
-            // The axis that is the normal has the coefficient 1 to the last bit.
+            // An axis that equals the normal has exactly the coefficient 1.
             let share = match (along_normal, local) {
                 (true, 0) => 1.0,
                 (true, _) => continue,

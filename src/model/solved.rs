@@ -1,12 +1,12 @@
-//! Conditions on sums of displacements that hold in a leg of the program only, solved for one
-//! displacement each.
+//! Conditions on sums of displacements that hold only in one leg of the program, each solved for
+//! one displacement.
 //!
 //! ```text
 //!     sum_k c_k d_k = sum_l h_l v_l      d_k a displacement along an axis, h_l a factor of a load
 //! ```
 //!
-//! Which conditions hold together changes from leg to leg, and with it which displacement follows
-//! which others.
+//! The set of conditions that hold changes from leg to leg, and so does the choice of the
+//! displacements that follow others.
 
 use super::following::Following;
 use crate::error::{Error, Result};
@@ -19,12 +19,12 @@ const ROUND_OFF: f64 = 1e-12;
 /// A node and an axis.
 type NodeAxis = (usize, usize);
 
-/// A sum of displacements and the loads whose values it has.
+/// A sum of displacements that equals a sum of values of loads.
 #[derive(Clone)]
 struct SumRow {
     terms: BTreeMap<NodeAxis, f64>,
     moved: BTreeMap<usize, f64>,
-    /// Entry of the scene in which the condition stands.
+    /// Entry of the scene that states the condition.
     of: (&'static str, usize),
 }
 
@@ -52,7 +52,7 @@ impl SumRow {
         all.for_each(|value| *value *= factor);
     }
 
-    /// Takes a displacement out of the sum by a row in which its coefficient is 1.
+    /// Eliminates a displacement from the sum by a row in which its coefficient is 1.
     fn eliminate(&mut self, pivot: NodeAxis, by: &SumRow) {
         let Some(&factor) = self.terms.get(&pivot) else {
             return;
@@ -95,14 +95,15 @@ pub(super) fn solved(
     refused: impl Fn((&'static str, usize), &str) -> Error,
 ) -> Result<Vec<Following>> {
     let mut rows: Vec<SumRow> = conditions.into_iter().map(SumRow::of).collect();
-    // Conditions on a single displacement have no choice.
+    // Conditions with few displacements come first: a single displacement leaves no choice.
     rows.sort_by_key(|row| row.terms.len());
     let mut pivots: Vec<NodeAxis> = Vec::new();
     for k in 0..rows.len() {
         let is_free = |key: &NodeAxis| !taken.contains(key) && !pivots.contains(key);
         let free = rows[k].terms.iter().filter(|(key, _)| is_free(key));
         let largest = free.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        // What other conditions imply, or something else holds, is refused with the others.
+        // If no displacement is free, any is taken: the condition is refused later, with all
+        // others.
         let any = rows[k].terms.iter().next();
         let Some((&pivot, &c)) = largest.or(any) else {
             let why =

@@ -42,8 +42,8 @@ impl HeldDirection {
 pub(super) struct Moved(BTreeMap<usize, Vec<Vector>>);
 
 impl Moved {
-    /// Whether the displacement of a node along a direction is prescribed or follows others, and
-    /// not only nearly at right angles to it.
+    /// Whether the displacement of a node is prescribed or follows others along a direction;
+    /// directions nearly at right angles to it do not count.
     pub(super) fn towards(&self, node: usize, direction: Vector) -> bool {
         let mut moved = self.0.get(&node).into_iter().flatten();
         moved.any(|moved| dot(direction, *moved).abs() >= NEARLY_TANGENT)
@@ -152,7 +152,8 @@ impl Supports {
         Ok(())
     }
 
-    /// Whether a node is held along a direction, and not only nearly at right angles to it.
+    /// Whether a node is held along a direction; supports nearly at right angles to it do not
+    /// count.
     pub(super) fn hold_along(&self, node: usize, direction: Vector) -> bool {
         let mut held = self.of_node.get(&node).into_iter().flatten();
         held.any(|held| dot(direction, held.direction).abs() >= NEARLY_TANGENT)

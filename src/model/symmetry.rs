@@ -84,9 +84,9 @@ impl Mirror {
             .then_some(mirror)
     }
 
-    /// Whether a body ends on the plane and is held across it everywhere on it. Anything else that
-    /// acts there acts on the mirror image in the same way. But if a facet does not move along the
-    /// plane either, the body is clamped there, unless the scene declares a symmetry.
+    /// Whether a body ends on the plane and is held across it everywhere on it. Other conditions on
+    /// the plane act on the mirror image in the same way. A facet that does not move along the
+    /// plane either means that the body is clamped there, unless the scene declares a symmetry.
     fn bounds(&self, model: &Model, body: u32, near: f64) -> bool {
         let mesh = &model.mesh;
         let ours = |element: &usize| mesh.element_body[*element] == body;
@@ -203,8 +203,8 @@ impl Conditions {
         self.loaded[node] || slots.any(|slot| self.is_bound(*slot))
     }
 
-    /// Whether a node does not move in a direction. The direction must lie in the span of its held
-    /// axes, as where planes meet at an angle.
+    /// Whether a node does not move in a direction, which must lie in the span of the node's held
+    /// axes: several axes are held where planes meet at an angle.
     fn hold_node(model: &Model, node: usize, direction: Vector) -> bool {
         let slots = model.freedoms.of_node(node).iter();
         let axes = slots.zip(model.freedoms.local(node));
@@ -231,8 +231,8 @@ impl Conditions {
         })
     }
 
-    /// Whether the condition of a slot along an axis holds on the whole side: the side is tied
-    /// throughout, or held or kept plane across.
+    /// Whether the condition of a slot along an axis holds on the whole side: all nodes of the side
+    /// are tied, or the side is held or kept plane across.
     fn go_on(&self, model: &Model, side: &MirrorSide, slot: Slot, axis: Vector) -> bool {
         let is_tied = matches!(slot, Slot::Sum(_));
         let is_held = Self::is_held(model, slot);

@@ -78,8 +78,8 @@ pub(super) fn resolve(
     Ok(case)
 }
 
-/// Makes a case that of a body that expands under given changes of temperature: its free strain,
-/// and the forces that would strain the body so.
+/// Sets up a load case for given changes of temperature in a body: its free strain, and the nodal
+/// forces that would cause this strain.
 fn set_temperature(
     case: &mut LoadCase,
     (scene, mesh): (&Scene, &Mesh),

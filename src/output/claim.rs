@@ -24,7 +24,8 @@ pub struct Claim {
 }
 
 impl Claim {
-    /// Holds `dir`. Whatever would make writing the results fail fails here, before an hour's run.
+    /// Holds `dir`. Anything that would make writing the results fail is found here, before a long
+    /// run.
     ///
     /// # Errors
     /// `Input` if another run is writing to `dir`; otherwise the errors of [`super::write()`].

@@ -14,7 +14,7 @@ pub(crate) struct StatedErrors {
     pub states: Vec<(String, Vec<String>)>,
     /// The largest of each kind of error, before the kinds are added.
     pub kinds: Vec<(&'static str, Vec<String>)>,
-    /// How the part of the mesh was estimated.
+    /// Method by which the discretisation error was estimated.
     pub method: String,
     /// The largest errors of figures of bodies, contacts and patches, in words.
     pub parts: Option<String>,
@@ -64,7 +64,7 @@ impl StatedErrors {
             let largest = keys.iter().map(|Quantity { key, .. }| {
                 let relative = prefixes.iter().filter_map(|p| {
                     let quantity = find(p, key)?;
-                    // The scale is the one of the stated error.
+                    // Every kind of error is relative to the same size as the stated error.
                     let scale = quantity.error? / quantity.relative_error?;
                     Some(part(quantity)? / scale)
                 });

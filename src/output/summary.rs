@@ -140,7 +140,7 @@ impl Serialize for StateEntry {
     }
 }
 
-/// Returns the quantities of a record, as far as it has those of the table.
+/// Returns the quantities of the table that a record has.
 fn figures<R>(record: &R, field: impl Fn(&Quantity) -> Option<Field<R>>) -> Map<String, Value> {
     let entry = |quantity: &Quantity| {
         let value = (field(quantity)?.get)(record);

@@ -48,8 +48,8 @@ pub(crate) struct SweepPoint {
     pub folder: String,
     /// Text that represents everything that the results of the point depend on.
     pub identity: String,
-    /// Loads over yield stress, larger the further the material yields: the point with the largest
-    /// value is run first, so that its factor serves the others.
+    /// Largest load over yield stress. The point with the largest value yields furthest and is run
+    /// first, so that its factor serves the others.
     #[serde(skip)]
     pub demand: f64,
     /// Exit code of the point's run; `None` if it has not ended.

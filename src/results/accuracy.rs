@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Estimated errors of the figures of a run.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Accuracy {
-    /// How the discretisation error was estimated.
+    /// Method by which the discretisation error was estimated.
     pub method: EstimateMethod,
     /// The other meshes that were run for the estimate, finest first.
     pub companions: Vec<Companion>,
@@ -87,8 +87,8 @@ pub struct Companion {
     pub seconds: f64,
 }
 
-/// Figures of parts of a state that have errors of their own: what their paths contain, how these
-/// end, and the figures in words.
+/// Figures of parts of a state that have errors of their own: text within their paths, text at the
+/// end of their paths, and the figures in words.
 const PARTS: [(&str, &str, &str); 10] = [
     (".residual_depth_by_body.", "", "dents of bodies"),
     (".patches.", ".force", "forces of patches"),
@@ -111,7 +111,7 @@ const AT_PLACES: [(&str, &str, &str); 3] = [
 ];
 
 impl QuantityError {
-    /// In words, what the quantity is if it is one of a part of a state: of a body, a contact, a
+    /// Describes the quantity in words if it belongs to a part of a state: to a body, a contact, a
     /// patch, a set that the history follows, or a place.
     pub fn of_part(&self) -> Option<&'static str> {
         // Components end with their axis.

@@ -20,9 +20,9 @@ pub struct Quality {
     pub componentwise_error: Option<f64>,
     /// Out-of-balance force that round-off alone may cause, over the largest applied or contact
     /// force: `2 eps |K| |u|`, the largest of a row, with `u` free of rigid motions. Storing `u`
-    /// and summing up the forces of its elements costs as much, whatever solver found `u`. Forces
-    /// whose balance is no worse are as good as the mesh allows. If plastic strains remain, the
-    /// largest `u` of the run counts. None in results of versions that did not have it.
+    /// and summing the forces of its elements causes as much, whatever solver found `u`, so no
+    /// better balance is possible on this mesh. If plastic strains remain, the largest `u` of the
+    /// run counts. None in results of versions that did not have it.
     pub round_off: Option<f64>,
     /// Out-of-balance force of the stresses over the largest applied or contact force.
     #[serde(deserialize_with = "number")]

@@ -9,7 +9,7 @@ pub struct Ranks {
     /// Number of ranks.
     pub count: usize,
     /// Number of requests of the first rank to the others: to assemble, to factor, to solve for
-    /// each load and each state and to evaluate its stresses. There are none in between.
+    /// each load and each state and to evaluate its stresses. No other requests are made.
     pub requests: u64,
     /// Bytes that the first rank sent and received for these requests, without those of MUMPS.
     pub bytes: u64,

@@ -10,9 +10,9 @@
 //!     [ H'S P   H'S H  ] [ s ] = [ H' f - r     ]       r = t - T s
 //! ```
 //!
-//! A floating body that is stiff compared with its supports hardly deforms. Its rigid motions meet
-//! the soft stiffness of the supports alone, which the round-off of the body's own stiffness
-//! swamps. The rigid motions are known exactly (`R`, from the geometry), so they are unknowns in
+//! A floating body that is stiff compared with its supports hardly deforms. Only the soft stiffness
+//! of the supports resists its rigid motions, and this is lost in the round-off of the body's own
+//! stiffness. The rigid motions are known exactly (`R`, from the geometry), so they are unknowns in
 //! their own right:
 //!
 //! ```text

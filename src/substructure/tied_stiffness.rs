@@ -110,9 +110,9 @@ mod tests {
         moved
     }
 
-    /// Slaves that follow their masters, and hard slaves that lead, so that softer masters follow
-    /// all of them. Both equal the products of full matrices, whatever the number of threads, with
-    /// no more multiplications than two products of full matrices take.
+    /// Slaves follow their masters, or hard slaves lead and the softer masters follow all of them.
+    /// Both results equal the products of full matrices, whatever the number of threads, with no
+    /// more multiplications than two products of full matrices take.
     #[test]
     fn what_leaders_feel_is_the_sum_over_all_that_moves() {
         let sizes = [120, 50];

@@ -262,15 +262,17 @@ fn the_page_of_decks_beside_calculix() {
     };
     let mut page = format!(
         "# Decks beside CalculiX\n\n`BRINELL_DECKS=data/peers/decks.md cargo test --test all \
-         decks::table` writes this page{optimised}.\n\nDecks of [tests/decks](../../tests/decks), \
-         run by `ccx` 2.20 and by `brinell ccx`: the largest differences at the end, as shares of \
-         the largest value, of displacements,\nof stresses at nodes, and of the force of the first \
-         contact pair; seconds of the whole process. CalculiX carries stresses to nodes by factors \
-         of four\ndigits: 5e-5 is the same. Decks of parts (`programs/cae_blocks`, \
-         `p03` of Abaqus/CAE) CalculiX does not read: they are held to their flat twins and to \
-         exact answers\n(`decks::assemblies`, `decks::programs`).\n\n| what | deck | \
-         displacement | stress | contact force | seconds: brinell, ccx | why they differ |\n\
-         |---|---|---|---|---|---|---|\n"
+         decks::table` writes this page{optimised}.\n\nThe decks of \
+         [tests/decks](../../tests/decks) were run by `ccx` 2.20 and by `brinell ccx`. The \
+         table has the largest differences at the end of a run,\nfor displacements, stresses at \
+         nodes and the force of the first contact pair, each divided by the largest value, and \
+         the seconds of the whole process.\nCalculiX carries stresses to nodes by factors of \
+         four digits, so a difference of 5e-5 means equal stresses. CalculiX does not read \
+         decks of parts\n(`programs/cae_blocks`, `p03` of Abaqus/CAE): brinell's results for \
+         them are compared with those for equal decks without parts and with exact \
+         answers\n(`decks::assemblies`, `decks::programs`).\n\n| what | deck | displacement | \
+         stress | contact force | seconds: brinell, ccx | why they differ \
+         |\n|---|---|---|---|---|---|---|\n"
     );
     for row in &ROWS {
         writeln!(page, "{}", row.compared()).unwrap();

@@ -1,10 +1,12 @@
-//! Whole rollers on a block, as a mesher meshes them: the named surface is the whole circle, nothing
-//! but contact holds the roller, and a load that is spread over its outline does not pass exactly
-//! through its centre.
+//! Whole rollers on a block, as a mesher meshes them: the named surface is the whole circle,
+//! nothing but contact holds the roller, and a load that is spread over its outline does not pass
+//! exactly through its centre.
 
 use crate::support::msh::{Body, Disc, Msh};
 use crate::support::random::Random;
-use crate::support::{either, run_text_as_far_as_it_goes};
+use crate::support::{either, parse, run_text_as_far_as_it_goes, try_run};
+use brinell::ErrorKind;
+use brinell::linalg::Backend;
 use std::path::Path;
 
 const FORCE: f64 = 100.0;
@@ -59,7 +61,8 @@ fn scene(seed: u64, folder: &Path) -> (String, f64) {
         true => {
             let center = turned([0.0, radius]);
             format!(
-                "mesh.circles = [{{ on = \"roller outline\", center = {center:?}, radius = {radius} }}]"
+                "mesh.circles = [{{ on = \"roller outline\", center = {center:?}, \
+                 radius = {radius} }}]"
             )
         }
         false => String::new(),
@@ -94,9 +97,12 @@ program.targets = [{{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]
 #[test]
 fn a_whole_roller_is_held_by_the_block_alone() {
     let folder = tempfile::tempdir().unwrap();
+    let mut borne = 0;
     for seed in 1..=either(40, 1000) {
         let (text, half) = scene(seed, folder.path());
         let results = run_text_as_far_as_it_goes(&text);
+        let bears = |warning: &&String| warning.contains("which bears that");
+        borne += results.warnings.iter().filter(bears).count();
         let ending = results.ending();
         assert!(ending.kind().is_none(), "{seed}: {ending:?}\n{text}");
         let [pressed, off] = &results.states[..] else {
@@ -111,4 +117,58 @@ fn a_whole_roller_is_held_by_the_block_alone() {
         );
         assert!(off.contact_force.abs() < 1e-6 * FORCE, "{seed}\n{text}");
     }
+    assert!(borne > 0);
+}
+
+/// What turns a roller beyond the unevenness of its facets is refused: nothing would stop it.
+#[test]
+fn a_roller_that_its_load_turns_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut refused = 0;
+    for seed in 1..=20 {
+        let (text, half) = scene(seed, folder.path());
+        if !text.contains("mesh.circles") {
+            continue;
+        }
+        // Share: the moment of a traction that grows across the roller, over its resultant times
+        // the radius.
+        let turned = |share: f64| {
+            let force = text.find("force = [").unwrap();
+            let end = force + text[force..].find(']').unwrap();
+            let components = &text[force + "force = [".len()..end];
+            let [x, y] = [0, 1].map(|k| components.split(", ").nth(k).unwrap());
+            let [cx, cy] = [0, 1].map(|k| {
+                let center = text.split("center = [").nth(1).unwrap();
+                center.split([',', ']']).nth(k).unwrap().trim()
+            });
+            let radius = text.split("radius = ").nth(1).unwrap();
+            let radius = radius.split([' ', '}']).next().unwrap();
+            let part =
+                |own: &str, arm: &str| format!("\"{own} + {share} * {FORCE} * {arm} / {radius}\"");
+            let [tx, ty] = [
+                part(x, &format!("(({cy}) - y)")),
+                part(y, &format!("(x - ({cx}))")),
+            ];
+            format!("{}traction = [{tx}, {ty}{}", &text[..force], &text[end..])
+        };
+        let small = run_text_as_far_as_it_goes(&turned(1e-9));
+        assert!(
+            small.ending().kind().is_none(),
+            "{seed}: {:?}",
+            small.ending()
+        );
+        // Where the gap is measured along the block's normal, pairs beside the lowest point stop
+        // the rotation.
+        if !small
+            .warnings
+            .iter()
+            .any(|text| text.contains("rotate about"))
+        {
+            continue;
+        }
+        let error = try_run(&parse(&turned(half * half)), Backend::default()).err();
+        assert_eq!(error.map(|e| e.kind()), Some(ErrorKind::Unheld), "{seed}");
+        refused += 1;
+    }
+    assert!(refused > 2, "{refused}");
 }

@@ -21,15 +21,15 @@ const FLOPS_OF_CONTACT: f64 = 7e9;
 
 /// Seconds to start a run.
 const START: f64 = 1.5e-3;
-/// Seconds per freedom: to make mesh and model, to assemble, to write the files of a state; and per
-/// freedom and state, stresses of all elements included. From the timings of `brinell run SCENE
-/// --estimate none` for the paper's two scenes and finer meshes of them, up to 1.56 million
-/// freedoms (November 2026), at the speed of [`TYPICAL_FLOPS`].
+/// Seconds per freedom to make mesh and model, to assemble, and to write the files of a state; the
+/// last value is per state and includes the stresses of all elements. Taken from the timings of
+/// `brinell run SCENE --estimate none` for the paper's two scenes and finer meshes of them, up to
+/// 1.56 million freedoms (November 2026), at the speed of [`TYPICAL_FLOPS`].
 const MODEL: f64 = 6e-7;
 const ASSEMBLY: f64 = 5e-7;
 const FILES: f64 = 6e-7;
 const STATE: f64 = 1.0e-6;
-/// Seconds per freedom of the zone, to find first yield.
+/// Seconds that the search for first yield takes per freedom of the zone.
 const YIELD_LOAD: f64 = 2e-6;
 /// Seconds of ordering, factorisation and condensation, as far as they can be told without the
 /// symbolic factorisation: per freedom, per power 3/2 of the freedoms (the growth of nested

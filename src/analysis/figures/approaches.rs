@@ -13,7 +13,8 @@ use crate::space::{Vector, along, dot, length};
 /// Length of the mean normal below which a contact has no direction, like a pin in contact all
 /// round its hole.
 const NO_DIRECTION: f64 = 1e-6;
-/// Cosine of the angle beyond which a support acts along a contact: the nearer of two axes.
+/// Cosine of the angle to a contact's normal above which a direction counts as along the contact:
+/// the nearer of two axes.
 const ALONG: f64 = 0.7;
 
 /// The approach of the bodies of a contact as a function of displacements.

@@ -2,11 +2,12 @@
 //!
 //! Near the edge of a smooth contact the squared pressure is `(e^2 - s^2) (c0 + c1 s^2)`, with `s`
 //! the distance from the middle and `e` the distance of the edge. In Hertz's contact this is exact,
-//! with `c1 = 0`. The pressures of the last two pairs depend on where in its facet the contact ends
-//! (on Hertz's line contact they alone would put the edge off by -0.06 and 0.08 elements, those
-//! before by 0.01). Their total force does not, since equilibrium passes it on as a whole. For any
-//! `e` the constants follow by least squares from the pairs before the last two. The edge is the
-//! `e` for which the pressure over the last pairs has their force.
+//! with `c1 = 0`. The pressures of the last two pairs depend on where in its facet the contact
+//! ends: used alone on Hertz's line contact, they would put the edge off by -0.06 and 0.08
+//! elements, the pairs before them by 0.01. The total force of the last two does not, since
+//! equilibrium passes it on as a whole. For any `e` the constants follow by least squares from the
+//! pairs before the last two. The edge is the `e` for which the pressure over the last pairs has
+//! their force.
 //!
 //! Measured with 4 to 24 elements over the contact: off by 0.003 to 0.01 elements on Hertz's
 //! contact of a line and of a point, by 0.02 to 0.1 on the disc in a plate. A line through the
@@ -43,8 +44,8 @@ pub(super) struct Tail<'a> {
     pub points: &'a [EdgePoint],
     /// Distance of the first of the last pairs from the centre of the contact.
     pub from: f64,
-    /// Distance from the middle, and width of the surface, at the first and at the last of the last
-    /// pairs.
+    /// Distance from the middle, and width of the surface, at the first and at the last of these
+    /// last pairs.
     pub near: [(f64, f64); 2],
     /// Length of the surface that belongs to the first of the last pairs.
     pub length: f64,

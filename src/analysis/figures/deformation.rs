@@ -8,8 +8,8 @@
 //!
 //! Small strain theory leaves the second term out. Of a stretch `|H|` it leaves out the share
 //! `|H|/2`; to a rotation `|H|` it adds the spurious strain `|H|^2/2`. Between two nodes of an
-//! element `|H|` is at least the change of their difference divided by their distance. (G. A.
-//! Holzapfel, *Nonlinear Solid Mechanics* (2000), section 2.5.) The strain and the rotation that
+//! element `|H|` is at least the difference of their displacements divided by their distance. (G.
+//! A. Holzapfel, *Nonlinear Solid Mechanics* (2000), section 2.5.) The strain and the rotation that
 //! are stated are those of the `H` that fits the corners of an element best.
 
 use crate::mesh::Mesh;
@@ -117,8 +117,8 @@ impl Deformation {
     }
 }
 
-/// Largest component of the strain of an element, and its rotation: the parts of the gradient `H`
-/// with the least squares of `u - H x` at the corners, both measured from their means.
+/// Largest component of the strain of an element, and its rotation. Both are parts of the gradient
+/// `H` for which `u - H x` is least at the corners (least squares, both from their means).
 fn strain_and_rotation(mesh: &Mesh, element: usize, displacements: &[Vector]) -> [f64; 2] {
     let corners = &mesh.nodes(element)[..mesh.shapes[element].n_corners()];
     let share = 1.0 / corners.len() as f64;

@@ -14,8 +14,9 @@ const VANISHING: f64 = 1e-7;
 /// A force below this fraction of the run's largest is round-off in an unloaded contact.
 const ROUND_OFF: f64 = 1e-13;
 /// Patches whose forces differ by no more than this share belong to bodies in a row, which pass on
-/// the same force; the figures are those of the first such contact, on any mesh. Pressures add up
-/// to more than their resultant, a hundredth more over 14 degrees to both sides (`t/sin t`).
+/// the same force; the figures are then those of the first such contact, whatever the mesh. Exact
+/// equality is not required, since pressures on a curved patch add up to more than their resultant:
+/// by a hundredth over 14 degrees to both sides (`t/sin t`).
 const EQUAL: f64 = 0.01;
 
 /// Contact pressures and extents at the current state.
@@ -65,9 +66,9 @@ impl ContactFigures {
 }
 
 /// Pressure of each pair: its force divided by the integral of its node's shape function, which
-/// reproduces a uniform pressure exactly. With linear elements the pressure is of first order
-/// beside the axis of revolution, as the displacements there are, whatever the weights: all errors
-/// have one sign.
+/// reproduces a uniform pressure exactly. Beside the axis of revolution, pressures and
+/// displacements of linear elements are only of first order, whatever the weights: all errors have
+/// one sign.
 pub fn pressures(model: &Model, force: &[f64]) -> Vec<f64> {
     let pairs = model.pairs.iter();
     pairs.zip(force).map(|(pair, r)| r / pair.area).collect()
@@ -273,11 +274,11 @@ fn sum(forces: &[f64]) -> f64 {
     forces.iter().fold(0.0, |sum, force| sum + force)
 }
 
-/// The total load of the current state: the size of the leading load times its factor, for a
-/// force that of the whole model with its mirror images. If the leading load prescribes
-/// displacements, it is the force that moves its nodes. If it changes gaps, it is the force of
-/// the contacts with these gaps. If there is no leading load, it is the force of all contacts
-/// with interference.
+/// The total load of the current state. It is the size of the leading load times its factor,
+/// without sign (a force is given for the whole model with its mirror images). If the leading load
+/// prescribes displacements, it is the force that moves its nodes; if it changes gaps, the force of
+/// the contacts with these gaps. Without a leading load, it is the force of all contacts with
+/// interference, or of all contacts if there is no interference.
 pub(in crate::analysis) fn total_load_size(solver: &Solver) -> f64 {
     let model = solver.structure.model;
     let through = |acts: &dyn Fn(&Pair) -> bool| {

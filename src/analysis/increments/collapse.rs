@@ -42,9 +42,9 @@ use crate::substructure::Trailing;
 /// whole piece of the load path.
 pub(super) const LOST: f64 = SMALLEST_CUT;
 
-/// Most responses of the structure to a direction whose stiffness decides. Each costs one trailing
-/// solve. Each makes a mechanism stand out by a tenth more from motions with a tenth of the elastic
-/// stiffness.
+/// Most responses of the structure to a direction whose stiffness decides; each costs one trailing
+/// solve. Each response reduces motions with a tenth of the elastic stiffness by a tenth compared
+/// with a mechanism.
 const MOST_ANSWERS: usize = 8;
 
 /// Fraction of the driving force that must still be out of balance for the structure to flow away.

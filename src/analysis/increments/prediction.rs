@@ -28,9 +28,9 @@ pub(super) struct RatePrediction {
 
 impl RatePrediction {
     /// Predicts the rates: elastic ones (4.5), plus a plastic part if points yield. The plastic
-    /// part continues as in the last increment. After no increment it is that of the `tangent`, if
-    /// the tangent is asked for. An increment that `is_long`, over the share `most` of the piece,
-    /// stretches the plastic part.
+    /// part continues as in the last increment; if there was none, it is that of the `tangent`, if
+    /// asked for. For an increment that `is_long`, over the share `most` of the piece, the plastic
+    /// part is stretched.
     pub(super) fn of_rates(
         solver: &mut Solver,
         (end, most): (&LoadPoint, f64),

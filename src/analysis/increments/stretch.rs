@@ -1,11 +1,11 @@
 //! Stretches of an elastoplastic drive on which nothing yields: unloading and reloading.
 //!
-//! They are followed on the dense contact matrix, event by event. The path is the same as that of
-//! elastoplastic increments in which nothing yields. Initial loads are constant, so the first half
-//! of a trailing solve is linear in the load factor and done once for all events. Each event costs
-//! the second half of a solve and one check of all points of the zone. This check suffices: between
-//! two events strains are linear in the load factor, and von Mises' stress is a convex function of
-//! them. If both ends lie within the yield surface, so does all between.
+//! These stretches are followed on the dense contact matrix, event by event. The path is the same
+//! as that of elastoplastic increments in which nothing yields. Initial loads are constant, so the
+//! first half of a trailing solve is linear in the load factor and done once for all events. Each
+//! event costs the second half of a solve and one check of all points of the zone. This check
+//! suffices: between two events strains are linear in the load factor, and von Mises' stress is a
+//! convex function of the strains. If both ends lie within the yield surface, so does all between.
 
 use super::elastic::ElasticPath;
 use super::outgrown::accepted;

@@ -1,9 +1,9 @@
 //! The load at first yield (paper, chapter 3).
 //!
-//! Exact: along the piecewise linear path of contact events, the stress at any point is linear
-//! between two events, and von Mises' stress is convex. The first event with a ratio above 1
-//! brackets the yield load, which is then found to round-off. Secant: the paper's (3.14), with a
-//! bracket; each iterate is a contact problem solved from scratch.
+//! The exact method follows the piecewise linear path of contact events. Between two events the
+//! stress at any point is linear, and von Mises' stress is convex. The first event with a ratio
+//! above 1 brackets the yield load, which is then found to round-off. The secant method is the
+//! paper's (3.14) with a bracket; each iterate is a contact problem solved from scratch.
 
 use crate::analysis::stress::recovery::{RecoveredPeak, Recovery, Samples};
 use crate::analysis::structure::solver::Solver;

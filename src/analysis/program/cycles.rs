@@ -29,7 +29,7 @@ const LASTS: f64 = 2.0;
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(super) struct CycleRecord {
     rows: Vec<CycleRow>,
-    /// Outcome of the last cycle, once it was like the next one would be.
+    /// Outcome of the cycles, once the next cycle would be like the last one.
     outcome: Option<CycleOutcome>,
     /// Whether the states of the last cycle were taken.
     is_over: bool,
@@ -87,8 +87,8 @@ impl CycleRecord {
         self.outcome = self.judge(row, before, steady).or(self.outcome);
     }
 
-    /// Judges the last cycle: the outcome if it is like the next one would be, `None` otherwise.
-    /// `before` is the difference of the cycle before from its predecessor.
+    /// Judges the last cycle: the outcome if the next cycle would be like it, `None` otherwise.
+    /// `before` is the difference between the two cycles before it.
     fn judge(&self, row: CycleRow, before: Option<f64>, steady: f64) -> Option<CycleOutcome> {
         let first = self.rows[0].flow;
         if row.flow == 0.0 {

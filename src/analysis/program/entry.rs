@@ -99,13 +99,16 @@ impl Analysis {
     /// Finds the yield load only.
     ///
     /// ```
-    /// use brinell::{analysis::Analysis, linalg::Backend, model::Model, progress::Silent,
-    /// scene::Scene};
+    /// use brinell::analysis::Analysis;
+    /// use brinell::linalg::Backend;
+    /// use brinell::model::Model;
+    /// use brinell::scene::Scene;
     ///
     /// # fn main() -> brinell::Result<()> {
     /// let scene = Scene::load("data/scenes/thick_cylinder.toml")?;
-    /// let results = Analysis::new(Model::new(&scene)?, Backend::default())?.yield_load(&mut
-    /// Silent)?; let first = results.first_yield.expect("the tube yields");
+    /// let analysis = Analysis::new(Model::new(&scene)?, Backend::default())?;
+    /// let results = analysis.yield_load(&mut brinell::progress::Silent)?;
+    /// let first = results.first_yield.expect("the tube yields");
     /// // Lame, von Mises at the bore in plane strain: 103.750 for a yield stress of 240.
     /// assert!((first.load / 103.750 - 1.0).abs() < 1e-3);
     /// # Ok(())

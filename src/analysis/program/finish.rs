@@ -151,8 +151,8 @@ impl EndedRun<'_, '_> {
         }
     }
 
-    /// The message about a contact that a load opens by more than half the size of the model, and
-    /// that is closed all the same: its body has gone there, since nothing else holds it.
+    /// A message about a contact that a load opens by more than half the size of the model but that
+    /// is nevertheless closed: its body has moved there, since nothing else holds the body.
     fn closed_though_opened(&self) -> Option<String> {
         let model = self.run.model();
         let far = 0.5 * model.mesh.diagonal();

@@ -3,7 +3,7 @@
 use crate::model::Model;
 use crate::scene::Target;
 
-/// The targets of the program, and how many of them belong to legs up to the model's.
+/// The targets of the program, and the number of those in legs up to the leg of the model.
 pub(super) struct LegTargets<'m> {
     model: &'m Model,
     /// Names of the program's targets.

@@ -1,9 +1,9 @@
 //! A program in legs: other supports hold the model in each of them.
 //!
-//! Each leg has a model, and a factorisation, of its own. Displacements are total ones, so the next
-//! leg needs the plastic history, the displacements of nodes that are held from now on, and the
-//! forces of supports that have ended ([`Model::next_leg`]). It begins with the loads at which the
-//! last one ended, in the same equilibrium: that is checked.
+//! Each leg has a model and a factorisation of its own. Displacements are counted from the start of
+//! the program, so the next leg needs the plastic history, the displacements of nodes that are held
+//! from now on, and the forces of supports that have ended ([`Model::next_leg`]). It begins with
+//! the loads at which the last leg ended; it is checked that the equilibrium is the same.
 
 use super::assembled::Analysis;
 use super::finish;
@@ -24,8 +24,9 @@ use crate::results::{Counts, Results};
 use crate::space::{Vector, along, length};
 
 /// Largest difference between the displacements at the end of a leg and at the beginning of the
-/// next, relative to the largest displacement. Equilibrium is met to `analysis.tolerance`, 1e-10,
-/// of the forces; a condition of 1e10 turns round-off into as much.
+/// next, relative to the largest displacement. Both equilibria are accurate to
+/// `analysis.tolerance`, 1e-10 of the forces; at a condition number of 1e10 round-off is as large
+/// as this bound.
 const SAME_STATE: f64 = 1e-6;
 
 /// What a run hands over to the run of the next leg.
@@ -44,7 +45,7 @@ struct HandedOver {
 enum Leg {
     /// The program is over.
     Last(Box<Results>),
-    /// Another leg follows: its model, and what it begins with.
+    /// Another leg follows: its model, and the data with which it begins.
     Before(Box<(Model, HandedOver)>),
 }
 
@@ -176,7 +177,7 @@ fn next_model(solver: &mut Solver, at: f64) -> Result<(Model, Vec<Vector>)> {
     Ok((next, displacements))
 }
 
-/// A warning that dents count the supports of the leg as at rest.
+/// A warning that dents are found with the supports of the leg at rest.
 fn note_on_dents(solver: &Solver) -> Option<String> {
     let model = solver.structure.model;
     let begun = model.scene.support.iter().any(|s| s.since.is_some());

@@ -22,9 +22,8 @@ const STRAIGHT: f64 = 1e-3;
 /// Number of times that a quarter of the way may be halved.
 const HALVINGS: usize = 3;
 
-/// Figures at a point: the share of the way that has been covered, maximum pressure, half width,
-/// and the uncertainty of the half width if its reading (a patch in space) varies more than a line
-/// bends.
+/// Figures at a point of the path: share of the way covered, maximum pressure, half width, and the
+/// error of reading the half width in space (0 in the plane), which may exceed a bend of the path.
 type PathFigures = [f64; 4];
 
 impl PathSampler {

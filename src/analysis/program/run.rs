@@ -124,9 +124,8 @@ impl<'m, 'o> Run<'m, 'o> {
         Ok(())
     }
 
-    /// Changes the zone in the middle of a drive. The state is brought into equilibrium again,
-    /// within the tolerance, and this may be all that was missing: returns whether the monitored
-    /// quantity vanished.
+    /// Changes the zone in the middle of a drive and brings the state into equilibrium again,
+    /// within the tolerance. Returns whether this alone made the monitored quantity vanish.
     pub(super) fn change_zone(&mut self, choice: Choice) -> Result<bool> {
         let measure = |run: &mut Self| match &run.monitor {
             Some(monitor) => monitor(&mut run.solver).map(Some),

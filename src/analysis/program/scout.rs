@@ -29,10 +29,10 @@ const COARSER: f64 = 2.0;
 /// factorisation.
 const LEAST: f64 = 1.4;
 
-/// The stress ratios from a coarser mesh. `None` if the zone is known without them; if there is no
-/// coarser mesh, or none on which the program begins; and if no element is predicted to yield: for
-/// a load that a target searches for, only first yield is known, and elements that are coarse for
-/// the contact miss the largest stress.
+/// The stress ratios from a coarser mesh. `None` if the zone is known without them, if there is no
+/// coarser mesh on which the program begins, or if no element is predicted to yield. The last may
+/// occur if a target searches for its load: only first yield is then known, and elements that are
+/// too coarse for the contact miss the largest stress.
 pub(super) fn expect(analysis: &Analysis, observer: &mut dyn Observer) -> Option<Expected> {
     let since = Instant::now();
     let model = &analysis.model;

@@ -207,7 +207,7 @@ impl Run<'_, '_> {
     }
 }
 
-/// Whether the reported load, and whether the approach, are given by the load factor alone:
+/// Whether the reported load follows from the load factor alone, and whether the approach does:
 /// without the yield load and without the response of the bodies.
 fn given_by_factor(model: &Model) -> [bool; 2] {
     let is_known = model.scene.program.unit != Unit::Yield;

@@ -69,9 +69,9 @@ impl ZoneFit {
         Ok((!is_enough).then(|| zone_choice::joined(model, [&predicted, &self.choice])))
     }
 
-    /// The zone that follows the load: as long as the load is far below the program's largest load,
-    /// the zone is small. `None` up to the load factor `until` for which the zone was chosen, which
-    /// is moved on.
+    /// The zone that follows the load: it stays small as long as the load is far below the
+    /// program's largest load. `None` if the load factor is below `until`, for which the zone was
+    /// chosen; otherwise `until` is raised.
     pub(super) fn for_load(&self, solver: &Solver, until: &mut f64) -> Option<Choice> {
         let (reached, before) = (solver.at.alpha.abs(), *until);
         let spread = self.spread.as_ref().filter(|_| reached >= before)?;

@@ -1,11 +1,11 @@
-//! What a field that is known at the integration points of an element comes to at its corners.
+//! Values at the corners of an element, from values at its integration points.
 
 use crate::shape::{Rule, Shape};
 use nalgebra::{Matrix3, Vector3};
 
-/// The largest corner value of the linear law that fits the values at the points of a rule best
-/// (least squares in the coordinates of the reference element); the largest value where the points
-/// show no slope.
+/// The largest corner value of the linear function that fits the values at the points of a rule
+/// best (least squares in the coordinates of the reference element). If the points determine no
+/// slope, or the value at a point is larger, the largest value at a point.
 pub(super) fn largest_at_corners(shape: Shape, rule: &Rule, values: &[f64]) -> f64 {
     let reference = shape.reference();
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -13,7 +13,7 @@ pub(super) fn largest_at_corners(shape: Shape, rule: &Rule, values: &[f64]) -> f
     let places = || rule.iter().map(|(place, _)| Vector3::from(*place));
     let middle: Vector3<f64> = places().sum::<Vector3<f64>>() * share;
     let mean = values.iter().sum::<f64>() * share;
-    // Directions that the element does not have get a one.
+    // Coordinates that the element does not have get a one on the diagonal.
     let mut moments = Matrix3::zeros();
     (reference.dimension..3).for_each(|d| moments[(d, d)] = 1.0);
     let mut slopes = Vector3::zeros();
@@ -22,7 +22,7 @@ pub(super) fn largest_at_corners(shape: Shape, rule: &Rule, values: &[f64]) -> f
         moments += off * off.transpose();
         slopes += off * (value - mean);
     }
-    // Points of a rule lie as far apart as the element is large: no near singular cases.
+    // Points of a rule lie as far apart as the element is large, so no case is nearly singular.
     let Some(inverse) = moments.try_inverse() else {
         return largest;
     };
@@ -36,7 +36,7 @@ pub(super) fn largest_at_corners(shape: Shape, rule: &Rule, values: &[f64]) -> f
 mod tests {
     use super::*;
 
-    /// A linear field is met at the corners of every shape that has more points than one.
+    /// A linear field is reproduced at the corners of every shape with more than one point.
     #[test]
     fn a_linear_field_is_met_exactly() {
         let field = |x: &[f64; 3]| 0.3 + 0.7 * x[0] - 0.4 * x[1] + 0.2 * x[2];
@@ -55,7 +55,7 @@ mod tests {
         }
     }
 
-    /// A field that peaks inside is not made larger than its largest value by much less.
+    /// The result is never below the largest value at a point, and an even field is kept.
     #[test]
     fn a_peak_inside_keeps_its_value() {
         let values = [1.0, 0.0, 1.0, 0.0];

@@ -2,11 +2,11 @@
 //! nodes.
 //!
 //! The strain of a linear triangle is constant. It is of first order at best, at the centroid, and
-//! its error depends on how the neighbours lie, which a fit over such strains does not remove.
-//! Instead, a quadratic polynomial is fitted by least squares to the displacements of all
-//! surrounding nodes. Its gradient is exact for a quadratic field on any mesh, and of second order
-//! otherwise. Yield loads are of second order too, on meshes cut in a pattern and on irregular
-//! ones.
+//! its error depends on the arrangement of the neighbours; a fit over such strains does not remove
+//! this error. Instead, a quadratic polynomial is fitted by least squares to the displacements of
+//! all surrounding nodes. Its gradient is exact for a quadratic field on any mesh, and of second
+//! order otherwise. Yield loads are of second order too, on meshes cut in a pattern and on
+//! irregular ones.
 //!
 //! # Source
 //! Z. Zhang, A. Naga, A new finite element gradient recovery method: superconvergence property,
@@ -22,8 +22,8 @@ use std::collections::BTreeMap;
 
 /// Least pivot of the scaled normal equations with which a fit counts as determined.
 const LEAST_PIVOT: f64 = 1e-2;
-/// Most layers of elements around a triangle whose nodes are used. A layer is added as long as the
-/// nodes do not determine a quadratic polynomial.
+/// Largest number of layers of elements around a triangle from which nodes are taken. A layer is
+/// added as long as the nodes do not determine a quadratic polynomial.
 const MOST_LAYERS: usize = 3;
 /// Number of triangles that a thread takes at a time.
 const GRAIN: usize = 64;

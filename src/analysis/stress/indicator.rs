@@ -7,8 +7,7 @@
 //! energy norm estimates the error of `sigma_h`:
 //!
 //! ```text
-//!     eta_e^2 = integral over e of (sigma* - sigma_h) : C (sigma* - sigma_h),     C the elastic
-//! compliance
+//!     eta_e^2 = integral over e of (sigma* - sigma_h) : C (sigma* - sigma_h),   C: compliance
 //!     eta^2   = sum eta_e^2 / (sum of integral sigma_h : C sigma_h + sum eta_e^2)
 //! ```
 //!

@@ -11,7 +11,7 @@
 pub const SPACINGS: [f64; 4] = [1.0, 1.0 / 4.0, 1.0 / 16.0, 1.0 / 256.0];
 /// Most stencils of one spacing that may follow one another uphill.
 const MOST_MOVES: usize = 50;
-/// A position is on the edge of its stencil if it is this near to it, in spacings.
+/// Distance from the edge of a stencil, in spacings, below which a position counts as on it.
 const ON_EDGE: f64 = 1e-9;
 
 /// The highest point found on `[-1, 1]^D`.

@@ -44,10 +44,10 @@ const CANDIDATE: f64 = 0.93;
 const FAR_BELOW: f64 = 0.85;
 /// Relative difference below which stresses count as equal.
 const TIE: f64 = 1e-9;
-/// Bound on how sharply the stress is curved: next to the highest point found at a spacing, the
-/// stress exceeds the value found by at most this share times the square of the spacing. After a
-/// search at that spacing at most this share times the fourth power is missed. The search ends when
-/// that is no more than `gamma`: first yield is an event like changes of contact.
+/// Bound on the curvature of the stress. Near the highest point found at a spacing, the stress
+/// exceeds the value found by at most this share times the square of the spacing; a search at that
+/// spacing misses at most this share times the fourth power. The search ends when that is no more
+/// than `gamma`, since first yield is an event like changes of contact.
 const CURVATURE: f64 = 0.1;
 /// Largest amount that a search at a spacing misses, as a fraction of the stress.
 fn left_after(spacing: f64) -> f64 {

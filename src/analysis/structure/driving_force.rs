@@ -14,10 +14,10 @@
 //! If a rigid surface moves, the force that drives it balances the forces of its pairs:
 //! `R = -sum r_j n_j . d` with the unit direction `d` of its displacement.
 //!
-//! Load `k`, or set of loads that change alike, has the factor `h_k`, the prescribed displacements
-//! `u_k`, the forces `f_k` on prescribed freedoms and the load vector `P_k` on free ones
-//! ([`crate::assembly::System::loads`]). `delta - g` is the approach of each pair. `J` and `J_p`
-//! are the initial loads of the plastic strains on free and on prescribed freedoms.
+//! Load `k`, which may stand for loads that change alike, has the factor `h_k`, the prescribed
+//! displacements `u_k`, the forces `f_k` on prescribed freedoms and the load vector `P_k` on free
+//! ones ([`crate::assembly::System::loads`]). The approach of each pair is `delta - g`. The initial
+//! loads of the plastic strains are `J` on free freedoms and `J_p` on prescribed ones.
 
 use super::cost::Cost;
 use super::equilibrium::EliminatedLoad;

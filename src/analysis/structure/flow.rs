@@ -20,12 +20,12 @@ const AT_STEP: f64 = 1e-3;
 /// leg on which [`STEP`] was found: from once to ten times the load at first yield.
 const MODERATE: f64 = 3.0;
 /// Root of the load since flow began, divided by the root of the preceding elastic range, at which
-/// the contact of a ball is fully plastic, taken at `E* a/(Y R) = 30`. That is 2.5 at first yield,
-/// and the mean pressure grows from 1.1 Y to nearly 3 Y: some 400 times the load (after Johnson,
-/// *Contact Mechanics*, 1985, chapter 6).
+/// the contact of a ball is fully plastic. This is taken to be at `E* a/(Y R) = 30`, which is 2.5
+/// at first yield; the mean pressure grows from 1.1 Y to nearly 3 Y, so the load is some 400 times
+/// as large (after Johnson, *Contact Mechanics*, 1985, chapter 6).
 const DEEP: f64 = 20.0;
-/// Ratio of the load to the load at first yield beyond which the leg alone counts: by the same
-/// figures a contact is then so wide, `a/R = 1500 Y/E*`, that strains are not small in any metal.
+/// Ratio of the load to the load at first yield beyond which only the leg counts. By the figures
+/// for [`DEEP`], a contact is then so wide, `a/R = 1500 Y/E*`, that strains are small in no metal.
 const FAR: f64 = 1e6;
 
 /// Load point at which flow began, and the loads before it.

@@ -52,7 +52,7 @@ impl From<ZoneOf<3, 6, 27, 20>> for Zone {
     }
 }
 
-/// Evaluates one expression for the zone of whichever dimension and integration rule.
+/// Evaluates one expression for the zone, whatever its dimension and integration rule.
 macro_rules! of_zone {
     ($self:expr, $zone:ident => $body:expr) => {
         match $self {

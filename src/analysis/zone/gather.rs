@@ -32,8 +32,8 @@ impl Places {
 }
 
 /// Nodal values in the order `[ zone | contact | prescribed | 0 ]`. Every freedom of an element has
-/// a place in this vector, fixed ones the zero at the end, so that loops over elements need no
-/// branches.
+/// a place in this vector (the zero at the end if the freedom is fixed), so that loops over
+/// elements need no branches.
 #[derive(Clone)]
 pub struct Nodal {
     values: Vec<f64>,

@@ -39,8 +39,8 @@ impl From<&EndState> for PointHistory {
 }
 
 impl PointHistory {
-    /// Returns the plastic state of the given elements, whose points the history is of (element by
-    /// element). Elements without plastic strain are left out.
+    /// Returns the plastic state of the given elements. The history must be that of their points,
+    /// element by element. Elements without plastic strain are left out.
     pub fn end_state(&self, elements: &[usize]) -> EndState {
         let mut out = EndState::default();
         let stride = self.points.len() / elements.len().max(1);

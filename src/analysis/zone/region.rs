@@ -16,7 +16,7 @@ pub(in crate::analysis) enum Reach {
 impl Reach {
     /// Multiple of the contact surface's extent in a plane model. Measured on the cylinder scene
     /// loaded to 1.5 b*: a zone of 2.0 is too small, and the factorisation takes no more operations
-    /// with 5 than with 1.2.
+    /// with 5.0 than with 1.2.
     fn in_plane(self) -> f64 {
         match self {
             Reach::OfFirstYield => 1.2,
@@ -25,14 +25,14 @@ impl Reach {
     }
 }
 
-/// Distance that a solid model's region reaches from the centre of the contact surface, as a
-/// multiple of half the surface's smaller width and for either reach. It leaves room for first
-/// yield, which lies 0.79 half widths deep under a line contact and 0.48 under a point (K. Johnson,
-/// Contact Mechanics, 1985, sections 4.2 and 3.4).
+/// Distance that a solid model's region reaches from the centre of the contact surface, for either
+/// reach, as a multiple of half the surface's smaller width. It leaves room for first yield, which
+/// lies 0.79 half widths deep under a line contact and 0.48 under a point (K. Johnson, Contact
+/// Mechanics, 1985, sections 4.2 and 3.4).
 ///
-/// The region need not hold the zone of the program's largest loads, which is known after first
-/// yield and factored then. The factor of a larger zone costs no less, and each plastic iteration
-/// goes through the whole zone.
+/// The region need not hold the zone of the program's largest loads: this zone is known after first
+/// yield and is factored then. A larger region would not make its factor cheaper, and each plastic
+/// iteration would go through the whole zone.
 const IN_SOLID: f64 = 1.2;
 
 /// The points within a distance of a box.

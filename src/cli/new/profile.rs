@@ -19,7 +19,7 @@ const GROWTH: f64 = 1.15;
 /// which is at the end.
 const ALONG: usize = 16;
 const FIRST_OVER_LAST: f64 = 8.0;
-/// Factor of half width over half length by which the drop at the end is reduced.
+/// Factor of half width over half length in the share by which the drop at the end is reduced.
 ///
 /// # Source
 /// P. M. Johns and R. Gohar, *Roller bearings under radial and eccentric loads*, Tribology
@@ -54,8 +54,8 @@ pub(super) struct Roller<'m> {
 
 impl Roller<'_> {
     /// Returns the factor of the logarithm in the drop of the profile. A load `q` per length on a
-    /// narrow strip of length `l` presses a half space down by `q/(pi E*) ln(l^2/4 - x^2)` and a
-    /// constant, and a roller that lacks as much towards its ends presses evenly:
+    /// narrow strip of length `l` presses a half space down by `q/(pi E*) ln(l^2/4 - x^2)` plus a
+    /// constant. A roller presses evenly if its profile drops by as much towards its ends:
     /// `q/(pi E*) ln(1/(1 - (2 x/l)^2))`, for both bodies together.
     ///
     /// # Source

@@ -4,8 +4,8 @@ use crate::output::sweep::SweepPoint;
 use crate::scene::{Load, LoadAction, NodeAction, Scene};
 use crate::space::length;
 
-/// Returns the largest number of a load over the least yield stress; 0 if either is not known. Only
-/// the order of the runs depends on this value.
+/// Returns the largest size of a load (force, pressure or displacement) over the least yield
+/// stress; 0 if either is not known. Only the order of the runs depends on this value.
 pub(super) fn of(scene: &Scene) -> f64 {
     let bodies = scene.bodies.values();
     let yields = bodies.filter_map(|body| {

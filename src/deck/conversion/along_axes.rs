@@ -1,4 +1,4 @@
-//! Displacements along axes of a `*TRANSFORM` that a deck prescribes, or lets follow others.
+//! Displacements along axes of a `*TRANSFORM` that a deck prescribes or makes follow others.
 
 use super::super::constraints::LocalAxes;
 use super::super::history::{KeyHistory, Map};
@@ -12,8 +12,8 @@ use crate::space::{Vector, along};
 /// Largest component of a unit vector that counts as round-off, after the sums of an elimination.
 const ROUND_OFF: f64 = 1e-12;
 
-/// What the displacement of a node along one of its axes is: a sum of other displacements, and a
-/// value over time.
+/// Displacement of a node along one of its axes, as a sum of other displacements plus a value over
+/// time.
 pub(super) struct AlongAxis {
     pub(super) axis: Vector,
     pub(super) of: FreedomCoefficients,
@@ -21,22 +21,22 @@ pub(super) struct AlongAxis {
     pub(super) place: LinePlace,
 }
 
-/// The condition `v . u = sum_k b_k d_k` on a node's displacement `u`, with what it is along its
-/// axes, `d_k`.
+/// The condition `v . u = sum_k b_k d_k` on a node's displacement `u`, with the known displacements
+/// `d_k` along axes of the node.
 #[derive(Clone)]
 struct KnownAlong {
     direction: Vector,
     shares: Vec<f64>,
 }
 
-/// What the displacement of a node is along some of its own axes.
+/// Known displacements of a node along some of its own axes.
 pub(super) struct NodeAlongAxes {
     pub(super) node: u32,
     pub(super) known: Vec<AlongAxis>,
 }
 
 impl NodeAlongAxes {
-    /// What is prescribed along the axes of a node, which is taken from the map.
+    /// Takes the displacements prescribed along the axes of a node from the map.
     pub(super) fn taken(node: u32, axes: &LocalAxes, boundary: &mut Map) -> Self {
         let known = (0..3u8).filter_map(|axis| {
             let entry = boundary.remove(&(node, axis))?;
@@ -51,8 +51,8 @@ impl NodeAlongAxes {
         NodeAlongAxes { node, known }
     }
 
-    /// Prescribes the displacement by Gaussian elimination: a component along x, y or z is either
-    /// known then, or follows others.
+    /// Prescribes the displacement by Gaussian elimination, after which each component along x, y
+    /// or z is either known or follows others.
     pub(super) fn prescribe(&self, draft: &mut Draft, axes: &LocalAxes, boundary: &mut Map) {
         let (node, known) = (self.node, &self.known);
         for (row, pivot, place) in eliminated(known) {

@@ -37,8 +37,8 @@ pub(super) struct DeckConditions<'c, 'd> {
 }
 
 impl<'c, 'd> DeckConditions<'c, 'd> {
-    /// Adds the supports, forces, pressures and equations of a deck to a draft. Returns what the
-    /// displacements and forces of nodes without elements are, by node number.
+    /// Adds the supports, forces, pressures and equations of a deck to a draft. Returns the
+    /// displacements and forces of nodes without elements as sums, by node number.
     pub(super) fn convert(draft: &'c mut Draft<'d>) -> Result<BTreeMap<u64, LooseNode>> {
         let deck = draft.deck;
         let GivenDisplacements { whole, in_steps } = GivenDisplacements::of(deck)?;

@@ -21,7 +21,7 @@ pub(super) const GLOBAL: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 
 /// Parts of a scene, and the sets to which they refer.
 pub(super) struct Draft<'d> {
     pub(super) deck: &'d Deck,
-    /// What becomes of the lines of the deck.
+    /// Account of how the lines of the deck are treated.
     pub(super) account: Account,
     pub(super) geometry: Geometry,
     /// Thickness of a plane model: forces of the scene are per unit thickness.
@@ -132,8 +132,8 @@ impl<'d> Draft<'d> {
         self.equations.push(Equation { terms });
     }
 
-    /// Adds the equation that a sum of terms and a value over time is zero. If the value is not, it
-    /// is a load.
+    /// Adds the equation that a sum of terms and a value over time is zero; if the value itself is
+    /// not zero, the equation is a load.
     pub(super) fn relate(&mut self, terms: Vec<EquationTerm>, moved: Series, place: LinePlace) {
         if moved.is_zero() {
             return self.add_equation(terms, place);

@@ -22,8 +22,8 @@ const ROUND_OFF: f64 = 1e-12;
 /// Bits of the load factors of a span, as a key.
 type SpanBits = [Option<[u64; 2]>; 2];
 
-/// What is done to nodes over the same steps, as a key: axis, span, whether the nodes stay where
-/// they are, and the values over time.
+/// Key of a condition on nodes over some steps: axis, span, whether the nodes stay where they are,
+/// and the values over time.
 type Done = (u8, SpanBits, bool, Vec<u64>);
 
 fn bits(span: Span) -> SpanBits {
@@ -45,8 +45,9 @@ pub(super) struct InSteps {
 }
 
 impl InSteps {
-    /// Separates conditions in steps into those on a single displacement along x, y or z, and sums:
-    /// of nodes without elements, of displacements that follow others, and along axes of nodes.
+    /// Separates the conditions in steps into conditions on a single displacement along x, y or z,
+    /// and conditions on sums: for nodes without elements, displacements that follow others, and
+    /// displacements along axes of nodes.
     ///
     /// # Errors
     /// `Unsupported` for a displacement that is coupled to others without elements.
@@ -100,7 +101,7 @@ impl InSteps {
         Ok(InSteps { single, sums })
     }
 
-    /// Nodes of which sums of displacements are given.
+    /// Nodes that occur in sums of displacements which are given.
     pub(super) fn nodes_of_sums(&self) -> impl Iterator<Item = u32> {
         let keys = self.sums.iter().flat_map(|sum| sum.terms.keys());
         keys.map(|key| key.0)
@@ -157,7 +158,7 @@ impl SumInSteps {
         });
         let terms = terms.collect();
         let entry = self.entry;
-        // What stays has no values over time.
+        // A displacement that stays where it is has no values over time.
         let series = match entry.stays {
             true => Series::default(),
             false => entry.series,

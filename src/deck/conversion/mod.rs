@@ -342,7 +342,7 @@ impl Deck {
         let loads = std::mem::take(&mut draft.loads).into_iter().zip(&shapes);
         for ((mut load, _), shape) in loads {
             load.history = match common {
-                // What stays where it is has no rows.
+                // A displacement that stays where it is has no rows.
                 _ if shape.is_empty() => History::Constant,
                 _ if is_constant(&shape) && load.span().is_whole() => History::Constant,
                 Some(_) => History::Proportional,

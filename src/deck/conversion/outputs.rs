@@ -76,7 +76,7 @@ impl<'d> InForce<'d> {
     }
 }
 
-/// The results that a deck requests, by increments if these leave states and not steps alone.
+/// The results that a deck requests, at each increment that leaves a state or at steps alone.
 pub(super) fn requests(
     deck: &Deck,
     (space, thickness): (Space, f64),

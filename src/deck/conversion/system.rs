@@ -21,8 +21,8 @@ use crate::error::Result;
 use std::collections::BTreeMap;
 
 impl DeckConditions<'_, '_> {
-    /// Converts all equations into equations of the scene, except those of planes that are held by
-    /// nothing else; these planes are returned, and displacements that are given in some steps.
+    /// Converts all equations into equations of the scene, except those of held planes without
+    /// other conditions. Returns these planes, and the displacements that are given in some steps.
     /// Nodes without elements are eliminated: conditions and forces on such a node are passed on to
     /// the nodes that are coupled to it.
     pub(super) fn constrain(
@@ -151,7 +151,7 @@ impl DeckConditions<'_, '_> {
         Ok(())
     }
 
-    /// Checks that rows between displacements that are all prescribed hold.
+    /// Checks rows in which all displacements are prescribed: such rows must hold.
     fn check_known(&self, rows: &[LinearRow]) -> Result<()> {
         let boundary = &self.boundary;
         for row in rows {

@@ -44,7 +44,7 @@ impl MaterialReader {
     pub(super) fn elastic(&mut self, block: &mut BlockReader) -> Result<()> {
         block.allow("TYPE MODULI DEPENDENCIES")?;
         without_dependencies(block)?;
-        // Moduli at once and in the long run differ in viscoelastic materials alone.
+        // Instantaneous and long-term moduli differ in viscoelastic materials alone.
         let moduli = ["LONG TERM", "INSTANTANEOUS"];
         block.choice("MODULI", &moduli)?;
         let types = [

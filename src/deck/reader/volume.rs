@@ -14,7 +14,7 @@ pub(super) enum OnVolume {
     Refused(String),
 }
 
-/// Reads a load on the volume of elements; of a load on faces nothing is read.
+/// Reads a load on the volume of elements; reads nothing of a load on faces.
 pub(super) fn volume_load(mut row: LineFields) -> Result<OnVolume> {
     let word = row.word();
     if word

@@ -3,8 +3,8 @@
 //! CHOLMOD spends its time in BLAS: without an optimised BLAS it is several times slower.
 //!
 //! OpenBLAS takes a work buffer of up to 128 MB of address space for each thread, and repeats the
-//! request endlessly if the system refuses. If the address space is limited (`ulimit -v`),
-//! therefore only one caller at a time enters the BLAS ([`enter`]), and the first caller checks
+//! request endlessly if the system refuses. Therefore, if the address space is limited (`ulimit
+//! -v`), only one caller at a time enters the BLAS ([`enter`]), and the first caller checks
 //! beforehand that there is room for its buffer.
 
 use crate::error::{Error, Result};

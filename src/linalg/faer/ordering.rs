@@ -23,8 +23,8 @@ use feral_metis::{CscPattern, OrderingError};
 
 /// Number of operations per stored entry of the matrix above which the second candidate is tried:
 /// below it, finding the other ordering takes longer than it could save. Dissection takes some 10
-/// microseconds a vertex, as long as 7,000 operations per entry, and saves about a third of them in
-/// plane meshes, two thirds in solid ones.
+/// microseconds a vertex, the time of 7,000 operations per entry. It saves about a third of the
+/// operations in plane meshes and two thirds in solid ones.
 const TRY_DISSECTION_ABOVE: f64 = 20_000.0;
 
 /// Method by which the ordering is found.

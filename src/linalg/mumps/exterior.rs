@@ -228,9 +228,9 @@ impl SymbolicFactor {
     }
 
     /// Bytes that each rank needs in addition to its columns: its part of the factor and of the
-    /// matrix as passed to MUMPS. The first rank, which uses `own` bytes itself, also needs either
-    /// the Schur complement or, while the ordering is found, the pattern of the whole matrix; in
-    /// addition the coupling.
+    /// matrix as passed to MUMPS. The first rank, which uses `own` bytes itself, also needs the
+    /// coupling, and either the Schur complement or, during the ordering, the pattern of the whole
+    /// matrix.
     pub(super) fn bytes(&self, own: f64) -> Vec<f64> {
         let ranks = self.by_rank.iter().zip(&self.n_entries);
         let mut bytes: Vec<f64> = ranks

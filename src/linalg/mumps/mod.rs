@@ -204,8 +204,8 @@ impl RemainingMatrix {
         })
     }
 
-    /// Matrix of the trailing freedoms with the Schur complement of the interior; ones in its place
-    /// if it is not known yet.
+    /// Matrix of the trailing freedoms with the Schur complement of the interior, in which ones
+    /// stand for values that are not computed yet.
     fn matrix(&self, schur: Option<Schur>) -> SymmetricCsc {
         upper_triangle(self.freedoms.len(), |add| {
             self.own.iter().copied().for_each(&mut *add);
@@ -215,8 +215,8 @@ impl RemainingMatrix {
         })
     }
 
-    /// Pivot of the freedom that lost most digits to cancellation, either from `K` to `S`
-    /// (`condensed`), or for the inner pivot on the whole way from `K`.
+    /// Pivot that lost most digits to cancellation: on the way from `K` to `S` (`condensed`), or,
+    /// for the freedom of the `inner` pivot, on the whole way from `K` through `S`.
     fn weakest(
         &self,
         inner: Pivot,

@@ -162,8 +162,8 @@ pub(super) fn perform(task: Task, host: &mut Host) -> Vec<u8> {
         }
         Task::Solve(factor) => {
             let mut state = [0; 2];
-            // SAFETY: the factor is there until it is forgotten; the first rank's load is as long
-            // as it is large, that of others is not looked at.
+            // SAFETY: the factor exists until it is forgotten. On the first rank the load is as
+            // long as the matrix is large; on other ranks the load is not read.
             unsafe {
                 brinell_mumps_solve(factor as c_int, host.load.as_mut_ptr(), state.as_mut_ptr());
             }
@@ -171,7 +171,7 @@ pub(super) fn perform(task: Task, host: &mut Host) -> Vec<u8> {
         }
         Task::ForgetFactor(factor) => {
             kept.entries.remove(&factor);
-            // SAFETY: it was created, and is forgotten once.
+            // SAFETY: the factor was created, and is forgotten only once.
             unsafe { brinell_mumps_free(factor as c_int) }
             Vec::new()
         }

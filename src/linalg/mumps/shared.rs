@@ -181,8 +181,8 @@ impl Shared {
         self.0.world.size
     }
 
-    /// Asks each rank for the answer of `evaluate` to its message; other ranks use that of
-    /// [`World::serve`].
+    /// Asks each rank for the answer of `evaluate` to its message; ranks other than the first use
+    /// the function passed to [`World::serve`].
     ///
     /// # Errors
     /// Errors of the ranks.

@@ -31,7 +31,7 @@ fn beside_another(n: usize, ground: f64, seed: u64) -> (SymmetricCsc, Partition)
     (both.to_csc(), partition)
 }
 
-/// MUMPS itself reports neither case.
+/// MUMPS itself reports neither of the two interiors as an error.
 #[test]
 fn an_interior_that_nothing_holds_is_refused_and_a_negative_one_too() {
     if !one_at_a_time() {

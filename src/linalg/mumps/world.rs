@@ -172,7 +172,7 @@ impl World {
 }
 
 fn send(to: usize, bytes: &[u8]) {
-    // SAFETY: so many bytes are there.
+    // SAFETY: `bytes` has the length that is passed.
     unsafe { brinell_mpi_send(to as c_int, bytes.as_ptr().cast(), bytes.len() as i64) }
 }
 
@@ -180,7 +180,7 @@ fn receive(from: usize) -> Vec<u8> {
     // SAFETY: MPI was begun, and this thread has the turn.
     let length = unsafe { brinell_mpi_await(from as c_int) };
     let mut bytes = vec![0; length as usize];
-    // SAFETY: there is room for so many bytes.
+    // SAFETY: `bytes` has room for the length that is passed.
     unsafe { brinell_mpi_receive(from as c_int, bytes.as_mut_ptr().cast(), length) };
     bytes
 }

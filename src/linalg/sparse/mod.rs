@@ -269,8 +269,8 @@ pub(crate) fn prediction(
     let [_, first_trailing, first_contact, n] = groups.starts();
     let trailing: i64 = factor.column_counts()[first_trailing..].iter().sum();
     let entries = matrix.nnz();
-    // Contact columns of a body are all coupled with one another, and with no others: half of each
-    // block.
+    // Contact columns of a body are all coupled with one another, and with no others: their counts
+    // cover half of each block.
     let of_contact: i64 = factor.column_counts()[first_contact..].iter().sum();
     let blocks = 2.0 * of_contact as f64 - (n - first_contact) as f64;
     Prediction {

@@ -10,10 +10,10 @@
 //! dense panels of at most [`PANEL_WIDTH`] columns: a lower triangle, then a rectangle whose rows
 //! are listed once, both stored in the sequence in which the kernels ([`panel`]) read them.
 //!
-//! Only a part of the zone may be needed. If a set of columns contains, with each column, all rows
-//! of its structure (its ancestors in the elimination tree), it may as well have been eliminated
-//! after all others: its block of `L` is the factor of the structure condensed onto it. Thus a zone
-//! can shrink, and grow back, without another factorisation.
+//! Only a part of the zone may be needed. Suppose that, for each column of a set, the set contains
+//! all rows of its structure (its ancestors in the elimination tree). The set may then as well be
+//! eliminated last: its block of `L` is the factor of the structure condensed onto the set. Thus a
+//! zone can shrink, and grow back, without another factorisation.
 
 mod changed;
 mod substitution;

@@ -17,9 +17,10 @@ pub(crate) struct Forest<'a> {
 }
 
 impl Forest<'_> {
-    /// Finds disjoint subtrees, ascending, that together hold most of the work; the remaining nodes
-    /// depend on them or they on the remaining nodes. The choice depends on the tree alone, not on
-    /// the number of threads of the machine. Empty if the tree is too small, or not postordered.
+    /// Finds disjoint subtrees, ascending, that together hold most of the work. Each of the
+    /// remaining nodes is an ancestor of subtrees or belongs to a tree too small to count. The
+    /// choice depends on the tree alone, not on the number of threads. Empty if the tree is small
+    /// or not postordered.
     pub(crate) fn subtrees(&self) -> Vec<Range<usize>> {
         let n = self.parent.len();
         let mut first: Vec<usize> = (0..n).collect();

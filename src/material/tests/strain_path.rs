@@ -185,7 +185,8 @@ fn the_end_of_a_path_moves_smoothly() {
                 .map(|pair| distance(&pair[0], &pair[1]))
                 .collect();
             let largest = steps.iter().fold(0.0f64, |m, s| m.max(*s));
-            // The change is E times the change of strain, without jumps of the path's error, 1e-3.
+            // The change is E times the change of strain; the path's error, 1e-3, makes it jump
+            // nowhere.
             assert!(largest < 1e-5, "{steps:?}");
         }
     }

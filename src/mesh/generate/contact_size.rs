@@ -207,8 +207,8 @@ fn reach(scene: &Scene, p: &CylinderOnHalfPlane, half_width: f64) -> Option<f64>
 }
 
 /// A warning, given before the run, if the contact may become wider than its candidates. Prescribed
-/// displacements are not considered: the share of them that deforms the rest of the bodies is not
-/// known in advance.
+/// displacements are not considered: how much of them deforms the rest of the bodies is not known
+/// in advance.
 pub(crate) fn warning(scene: &Scene) -> Option<String> {
     let p = scene.mesh.cylinder_on_half_plane.as_ref()?;
     let ContactSize {
@@ -351,8 +351,8 @@ fn prescribed(displacement: Option<&Displacement>) -> f64 {
 }
 
 /// Total force along y of a load on the whole cylinder or ball, as far as the kind and place of the
-/// load determine it. The mesh is half a cylinder or a sector of a ball. Forces given as totals are
-/// those of `symmetry` such models.
+/// load determine it. The mesh is half a cylinder or a sector of a ball; a total force in the scene
+/// acts on `symmetry` such models together.
 fn normal_force(scene: &Scene, p: &CylinderOnHalfPlane, load: &Load, size: f64) -> f64 {
     // Number of such models that make up the ball, or a unit length of the cylinder.
     let (models, area) = match (&scene.mesh.extrude, &scene.mesh.revolve) {

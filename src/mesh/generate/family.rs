@@ -17,12 +17,12 @@ use crate::scene::{
 /// Largest relative difference in element ratio between parts of a mesh that rounding to whole
 /// elements may cause.
 const DISTORTION: f64 = 0.1;
-/// Largest factor between the wanted ratio and that of a member in exact proportion for which this
-/// member is preferred to rounded counts.
+/// Largest factor between the wanted ratio and the ratio of a member in exact proportion; within
+/// this factor the member is preferred to rounded counts.
 const NEAR: f64 = 1.2;
 /// Largest growth that the generators accept.
 const MOST_GROWTH: f64 = 100.0;
-/// Distance between a piece's end and a node, in elements, up to which they count as coinciding.
+/// Distance, in elements, up to which the end of a piece and a node count as coinciding.
 const ON_NODE: f64 = 1e-6;
 /// Largest step of which element counts are made multiples; only the scene's own count may be
 /// larger.
@@ -52,7 +52,7 @@ pub trait Family {
     /// member.
     ///
     /// # Errors
-    /// Those of [`Family::resize`].
+    /// Errors of [`Family::resize`].
     fn member(&self, ratio: f64) -> Result<(Self, f64), String>
     where
         Self: Clone,
@@ -153,7 +153,7 @@ fn grown(growth: f64, ratio: f64) -> f64 {
 trait GrowsFromContact {
     /// Number of which the resolution is a multiple.
     const STEP: usize;
-    /// Resolution, growth, growth far away where it is another, shape of the elements.
+    /// Resolution, growth, growth far away if it differs, and shape of the elements.
     fn settings(&self) -> (usize, f64, Option<f64>, Shape);
     fn settings_mut(&mut self) -> (&mut usize, &mut f64, Option<&mut f64>, &mut Shape);
 }
@@ -374,9 +374,8 @@ fn step(parts: &[Part], n: usize) -> usize {
         .unwrap_or(n)
 }
 
-/// Whether every piece of a block's sides begins and ends at a node; otherwise it would be longer
-/// or shorter than in the scene. The block has its own counts, or `count.1` elements along the
-/// sides that have `count.0`.
+/// Whether every piece of a block's sides begins and ends at a node, so that it is as long as in
+/// the scene. With `count = (n, m)` only sides of `n` elements are checked, as if they had `m`.
 fn ends_on_nodes(part: &Part, count: Option<(usize, usize)>) -> bool {
     let Some(block) = &part.block else {
         return true;

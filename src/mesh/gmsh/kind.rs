@@ -18,7 +18,7 @@ pub(super) enum ElementUse {
     Element(Shape),
 }
 
-/// An element type of the file: its use, and what the file has beyond it.
+/// An element type of the file: its use, and the number of its nodes that brinell leaves out.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TypeInFile {
     pub element: ElementUse,

@@ -83,7 +83,7 @@ pub fn parse(text: &[u8], name: &str) -> Result<Mesh> {
     assemble::assemble(sections.content, &cursor)
 }
 
-/// What the sections read so far say.
+/// Data of the sections read so far.
 #[derive(Default)]
 struct Sections {
     version: Option<Version>,

@@ -8,8 +8,8 @@ use crate::Result;
 
 /// Reads `$Nodes`, with `number x y z` per line.
 ///
-/// In `$ParametricNodes` the entity of the node follows, its dimension and number, and as many
-/// parameters as a curve or a surface has.
+/// In `$ParametricNodes` each node is followed by the dimension and number of its entity, and by as
+/// many parameters as a curve or a surface has.
 pub(super) fn read_nodes(
     content: &mut Content,
     cursor: &mut Cursor,

@@ -1,4 +1,4 @@
-//! What may follow a contact beyond its end.
+//! Contacts and ties that may continue a contact beyond its end.
 
 use crate::mesh::{Facet, Mesh};
 use crate::model::pairs::resolved_tie::ResolvedTie;
@@ -6,11 +6,11 @@ use crate::model::{ContactSurface, Pair};
 use crate::scene::Scene;
 use std::collections::BTreeSet;
 
-/// What may follow a contact beyond its end: another contact, or a tie.
+/// Surfaces and nodes of other contacts, and of ties, that may continue a contact at its end.
 pub(super) struct Beside {
     /// Facets of the surfaces of all contacts and ties.
     pub(super) facets: BTreeSet<Facet>,
-    /// Nodes of pairs and of ties, and nodes whose supports carry what would press there.
+    /// Nodes of pairs and of ties, and nodes whose supports bear the contact force.
     pub(super) nodes: BTreeSet<usize>,
 }
 

@@ -20,8 +20,8 @@ pub(super) struct ContactInput<'a> {
 }
 
 impl ContactInput<'_> {
-    /// Converts a direction from the second body to the first to one from the slave's body to the
-    /// other.
+    /// Converts a direction from the second body to the first into the direction from the slave's
+    /// body to the other one.
     pub(super) fn towards_master(&self, normal: Vector, slave: usize) -> Vector {
         match slave {
             0 => normal.map(|n| -n),

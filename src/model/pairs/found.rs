@@ -15,14 +15,14 @@ pub(super) struct Found {
     pub(super) slave: usize,
     pub(super) facet_length: f64,
     pub(super) covered: Covered,
-    /// Nodes of pairs that were left to supports.
+    /// Nodes of pairs that were dropped because supports hold the slaves.
     pub(super) held: Vec<usize>,
-    /// Pairs that an earlier contact has.
+    /// Pairs that an earlier contact already has.
     pub(super) repeated: Vec<Pair>,
 }
 
 impl Found {
-    /// Pairs of whole facets, none of which a support or an earlier contact has.
+    /// Stores pairs of whole facets, none of which was dropped for a support or an earlier contact.
     pub(super) fn new(pairs: Vec<Pair>, slave: usize, facet_length: f64) -> Self {
         Found {
             pairs,

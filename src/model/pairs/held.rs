@@ -1,4 +1,4 @@
-//! Slaves that supports hold against contact, and contacts that state the same twice.
+//! Slaves whose supports bear the contact force, and contacts that repeat the same facets.
 
 use super::found::Found;
 use super::{Pair, list};
@@ -7,8 +7,8 @@ use crate::mesh::{Facet, Mesh, Surface};
 use crate::scene::Contact;
 use std::collections::BTreeSet;
 
-/// Removes the pairs of slaves that supports hold along their normals: what presses there goes into
-/// the supports.
+/// Removes the pairs of slaves that supports hold along their normals: the supports bear the
+/// contact force there.
 ///
 /// # Errors
 /// An error if supports hold all slaves.

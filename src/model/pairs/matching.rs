@@ -59,7 +59,7 @@ fn check(mesh: &Mesh, contact: &Contact, pairs: &[Pair], facet_length: f64) -> R
     Ok(())
 }
 
-/// Finds the pairs of a contact whose nodes face each other or are given; `None` if they do not.
+/// Finds pairs of nodes that face each other, or takes given pairs; `None` if nodes do not match.
 ///
 /// # Errors
 /// Surfaces that are not one curve; pairs that share a node, overlap or are invalid.

@@ -80,8 +80,8 @@ pub(super) fn pairs(entries: &ContactInput, notes: &mut Vec<String>) -> Result<F
     let found = coupled(entries, entries.contact.slave)?;
     found.check()?;
     // Facets of a curved surface overlap the other surface on one side and leave gaps on the other.
-    // If the slaves see only the gap, a fit would have no pressure, and nothing would show this. So
-    // both choices of slave are checked.
+    // If all slaves lay at gaps, an interference fit would show no pressure and no error. So both
+    // choices of the slave are checked.
     if found.sides.depth_of_facets() > FLAT * found.facet_length {
         let other = [SlaveSide::Second, SlaveSide::First][found.slave];
         if let Ok(other) = coupled(entries, other) {
@@ -240,17 +240,17 @@ fn sum(facets: Vec<OfFacet>) -> (BTreeMap<usize, Integrals>, Covered) {
     (sums, covered)
 }
 
-/// Factor by which linear facets of a master may be longer than those of the slave. They stay
-/// straight: beyond this factor the kinks between them, not the contact, would shape the pressure.
+/// Factor by which linear facets of a master may be longer than facets of the slave. Beyond this
+/// factor the kinks between straight facets, not the contact, would shape the pressure.
 const LONGER: f64 = 2.0;
-/// Factor by which facets of a master may be longer if gaps have kinks, too, as for curved surfaces
-/// of unknown true shape: the weights of a slave average the kinks out if its facets are no shorter
-/// than the master's.
+/// Factor in place of [`LONGER`] if gaps have kinks too, as on curved surfaces of unknown true
+/// shape: the weights of a slave average the kinks out if its facets are no shorter than the
+/// master's.
 const LONGER_KINKED: f64 = 1.0;
 
 /// Chooses the slave: the surface with the smaller facets where the two may face each other, the
-/// second if equal. The other surface is chosen if its facets are linear and longer by more than
-/// [`LONGER`], or [`LONGER_KINKED`].
+/// second if equal; but the surface with the larger facets if these are linear and longer by more
+/// than [`LONGER`], or [`LONGER_KINKED`].
 fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
     let faces = surfaces.map(|surface| -> Vec<MortarFace> {
         surface
@@ -411,7 +411,7 @@ fn depth(faces: &[MortarFace]) -> f64 {
     largest
 }
 
-/// Normals of masters that face no single node, from which they get axes of their own.
+/// Normals of masters that face no single node; each normal may become an axis of its master.
 pub(in crate::model) fn master_normals(
     mesh: &Mesh,
     pairs: &[Pair],

@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 /// The nodes of a slave surface that may touch.
 pub(super) struct Only {
     pub(super) nodes: BTreeSet<usize>,
-    /// The surface to which all of them belong.
+    /// Surface to which all these nodes belong.
     pub(super) side: SlaveSide,
     pub(super) name: String,
 }

@@ -22,8 +22,8 @@ use std::collections::BTreeMap;
 
 /// Number of Newton steps to the nearest point of a facet; flat facets need one.
 const STEPS: usize = 20;
-/// Sine of the angle between the way to the nearest point and the normal there up to which a node
-/// faces the surface, 30 degrees: it may stand over an edge between two facets.
+/// Sine of the largest angle, 30 degrees, between the normal at the nearest point and the vector to
+/// it from a node that faces the surface: the node may stand over an edge between two facets.
 const FACING: f64 = 0.5;
 /// Weight below which a master is dropped as round-off.
 const NOTHING: f64 = 1e-13;
@@ -138,7 +138,7 @@ fn points(mesh: &Mesh, facet: Facet) -> Vec<Vector> {
         .collect()
 }
 
-/// A ball around the nodes of a facet. The facet itself may bulge by as much again.
+/// A ball around the nodes of a facet, twice as large as needed because the facet may bulge.
 fn ball(x: &[Vector]) -> (Vector, f64) {
     let share = 1.0 / x.len() as f64;
     let center = x.iter().fold([0.0; 3], |sum, x| along(sum, share, *x));
@@ -238,8 +238,8 @@ fn lumped_areas(input: &ContactInput, facets: &[Facet]) -> BTreeMap<usize, f64> 
     areas
 }
 
-/// Orders the pairs of a plane model along the line through the two slaves that are farthest from
-/// the first one and from each other, and measures their arcs.
+/// Orders the pairs of a plane model along a line and measures their arcs. The line runs from the
+/// slave farthest from the first one to the slave farthest from that one.
 fn order(mesh: &Mesh, pairs: &mut [Pair]) {
     let Some(first) = pairs.first().map(|pair| mesh.point(pair.slave)) else {
         return;

@@ -1,5 +1,5 @@
-//! Pairs of nodes that an earlier contact has already, as on an edge that two contacts share or if
-//! a contact is named both ways.
+//! Pairs of nodes that an earlier contact already has: on an edge that two contacts share, or if a
+//! contact is named both ways.
 
 use super::found::Found;
 use super::{Pair, held};
@@ -27,9 +27,9 @@ impl Repeated {
         self.pair_of.extend(own);
     }
 
-    /// Moves pairs that an earlier contact has to [`Found::repeated`]: two conditions on the same
-    /// two nodes would leave open how the force is shared. Pairs stay if the whole contact is that
-    /// of an earlier one with the same slaves, which is refused.
+    /// Moves pairs that an earlier contact already has to [`Found::repeated`]: two conditions on
+    /// the same two nodes would leave open how they share the force. Pairs of a contact that
+    /// repeats an earlier one with the same slaves are kept, since that contact is refused.
     pub(super) fn take_from(
         &self,
         found: &mut Found,

@@ -1,5 +1,5 @@
-//! Resolution of all contacts of a scene, one after the other: which surface has the slaves, and
-//! which pairs each contact has beside those of earlier ones.
+//! Resolves all contacts of a scene, one after the other: which surface has the slaves, and which
+//! pairs a contact adds to those of earlier contacts.
 
 use super::contact_input::ContactInput;
 use super::found::{Found, surface_of};
@@ -90,14 +90,14 @@ impl From<Error> for ContactRefusal {
     }
 }
 
-/// The pairs of the contacts so far.
+/// State of the resolution: the pairs of all contacts resolved so far.
 struct Resolver<'s, 'n> {
     scene: &'s Scene,
     mesh: &'s Mesh,
     supports: Supports,
     moved: Moved,
     pairs: Vec<Pair>,
-    /// The contact of which a node is a slave.
+    /// Number of the contact in which each slave node is a slave.
     slave_of: BTreeMap<usize, usize>,
     repeated: Repeated,
     notes: &'n mut Vec<String>,
@@ -118,7 +118,7 @@ struct OneContact<'c> {
 /// Pairs of a contact for a choice of the slave.
 struct SlaveChoice {
     found: Found,
-    /// Slaves that are those of another contact, with its number.
+    /// Slaves that are also slaves of an earlier contact, with the number of that contact.
     shared: Vec<(usize, usize)>,
     notes: Vec<String>,
 }
@@ -212,19 +212,19 @@ impl Resolver<'_, '_> {
         })
     }
 
-    /// Makes the other surface the slave if the scene leaves the choice open and that is better.
+    /// Makes the other surface the slave if the scene leaves the choice open and the swap helps.
     fn try_other_slave(&self, one: &mut OneContact, attempt: &mut SlaveChoice) {
         if one.input.contact.slave != SlaveSide::Auto {
             return;
         }
-        // Nodes that two contacts share may be slaves in only one of them. Faces that both contacts
-        // have on the same surfaces would be held twice.
+        // A node may be the slave of only one contact, so shared slaves call for the other choice.
+        // If both contacts have the same faces, either choice would hold these faces twice.
         let is_twice = |(_, other): &(usize, usize)| self.are_same(&one.input, *other);
         if !attempt.shared.is_empty() && !attempt.shared.iter().any(is_twice) {
             self.swap(one, attempt, |_| true);
         }
-        // A slave whose support carries what presses on it needs no pair; it is better as a master.
-        // A slave whose displacement is prescribed or follows others cannot be one.
+        // A node whose support bears the contact force needs no pair and is better as a master. A
+        // node whose displacement is prescribed or follows others cannot be a slave.
         let n_unfit = |found: &Found| {
             let is_unfit = |pair: &&Pair| {
                 is_held(&self.supports, one.contact, pair)
@@ -238,8 +238,8 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// Takes the other surface as the slave if it has pairs, none of which are shared, and they are
-    /// better.
+    /// Takes the other surface as the slave if that gives pairs which share no slave with another
+    /// contact and which are better.
     fn swap(
         &self,
         one: &mut OneContact,
@@ -255,7 +255,7 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// Whether a contact has facets on both sides that an earlier one has too.
+    /// Whether a contact and an earlier one have facets in common on both sides.
     fn are_same(&self, input: &ContactInput, other: usize) -> bool {
         held::are_same(self.mesh, input.surfaces, &self.scene.contact[other])
     }

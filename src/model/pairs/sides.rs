@@ -31,7 +31,7 @@ const NEAR_ENDS: f64 = 0.125;
 /// inside.
 const OUTSIDE: f64 = 1e-3;
 
-/// Facets of a surface, with a search for those that a line meets.
+/// Facets of a surface, searchable for the facets that a line meets.
 struct Looking {
     /// Each facet with its middle, outward unit normal and corners.
     facets: Vec<(Facet, Vector, Vector, Vec<Vector>)>,
@@ -86,9 +86,9 @@ fn is_met(corners: &[Vector], x: Vector, line: Vector) -> bool {
 }
 
 impl ContactInput<'_> {
-    /// Refuses a facet of one surface with the same outward normal as the opposite facet of the
-    /// other, unless a facet of either surface on the line between them looks at the other, at
-    /// whatever angle: a whole circle has facets on its far side, too.
+    /// Refuses a facet whose outward normal equals that of the opposite facet of the other surface,
+    /// unless the line through both meets a facet of either surface that looks at the other
+    /// surface, at whatever angle: a whole circle has facets on its far side, too.
     pub(super) fn check_sides(&self) -> Result<()> {
         let looking = self
             .surfaces

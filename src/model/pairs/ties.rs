@@ -12,8 +12,8 @@ use crate::scene::{Contact, Scene, Tie};
 use crate::space::dot;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Resolves the ties of a scene. A node of two ties has one row: on one face that of a tie of both
-/// surfaces, around a corner that of the first.
+/// Resolves the ties of a scene. A node of two ties has one row: the sum of both rows if the ties
+/// share a facet of the slave surface, but the row of the first tie around a corner.
 ///
 /// # Errors
 /// Input errors: surfaces that do not exist or do not lie on one another, a surface tied to a

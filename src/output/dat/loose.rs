@@ -47,8 +47,9 @@ impl<'a> NodeVectors<'a> {
         })
     }
 
-    /// Returns the vector of a node of the mesh times a factor. A node that the mesh does not have
-    /// gets the vector of its components along its own axes; zero if no equation has the node.
+    /// Returns the vector of the node with a label; for a node of the mesh it is multiplied by a
+    /// factor. Other nodes have the components `along_own` their axes, or zero if no equation has
+    /// the node.
     fn of_label(
         &self,
         label: u64,

@@ -117,9 +117,9 @@ impl ContactSums {
         self.area += size;
     }
 
-    /// Adds the integral of a force and an area along r and z over the slice, the middle of which
-    /// has the hoop direction along z: the component along r is rotated with the angle, components
-    /// that are odd in the angle vanish.
+    /// Adds the integral over the slice of a force and an area given along r and z. In the middle
+    /// of the slice the hoop direction is along z: the component along r is rotated with the angle,
+    /// and components that are odd in the angle vanish.
     fn add_turned(&mut self, [r, z, _]: Vector, weight: f64, force: Vector, area: Vector) {
         let (all, turned) = (2.0 * HALF_SLICE, 2.0 * HALF_SLICE.sin());
         let weight = weight * r;

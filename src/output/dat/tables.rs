@@ -119,7 +119,7 @@ impl<'a> Tables<'a> {
         Ok(())
     }
 
-    /// Returns the force on a node, on the part of the model that the tables are of.
+    /// Returns the force on a node, for the part of the model to which the tables refer.
     fn force(&self, label: u64, fields: &Fields) -> Vector {
         self.vectors.force(label, fields, self.of_forces)
     }

@@ -13,7 +13,7 @@ const SIZE: [u32; 2] = [520, 330];
 /// Largest number of points of a curve that a chart shows.
 const MOST_POINTS: usize = 600;
 
-/// How a curve is drawn.
+/// Style in which a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pen {
     /// A solid line.

@@ -240,7 +240,7 @@ pub(super) fn chosen(
         .collect();
     out.sort_unstable();
     out.dedup();
-    // After these the state in the middle of the widest gap is added, again and again.
+    // Then the state in the middle of the widest gap is added repeatedly.
     while out.len() < most {
         let holes = out.windows(2).map(|pair| {
             let inside: Vec<usize> = with

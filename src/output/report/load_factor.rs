@@ -1,4 +1,4 @@
-//! What a load factor is called, and what it means.
+//! Name and meaning of load factors, in words.
 
 use crate::scene::Unit;
 

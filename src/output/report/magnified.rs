@@ -11,7 +11,7 @@ use crate::results::Fields;
 
 /// Largest displacement that is shown, over the width of the picture.
 const SHARE: f64 = 0.1;
-/// Smallest magnification: with a smaller one true scale shows the displacements.
+/// Smallest magnification that is drawn: if less is needed, the true scale shows the displacements.
 const LEAST: f64 = 2.0;
 
 /// Draws the contour of a view in a state over the undeformed one, and returns the drawing with its

@@ -7,8 +7,8 @@ use crate::mesh::{Facet, Mesh};
 use crate::space::{Vector, along, dot, unit};
 use std::collections::BTreeMap;
 
-/// The sources whose weighted mean a point is: nodes, and elements numbered after them, with
-/// weights.
+/// Sources of a point, which is their weighted mean: nodes, and elements numbered after the nodes,
+/// each with its weight.
 pub(super) type Mix = Vec<(usize, f64)>;
 
 /// A point of a patchwork.

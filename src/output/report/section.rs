@@ -88,12 +88,12 @@ struct CutPieces<'m> {
     out: Patchwork,
 }
 
-/// A corner of a tetrahedron: its number, the mean that it is, its height.
+/// A corner of a tetrahedron: its number, the nodes and elements of which it is a mean, its height.
 type Corner = (usize, Mix, f64);
 
 impl CutPieces<'_> {
-    /// Adds the cut through the tetrahedra between the sides of the faces, the middles of the faces
-    /// and the middle of the element. With these tetrahedra elements of any shape fit together.
+    /// Adds the cut through an element, as that through tetrahedra between the sides of its faces,
+    /// the middles of the faces and its own middle. Elements of any shape then fit together.
     fn element(&mut self, element: usize) {
         let (mesh, body) = (self.mesh, self.mesh.element_body[element]);
         let middle = mesh.n_nodes() + element;

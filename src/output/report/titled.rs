@@ -1,4 +1,4 @@
-//! Charts with their titles, and what their curves have in common.
+//! Charts with their titles, and helpers that all their curves share.
 
 use super::chart::{Chart, ChartCurve, Pen};
 use crate::output::labels::{Labels, labelled};

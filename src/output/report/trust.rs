@@ -1,4 +1,4 @@
-//! How far the numbers can be trusted: the stated errors and the quality of the solves.
+//! Tables that show how far to trust the numbers: stated errors, and the quality of the solves.
 
 use super::tables::{numbers, plain, table, text};
 use crate::number::significant;

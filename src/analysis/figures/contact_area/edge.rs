@@ -9,11 +9,11 @@
 //! s(x) = q(x) + c d(x)^3 - o(x)^3,
 //! ```
 //!
-//! Here `o` falls linearly to 0 from its values at open pairs, the cube root of
-//! `max(q + c d^3, 0)`. The share of the force that each pair at the edge carries depends on where
-//! in the face the contact ends; their total force does not, since equilibrium passes it on as a
-//! whole. The constant `c` is such that the pressure `sqrt(s)` has this force. With `N_k` linear
-//! between the pairs, and sums over the pairs that are not trusted,
+//! Here `o` falls linearly to 0 from its values at open pairs, which are the cube roots of `max(q +
+//! c d^3, 0)`. The share of the force that each pair at the edge carries depends on where in the
+//! face the contact ends; their total force does not, since equilibrium passes it on as a whole.
+//! The constant `c` is chosen such that the pressure `sqrt(s)` has this total force. With `N_k`
+//! linear between the pairs, and sums over the pairs that are not trusted,
 //!
 //! ```text
 //! int sqrt(max(s, 0)) sum_k N_k dA = int sum_k N_k p_k dA.

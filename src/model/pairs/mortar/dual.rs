@@ -111,7 +111,7 @@ pub(super) struct OfFacet {
     pub covered: Option<CoveredFacet>,
 }
 
-/// What masters cover of a slave facet.
+/// Part of a slave facet that masters cover.
 struct Coverage {
     /// Integration points of the covered part, master by master.
     samples: Vec<CoveredPoint>,

@@ -5,8 +5,8 @@ use crate::mesh::{Facet, Mesh};
 use crate::shape::{FacetReference, MAX_FACET_NODES, Place};
 use crate::space::{Vector, along, cross, difference, direction, dot, length, unit};
 
-/// Cosine by which normals must be opposed for facets to face each other: seen more obliquely, a
-/// facet is no surface to press on.
+/// Cosine by which the normals of facets that face each other must be opposed: a facet seen more
+/// obliquely is no surface to press on.
 const OPPOSED: f64 = 0.2;
 /// Largest number of Newton steps to locate a point; a straight facet needs one step.
 const STEPS: usize = 30;

@@ -30,8 +30,8 @@ pub(super) struct Met {
 }
 
 impl Sides<'_> {
-    /// Finds, among some master facets, the one that the normal of a slave meets, and the gap
-    /// there.
+    /// Finds the nearest of some master facets that the line along a slave's normal meets, and the
+    /// gap there.
     pub(super) fn meet(&self, node: usize, normal: Vector, faced: &[usize]) -> Option<Met> {
         let mesh = self.entries.mesh;
         let x = mesh.point(node);
