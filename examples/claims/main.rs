@@ -224,12 +224,15 @@ fn by_quantity(group: &str, claims: &[Claim], page: &mut String) {
 fn prices_of_estimates(claims: &[Claim]) -> String {
     let runs = claims.chunk_by(|a, b| (&a.family, &a.mesh) == (&b.family, &b.mesh));
     let mut prices: Vec<f64> = runs.filter_map(|run| Some(run.first()?.price)).collect();
+    if prices.is_empty() {
+        return String::new();
+    }
     prices.sort_by(f64::total_cmp);
     let [median, most] = [prices.len() / 2, prices.len().saturating_sub(1)]
         .map(|k| prices.get(k).map_or(f64::NAN, |price| 100.0 * price));
     format!(
-        "The estimate of a run takes {median:.0} % of its operations in the median of {} runs, at \
-         most {most:.0} %.",
+        "\nThe estimate of a run takes {median:.0} % of its operations in the median of {} runs, at \
+         most {most:.0} %.\n",
         prices.len()
     )
 }
