@@ -83,7 +83,7 @@ pub trait Condensed: Send + Sync {
     /// `Analysis` if the memory does not suffice, `Internal` if a vector has the wrong length.
     fn recover_all(&self, reduced: &[f64], zone: &[f64], contact: &[f64]) -> Result<Vec<f64>>;
 
-    /// Cost of the factorisation (the same figures as predicted).
+    /// The predicted cost of this factorisation; nothing is measured.
     fn cost(&self) -> Prediction;
 
     /// Pivot that lost most digits to cancellation. If its ratio is close to
