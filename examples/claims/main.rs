@@ -231,9 +231,8 @@ fn prices_of_estimates(claims: &[Claim]) -> String {
     let [median, most] = [prices.len() / 2, prices.len().saturating_sub(1)]
         .map(|k| prices.get(k).map_or(f64::NAN, |price| 100.0 * price));
     format!(
-        "\nThe estimate of a run takes {median:.0} % of its operations in the \
-         median of {} runs, at \
-         most {most:.0} %.\n",
+        "\nThe estimate of a run takes {median:.0} % of its operations in the median of {} \
+         runs, at most {most:.0} %.\n",
         prices.len()
     )
 }

@@ -3,7 +3,7 @@
 use super::motions::{Mode, Motions};
 use super::pairs::mortar::roundness::true_shape;
 use crate::mesh::{Curve, Mesh, Surface};
-use crate::space::{Vector, difference, direction, length};
+use crate::space::{Vector, along, difference, direction, length};
 
 /// Fraction of a mode's largest entry up to which a node counts as moved along the surface.
 const ALONG: f64 = 1e-6;
@@ -53,9 +53,7 @@ impl RoundSurface {
         let (mut nodes, mut deviation) = (Vec::new(), 0.0f64);
         for &facet in &surface.facets {
             let points: Vec<Vector> = mesh.facet_nodes(facet).map(|n| mesh.point(n)).collect();
-            let sum = points
-                .iter()
-                .fold([0.0; 3], |sum, x| crate::space::along(sum, 1.0, *x));
+            let sum = points.iter().fold([0.0; 3], |sum, x| along(sum, 1.0, *x));
             let middle = sum.map(|s| s / points.len() as f64);
             let (_, radius, _) = curve.spine(middle)?;
             let reach = points.iter().map(|x| length(difference(*x, middle)));

@@ -22,9 +22,9 @@ pub(super) fn assemble(content: Content, cursor: &Cursor) -> Result<Mesh> {
     let left_out = content.require_one_body(dimension, cursor)?;
     let mut mesh = Mesh {
         dimension: dimension as usize,
-        notes: left_out
+        notes: [left_out, content.centers_left_out()]
             .into_iter()
-            .chain(content.centers_left_out())
+            .flatten()
             .collect(),
         ..Mesh::default()
     };
