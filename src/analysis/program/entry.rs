@@ -106,7 +106,7 @@ impl Analysis {
     ///
     /// # fn main() -> brinell::Result<()> {
     /// let scene = Scene::load("data/scenes/thick_cylinder.toml")?;
-    /// let analysis = Analysis::new(Model::new(&scene)?, Backend::default())?;
+    /// let mut analysis = Analysis::new(Model::new(&scene)?, Backend::default())?;
     /// let results = analysis.yield_load(&mut brinell::progress::Silent)?;
     /// let first = results.first_yield.expect("the tube yields");
     /// // Lame, von Mises at the bore in plane strain: 103.750 for a yield stress of 240.
