@@ -404,8 +404,8 @@ impl ContactCost {
     /// `Analysis` with the memory that is needed and the memory that is left.
     fn require(&self) -> Result<()> {
         let what = format!(
-            "contact of {} pairs, {} of them joined by bodies (dense matrices: fewer pairs are \
-             what helps),",
+            "contact of {} pairs, {} of them joined by bodies (dense matrices: only fewer \
+             pairs reduce them),",
             self.pairs, self.largest_group
         );
         memory::require(&what, self.memory_bytes)

@@ -16,12 +16,13 @@ pub(super) struct ElementType {
 }
 
 /// Differences between the formulation of a type and of the element used for it.
-const REDUCED: &str =
-    "one point with hourglass control there; here full integration with mean dilatation (B-bar)";
-const MODES: &str = "incompatible modes there; here mean dilatation (B-bar), without them";
-const HYBRID: &str = "pressure unknowns there; here none: mean dilatation, or the same points";
-const PORE: &str = "pore pressures there; here none";
-const MODIFIED: &str = "modified there; here the plain quadratic element";
+const REDUCED: &str = "the type has one point with hourglass control, brinell full integration with mean dilatation \
+     (B-bar)";
+const MODES: &str = "the type has incompatible modes, brinell mean dilatation (B-bar) instead";
+const HYBRID: &str =
+    "the type has pressure unknowns, brinell none: mean dilatation, or the same points";
+const PORE: &str = "the type has pore pressures, brinell none";
+const MODIFIED: &str = "the type is modified, brinell takes the plain quadratic element";
 
 /// Families of plane elements, by the beginning of their names.
 const PLANE: [(&str, Space); 3] = [

@@ -96,8 +96,8 @@ impl ContactBasis {
         match single.find(|pair| basis.ends(pair.slave).is_some()) {
             None => Ok(basis),
             Some(pair) => Err(Error::input(format!(
-                "node {}, the middle of an edge, touches alone, and the edge is in another contact \
-                 or tied: take it out of one of them",
+                "node {} is the middle of an edge and a contact node of its own, but the edge \
+                 is in another contact or tied, too: take it out of one of them",
                 mesh.node_label(pair.slave)
             ))),
         }

@@ -58,7 +58,7 @@ pub(super) fn warn_of_locking(
     } else if locks > 0 {
         warnings.push(format!(
             "{locks} {} elements belong to bodies that may yield: they lock in isochoric plastic \
-             flow, limit loads come out too high; use {}",
+             flow, so that limit loads come out too high; use {}",
             if mesh.is_solid() { "tet4" } else { "tri3" },
             if mesh.is_solid() {
                 "hex8, hex20 or tet10"

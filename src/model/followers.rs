@@ -217,8 +217,8 @@ impl Followers {
                 true => Ok(()),
                 false => Err(Error::input(format!(
                     "{}: node {} of `{}` and those beside it are held along {}, by supports, loads \
-                     or a contact, but what they would follow is not: let the other surface follow \
-                     (`slave`)",
+                     or a contact, but the nodes that they would follow can move: make the other \
+                     surface the slave (`slave`)",
                     tie.what,
                     mesh.node_label(row.slave),
                     tie.slaves,

@@ -42,7 +42,7 @@ impl Given {
     pub(super) fn check(&self, n_nodes: usize) -> Result<()> {
         if (self.carried.as_ref()).is_some_and(|carried| !carried.is_of(n_nodes)) {
             return Err(Error::input(
-                "the displacements to begin with are of another mesh",
+                "the displacements carried over are of a mesh with other nodes",
             ));
         }
         let nodes = self.forces.values().flatten().map(|(node, _)| *node);

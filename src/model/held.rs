@@ -83,7 +83,7 @@ impl Pin {
             Some((load, share)) => format!(
                 "{motion}: nothing holds this motion, and load `{load}` drives it by {} of its \
                  size, no more than flat facets of a round surface explain; it is held at node \
-                 {node}, which bears that",
+                 {node}, which carries this small load",
                 significant(*share, 2)
             ),
         }

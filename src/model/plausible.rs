@@ -74,12 +74,59 @@ pub(super) fn of_symmetry(model: &Model) -> Option<String> {
     let is_whole = mirrors(model, &Conditions::of(model), &all).is_empty();
     is_whole.then(|| {
         format!(
-            "symmetry = {}: forces are told of a whole of which the mesh is a part, and no flat \
-             side of the mesh is held across as a plane of symmetry is; leave it out if the mesh \
-             is the whole",
+            "symmetry = {}: forces are reported for a whole of which the mesh is a part, but no \
+             flat side of the mesh is held along its normal as a plane of symmetry is; leave it \
+             out if the mesh is the whole",
             model.scene.symmetry
         )
     })
+}
+
+/// Warnings about settings of the load program that have no effect, or that no target completes.
+pub(super) fn of_program(model: &Model) -> Vec<String> {
+    let scene = &model.scene;
+    let mut out = Vec::new();
+    let factors = scene
+        .program
+        .targets
+        .iter()
+        .map(|target| target.load_factor);
+    // A target of another kind may be met at any load factor.
+    let factors: Option<Vec<f64>> = factors.collect();
+    let largest = factors.map(|factors| factors.into_iter().fold(0.0, f64::max));
+    let beyond = |end: f64| largest.filter(|largest| *largest < end);
+    if let Some(end) = scene.program.interference_until {
+        let key = "program.interference_until";
+        if !model.pairs.iter().any(|pair| pair.interference != 0.0) {
+            out.push(format!(
+                "{key}: no contact has an interference: this changes nothing"
+            ));
+        } else if let Some(largest) = beyond(end) {
+            out.push(format!(
+                "{key}: {} is beyond the largest target, {}: at most {} % of the interference is \
+                 applied",
+                exact(end),
+                exact(largest),
+                significant(100.0 * largest / end, 3)
+            ));
+        }
+    }
+    for (key, span) in scene.spans() {
+        let Some([end, free]) = span.until else {
+            continue;
+        };
+        if let Some(largest) = beyond(free) {
+            out.push(format!(
+                "{key}.until: {} is beyond the largest target, {}: {} % of the forces that held \
+                 until {} still act in the end",
+                exact(free),
+                exact(largest),
+                significant(100.0 * (free - largest) / (free - end), 3),
+                exact(end)
+            ));
+        }
+    }
+    out
 }
 
 #[cfg(test)]
@@ -138,6 +185,36 @@ program.targets = [{ load_factor = 1.0 }]
     }
 
     #[test]
+    fn a_program_that_ends_too_early_is_named() {
+        let of = |program: &str, support: &str| {
+            let text = SCENE
+                .replace("SYMMETRY", "")
+                .replace("CURVE", "")
+                .replace("HELD", support)
+                .replace(
+                    "[{ load_factor = 1.0 }]",
+                    "[{ load_factor = 1.0 }, { load_factor = 2.0 }]",
+                );
+            let scene = Scene::parse(&format!("{text}{program}"), "test").expect("scene");
+            of_program(&Model::new(&scene).expect("model"))
+        };
+        assert_eq!(of("", ""), [""; 0]);
+        let unused =
+            "program.interference_until: no contact has an interference: this changes nothing";
+        assert_eq!(of("program.interference_until = 1.0", ""), [unused]);
+        let left =
+            |free: &str| format!("{{ on = \"a.left\", fix = [\"x\"], until = [1.0, {free}] }}");
+        assert_eq!(of("", &left("2.0")), [""; 0]);
+        assert_eq!(
+            of("", &left("5.0")),
+            [
+                "support.1.until: 5 is beyond the largest target, 2: 75 % of the forces that held \
+              until 1 still act in the end"
+            ]
+        );
+    }
+
+    #[test]
     fn a_symmetry_without_a_plane_is_named() {
         let of = |symmetry: &'static str, held: &'static str| {
             warnings([("CURVE", ""), ("SYMMETRY", symmetry), ("HELD", held)])
@@ -147,7 +224,7 @@ program.targets = [{ load_factor = 1.0 }]
         assert_eq!(of("", ""), [""; 0]);
         let found = of("symmetry = 4", "");
         assert!(
-            found[0].starts_with("symmetry = 4: forces are told of a whole"),
+            found[0].starts_with("symmetry = 4: forces are reported for a whole"),
             "{found:?}"
         );
     }

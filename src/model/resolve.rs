@@ -151,15 +151,18 @@ pub(super) fn model(scene: &Scene, mut mesh: Mesh, origin: Origin) -> Result<Mod
     Ok(completed(model))
 }
 
-/// Adds what is found on the whole model: the mirrors of its contacts, and a warning about its
-/// symmetry.
+/// Adds what is found on the whole model: the mirrors of its contacts, and warnings about its
+/// program and its symmetry.
 fn completed(mut model: Model) -> Model {
     let mirrors = Mirror::of_contacts(&model);
     for (contact, mirrors) in model.contacts.iter_mut().zip(mirrors) {
         contact.mirrors = mirrors;
     }
-    let warning = plausible::of_symmetry(&model);
-    model.warnings.extend(warning);
+    let warnings = [
+        plausible::of_program(&model),
+        Vec::from_iter(plausible::of_symmetry(&model)),
+    ];
+    model.warnings.extend(warnings.into_iter().flatten());
     model
 }
 

@@ -229,12 +229,18 @@ impl Scene {
 
     /// The load factors at which supports or prescribed displacements begin or end, ascending.
     pub(crate) fn changes_of_support(&self) -> Vec<f64> {
-        let supports = self.support.iter().map(Support::span);
-        let spans = supports.chain(self.load.iter().map(Load::span));
-        let mut changes: Vec<f64> = spans.flat_map(Span::changes).collect();
+        let mut changes: Vec<f64> = self.spans().flat_map(|(_, span)| span.changes()).collect();
         changes.sort_by(f64::total_cmp);
         changes.dedup();
         changes
+    }
+
+    /// The span of each support and each load, with its key in the scene.
+    pub(crate) fn spans(&self) -> impl Iterator<Item = (String, Span)> + '_ {
+        let supports = self.support.iter().enumerate();
+        let supports = supports.map(|(index, of)| (format!("support.{index}"), of.span()));
+        let loads = self.load.iter().enumerate();
+        supports.chain(loads.map(|(index, of)| (format!("load.{index}"), of.span())))
     }
 
     /// All fields of loads and contacts, which may depend on the position.

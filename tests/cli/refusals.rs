@@ -473,7 +473,7 @@ fn a_normal_that_leads_into_a_body() {
         &[
             "contact 1 (`upper.bottom` on `lower.top`)",
             "its normal leads from `lower.top` into the body behind it",
-            "turn it round, or leave it out",
+            "reverse it, or leave it out",
         ],
     );
 }

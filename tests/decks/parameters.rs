@@ -283,7 +283,7 @@ fn a_later_new_in_a_step_has_no_effect() {
     let (kept, notes) = step("", ", OP=NEW");
     assert_eq!(kept, step("", "").0);
     assert!(
-        notes.contains("*CLOAD: OP=NEW has no effect behind others"),
+        notes.contains("*CLOAD: OP=NEW has no effect after another"),
         "{notes}"
     );
     let (renewed, notes) = step(", OP=NEW", "");

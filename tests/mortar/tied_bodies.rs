@@ -411,7 +411,7 @@ fn what_cannot_be_tied_is_named() {
     tie(&mut all_held, SlaveSide::Second);
     refused(
         &all_held,
-        &["are held along (0, 1)", "let the other surface follow"],
+        &["are held along (0, 1)", "make the other surface the slave"],
     );
     let mut other = apart(0.0);
     other.hold("lower.top", Direction::Y);

@@ -101,7 +101,7 @@ fn a_whole_roller_is_held_by_the_block_alone() {
     for seed in 1..=either(40, 1000) {
         let (text, half) = scene(seed, folder.path());
         let results = run_text_as_far_as_it_goes(&text);
-        let bears = |warning: &&String| warning.contains("which bears that");
+        let bears = |warning: &&String| warning.contains("which carries this small load");
         borne += results.warnings.iter().filter(bears).count();
         let ending = results.ending();
         assert!(ending.kind().is_none(), "{seed}: {ending:?}\n{text}");

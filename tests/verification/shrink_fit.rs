@@ -24,3 +24,31 @@ fn pressure_converges_to_lame() {
     );
     assert!(fine <= coarse / 3.0, "{coarse:.2e} {fine:.2e}");
 }
+
+/// All pairs stay closed, so that the pressures are linear in the interference.
+#[test]
+fn an_interference_that_grows_with_the_load_is_applied_in_proportion() {
+    let fitted = |until: &str| {
+        run_file(
+            "shrink_fit",
+            &[
+                "program.unit=load",
+                "program.targets=[{load_factor=1.0}]",
+                until,
+            ],
+        )
+    };
+    let whole = fitted("program.interference_until=0.5");
+    let half = fitted("program.interference_until=2.0");
+    // A few units of round-off times the condition number, which is below 100.
+    let ratio = half.states[0].max_pressure / whole.states[0].max_pressure;
+    assert!((ratio / 0.5 - 1.0).abs() <= 1e-12, "{ratio}");
+    assert_eq!(
+        half.warnings,
+        [
+            "program.interference_until: 2 is beyond the largest target, 1: at most 50 % of the \
+          interference is applied"
+        ]
+    );
+    assert!(whole.warnings.is_empty(), "{:?}", whole.warnings);
+}

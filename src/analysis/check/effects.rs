@@ -143,7 +143,7 @@ fn faster_solver(model: &Model, backend: Backend) -> Option<String> {
         && Backend::Cholmod.threads() == Some(1);
     is_faster.then(|| {
         "on one thread the solver faer takes about a tenth less for such solids: --solver faer \
-         (on two CHOLMOD does: OPENBLAS_NUM_THREADS)"
+         (on two CHOLMOD is the faster one: OPENBLAS_NUM_THREADS)"
             .to_string()
     })
 }
@@ -199,10 +199,12 @@ fn kinematic_hardening(model: &Model, yields: bool) -> Effect {
         .collect();
     let names = asked.keys().copied().collect::<Vec<_>>().join(", ");
     let why = match (asked.is_empty(), yields, asked.values().max()) {
-        (false, true, Some(0)) => format!("{names} hardens so; its back stress is stored nowhere"),
+        (false, true, Some(0)) => {
+            format!("{names} hardens so; its back stress follows from the plastic strain")
+        }
         (false, true, Some(1)) => format!("{names} hardens so, with a back stress that fades"),
         (false, true, Some(n)) => format!("{names} hardens so, with {n} back stresses that fade"),
-        (false, ..) => format!("{names} would, but stays elastic under these loads"),
+        (false, ..) => format!("{names} could, but stays elastic under these loads"),
         (true, ..) => "no material that may yield has a back stress".to_string(),
     };
     effect_asked_for("kinematic hardening", !asked.is_empty(), yields, why)
@@ -280,7 +282,7 @@ fn over_temperature(model: &Model) -> Effect {
         (true, _) => "no body has a temperature of its own".to_string(),
         (_, true) => "no material of the bodies with a temperature depends on it".to_string(),
         _ => format!(
-            "{} at the temperature of the whole run: another one is another factorisation",
+            "{} at one temperature for the whole run: another temperature needs a new factorisation",
             names.join(", ")
         ),
     };
@@ -334,7 +336,7 @@ fn prescribed_displacements(model: &Model) -> Effect {
     let acting: Vec<&str> = acting.map(|load| load.name.as_str()).collect();
     let why = match (asked.is_empty(), acting.is_empty()) {
         (true, _) => "no load prescribes one".to_string(),
-        (false, true) => "all that loads prescribe are zero: they hold as supports do".to_string(),
+        (false, true) => "all prescribed displacements are zero: they act as supports".to_string(),
         (false, false) => format!("by {}: the force that it takes is found", acting.join(", ")),
     };
     let name = "prescribed displacements";

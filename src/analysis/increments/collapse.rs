@@ -191,8 +191,8 @@ fn no_number(held: f64, tried: f64, iterations: usize) -> String {
     format!(
         "not converged: load factor {held:.9} is the last that was held, at {tried:.9} (the \
          smallest increment, {SMALLEST_CUT:e} of the load step) displacements or stresses grew \
-         beyond what a number can hold within {iterations} iterations, so that nothing can be said \
-         of the stiffness that is left. Check loads, target and material for values that are too \
+         beyond what a number can hold within {iterations} iterations, so that the remaining \
+         stiffness is unknown. Check loads, target and material for values that are too \
          large by far, and their units; if they are right, give more increments (program.steps, \
          or more targets on the way) or another analysis.plastic_iteration"
     )

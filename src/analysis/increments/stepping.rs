@@ -332,8 +332,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         Error::analysis(format!(
             "contact did not settle: load factor {:.9} is the last that was held, and on the way \
              to {:.9} the same sets of closed pairs come back, none of which is right to \
-             round-off. Look for pairs that are twice in the contacts or bodies that nothing but \
-             them holds, or go there by other increments (program.stepping, a target on the way)",
+             round-off. Look for pairs that are in two contacts, or bodies that such pairs alone \
+             hold, or reach this load by other increments (program.stepping, a target on the way)",
             self.solver.at.alpha,
             self.solver.at.towards(end, most).alpha
         ))

@@ -183,8 +183,8 @@ fn note_on_dents(solver: &Solver) -> Option<String> {
     let begun = model.scene.support.iter().any(|s| s.since.is_some());
     (begun && model.start.is_some() && !model.pairs.is_empty()).then(|| {
         format!(
-            "residual depths from load factor {} on are those that the supports of this leg of \
-             the program would leave, were they at rest where the mesh has their nodes",
+            "residual depths from load factor {} on are computed as if the supports of this leg \
+             held their nodes where the mesh has them",
             significant(solver.at.alpha, 6)
         )
     })

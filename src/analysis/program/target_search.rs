@@ -116,8 +116,8 @@ impl<'m> Goal<'m> {
             return Ok(None);
         }
         Err(Error::analysis(format!(
-            "target `{}`: the {} is {:.6e} at load factor {:.6} already, beyond {}, and no load \
-             takes it back",
+            "target `{}`: the {} is {:.6e} at load factor {:.6} already, beyond {}, and \
+             unloading does not reduce it",
             self.label,
             figure.key(),
             (1.0 + off) * value,
@@ -140,8 +140,8 @@ impl<'m> Goal<'m> {
         let tolerance = self.model.scene.program.gamma.max(MONITOR_ACCURACY);
         Ok((off.abs() > tolerance).then(|| {
             format!(
-                "target `{}` is passed in a jump at load factor {:.6}: what it asks for is off by \
-                 {} there",
+                "target `{}`: its quantity jumps past the value asked for at load factor {:.6}: it \
+                 is off by {} there",
                 self.label,
                 solver.at.alpha,
                 percent(off)

@@ -100,7 +100,7 @@ fn check_origin(model: &Model, state: &EndState) -> Result<()> {
         let [there, here] = [there.kind, here.kind].map(Kind::name);
         return Err(Error::input(format!(
             "the earlier run was of the kind `{there}`, this one is `{here}`: plastic strains of \
-             the one are none of the other"
+             one kind cannot be used in the other"
         )));
     }
     let names = model.mesh.bodies.iter();
@@ -109,8 +109,8 @@ fn check_origin(model: &Model, state: &EndState) -> Result<()> {
         if then.len() == now.len() && then != now {
             return Err(Error::input(format!(
                 "the back stresses of body `{name}` faded at the rates {then:?} in the earlier \
-                 run, here at {now:?}, so that what they remember means something else: give the \
-                 same rates"
+                 run, here at {now:?}, so that the stored back strains do not apply: give the same \
+                 rates"
             )));
         }
         let mut given = there.brought_along.iter();

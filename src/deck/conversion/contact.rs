@@ -88,8 +88,8 @@ impl ScenePairs {
 fn around(draft: &mut Draft, pair: &ContactPair, slaves: NodeSlaves) -> (String, Option<String>) {
     let n = slaves.nodes.len();
     let text = format!(
-        "the nodes of {} ({n}) touch alone, where they lie: they make up no whole faces of \
-         one piece",
+        "only the nodes of {} ({n}) can touch, at their positions: they do not make up whole \
+         faces of one piece",
         pair.slave,
     );
     draft.remark(pair.place, "CONTACT PAIR", &text);

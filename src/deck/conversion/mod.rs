@@ -89,7 +89,7 @@ impl Deck {
         }
         let geometry = Geometry::of(self)?;
         for (name, place) in &geometry.left_out {
-            let text = format!("{name} looks both ways, and is there for results alone");
+            let text = format!("{name} contains both sides of a face and is used for results only");
             account.ignore(&self.files, *place, "SURFACE", &text);
         }
         let thickness = self.thickness(space, &mut account)?;
@@ -151,7 +151,8 @@ impl Deck {
         let first = sections.first().map_or(1.0, of);
         if let Some(other) = sections.iter().find(|section| of(section) != first) {
             let message = format!(
-                "the thickness is {}, that of another section {}: a plane model has one",
+                "the thickness is {}, but {} in another section: all sections of a plane model must have \
+                 the same",
                 exact(of(other)),
                 exact(first)
             );
@@ -257,8 +258,8 @@ impl Deck {
             if is_mixed && !std::mem::replace(&mut is_said[body as usize], true) {
                 let label = self.mesh.element_name(element);
                 let text = format!(
-                    "element {label}: reduced integration there; here full, as of others in body \
-                     {name}: give it a section of its own"
+                    "element {label}: its type has reduced integration, brinell integrates it fully, \
+                     as others in body {name}: give it a section of its own"
                 );
                 let place = self.mesh.elements.places[element];
                 account.take(&self.files, place, "ELEMENT", &text);

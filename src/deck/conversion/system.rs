@@ -163,7 +163,8 @@ impl DeckConditions<'_, '_> {
                 (c * given).abs()
             });
             if sum.largest().abs() > ROUND_OFF * sizes.fold(0.0, f64::max) {
-                let message = "what is held or moved does not agree with it: take one of them out";
+                let message =
+                    "the prescribed displacements contradict this equation: take one of them out";
                 return Err(self.draft.deck.error(row.place, row.keyword, message));
             }
         }

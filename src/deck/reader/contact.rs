@@ -54,7 +54,7 @@ impl InteractionReader {
         ];
         let law = block.choice("PRESSURE-OVERCLOSURE", &laws)?;
         if law == "TIED" || block.keyword.has("NOSEPARATION") {
-            block.refuse("surfaces in contact can part: give those that never do a *TIE instead");
+            block.refuse("surfaces in contact can separate: use a *TIE for surfaces that never do");
         } else if law == "LINEAR" {
             return self.slope(block);
         } else if law != "HARD" {

@@ -49,7 +49,7 @@ impl StepReader {
             return Err(block.error(message));
         }
         if keyword.has("PERTURBATION") {
-            block.refuse("PERTURBATION: steps go on where the one before ended");
+            block.refuse("PERTURBATION: each step continues from the end of the previous one");
         }
         let nlgeom = keyword.has("NLGEOM") && !keyword.get("NLGEOM").is_some_and(is_no);
         if nlgeom && self.nlgeom.is_none() {
@@ -178,8 +178,8 @@ impl StepReader {
                         step.renewed[ConditionKind::Volume as usize] = Some(keyword.place);
                     }
                 } else if is_new && step.renewed[kind as usize].is_none() {
-                    let how = "OP=NEW has no effect behind others of its kind in the step, as in \
-                               CalculiX: give it to the first";
+                    let how = "OP=NEW has no effect after another keyword of this kind in the step, \
+                               as in CalculiX: give it on the first";
                     block.take(how);
                 }
             }

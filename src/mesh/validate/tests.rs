@@ -360,6 +360,6 @@ fn a_surface_that_looks_both_ways_is_named() {
             let inside = [(0, 1), (1, 3)].map(|(element, local)| Facet { element, local });
             m.surfaces.entry("inside".into()).or_default().facets = inside.to_vec();
         },
-        &["surface `inside` looks both ways between elements 1 and 2"],
+        &["surface `inside` contains both sides of the face between elements 1 and 2"],
     );
 }

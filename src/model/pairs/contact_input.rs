@@ -44,7 +44,7 @@ impl ContactInput<'_> {
         }
         Err(Error::input(format!(
             "its normal leads from `{}` into the body behind it: it is the direction from the \
-             second body to the first; turn it round, or leave it out",
+             second body to the first; reverse it, or leave it out",
             self.contact.second
         )))
     }

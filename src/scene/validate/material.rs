@@ -83,7 +83,7 @@ fn check_over_temperature(problems: &mut Problems, key: &str, material: &Materia
         problems.require(
             !row.is_empty(),
             key.as_str(),
-            "says nothing but a temperature; give what the material has there",
+            "gives only a temperature; add the properties at this temperature",
         );
         check_material(problems, &key, &material.at(row.temperature));
     }

@@ -245,7 +245,7 @@ fn check_growing(problems: &mut Problems, targets: &[Target]) {
                 value >= *before,
                 format!("program.targets.{index}.{}", figure.key()),
                 format!(
-                    "{} is less than the {} of an earlier target, and no load takes it back",
+                    "{} is less than the {} of an earlier target, and unloading does not reduce it",
                     exact(value),
                     exact(*before)
                 ),

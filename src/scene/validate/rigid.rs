@@ -166,7 +166,9 @@ fn check_pushed(problems: &mut Problems, scene: &Scene, name: &str) {
         problems.require(
             support.on != name,
             format!("support.{index}.on"),
-            format!("`{name}` is rigid and held across its push as it is: leave the support out"),
+            format!(
+                "`{name}` is rigid and held already, except along its load: leave the support out"
+            ),
         );
     }
     for (index, tie) in scene.tie.iter().enumerate() {

@@ -12,11 +12,7 @@ pub(super) fn check(problems: &mut Problems, scene: &Scene) {
     for (index, load) in scene.load.iter().enumerate() {
         check_span_of_load(problems, &format!("load.{index}"), load);
     }
-    let supports = scene.support.iter().enumerate();
-    let supports = supports.map(|(index, s)| (format!("support.{index}"), s.span()));
-    let loads = scene.load.iter().enumerate();
-    let loads = loads.map(|(index, load)| (format!("load.{index}"), load.span()));
-    let changing: Vec<(String, Span)> = (supports.chain(loads))
+    let changing: Vec<(String, Span)> = (scene.spans())
         .filter(|(_, span)| !span.is_whole())
         .collect();
     for (key, span) in &changing {

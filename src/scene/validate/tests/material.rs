@@ -48,7 +48,7 @@ fn rows_over_temperature() {
                     };
                     heated(s, &[row(20.0, 2e5), nothing]);
                 },
-                "materials.steel.over_temperature.1: says nothing but a temperature",
+                "materials.steel.over_temperature.1: gives only a temperature",
             ),
             (
                 |s| {
