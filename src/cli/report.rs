@@ -471,7 +471,7 @@ impl Report {
         }
         if counts.hard_increments > 0 {
             let hard = counted(counts.hard_increments, "increment");
-            list.push(format!("{hard} not found at once"));
+            list.push(format!("{hard} took more than one attempt"));
         }
         self.labelled("Counts", &list.join(", "));
         if results.timings.is_empty() {

@@ -44,7 +44,7 @@ pub(super) fn write(staging: &Staging, model: &Model) -> Result<()> {
         };
     }
     let head = format!(
-        "# As it was run by brinell {}, everything that was put over the scene file included.\n\n",
+        "# The scene as brinell {} ran it, with all overrides.\n\n",
         env!("CARGO_PKG_VERSION")
     );
     let text = scene.to_toml()?;

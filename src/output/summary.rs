@@ -266,6 +266,7 @@ impl Summary {
             accuracy: self.accuracy,
             warnings: self.warnings,
             resumed: self.resumed,
+            ranks: self.ranks,
             incomplete: self.incomplete.map(|why| Incomplete {
                 kind: ErrorKind::Analysis,
                 why,

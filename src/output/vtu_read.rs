@@ -142,7 +142,9 @@ impl<'a> StateFiles<'a> {
                 let number = u64::from_le_bytes(*id);
                 let id = usize::try_from(number).ok().filter(|id| *id < n);
                 let Some(id) = id else {
-                    let why = format!("`{name}` has a value of number {number} of {n}");
+                    let why = format!(
+                        "`{name}` has a value for item {number}, but the mesh has only {n}"
+                    );
                     return Err(does_not_fit(path, &why));
                 };
                 whole[size * id..][..size].copy_from_slice(item);

@@ -107,8 +107,9 @@ pub(super) fn warn_of_slow_kernels() {
 pub fn slow_kernels() -> Option<String> {
     let better = better_kernels()?;
     Some(format!(
-        "OpenBLAS computes with its kernels for {}, which use less than this processor has: set \
-         {KERNEL_SETTING}={better} before the process begins, and it is up to four times faster",
+        "OpenBLAS uses its kernels for {}, which leave vector instructions of this processor \
+         unused: set {KERNEL_SETTING}={better} before the process begins, and it is up to four \
+         times faster",
         blas::kernels()?
     ))
 }

@@ -178,7 +178,7 @@ impl SymbolicFactor {
         }
         let numbers = variables.numbers(trailing.len());
         memory::require(
-            "pattern of the whole matrix, of which one rank finds the order,",
+            "ordering of the whole matrix on one rank",
             pattern_bytes(matrix.entries_by_rank()),
         )?;
         let (order_name, order) = variables.order(matrix)?;
@@ -300,7 +300,7 @@ fn require_memory(needed: &[f64], by_rank: &[Analysed]) -> Result<()> {
     }
     match machines.iter().find(|(_, (_, needed, left))| needed > left) {
         Some((name, (ranks, needed, left))) => Err(Error::analysis(format!(
-            "out of memory: what the {ranks} ranks on `{name}` have to hold {}",
+            "out of memory: the group of {ranks} ranks on `{name}` {}",
             figures(*needed, *left)
         ))),
         None => Ok(()),

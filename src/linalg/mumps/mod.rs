@@ -252,7 +252,7 @@ impl RemainingMatrix {
         let schur = self.analysis.as_ref().map(SymbolicFactor::unknown);
         let m = schur.as_ref().map_or(0, |schur| schur.freedoms.len()) as f64;
         // The pattern, and its copies in the analysis.
-        memory::require("matrix of what the ranks leave to the first", 24.0 * m * m)?;
+        memory::require("matrix that remains on the first rank", 24.0 * m * m)?;
         let mut cost = cholmod::predict(&self.matrix(schur), &self.partition)?;
         let mut by_rank = self.columns.clone();
         by_rank[0] += cost.memory_bytes;

@@ -183,7 +183,7 @@ pub(super) fn perform(task: Task, host: &mut Host) -> Vec<u8> {
 fn evaluated(evaluate: Option<Evaluate>, bytes: &[u8]) -> std::result::Result<Vec<u8>, String> {
     match evaluate {
         Some(evaluate) => evaluate(bytes).map_err(|error| error.to_string()),
-        None => Err("nothing says how to answer".into()),
+        None => Err("this rank has no function that answers the request".into()),
     }
 }
 

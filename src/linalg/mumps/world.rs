@@ -139,7 +139,9 @@ impl World {
         mut task: impl FnMut(usize) -> Task,
         host: &mut Host,
     ) -> Result<Vec<T>> {
-        let garbled = |cause: postcard::Error| Error::internal("a message of ranks").because(cause);
+        let garbled = |cause: postcard::Error| {
+            Error::internal("a message between ranks cannot be written or read").because(cause)
+        };
         let _turn = calls();
         if self.rank > 0 {
             return Err(Error::input(format!(

@@ -31,8 +31,8 @@ pub(super) fn table(results: &Results) -> Markup {
             table {
                 thead { tr {
                     th.n scope="col" { "cycle" }
-                    th.n scope="col" { "most plastic strain that flowed" }
-                    th.n scope="col" { "most that stayed" }
+                    th.n scope="col" { "largest plastic strain gained in the cycle" }
+                    th.n scope="col" { "largest change of a plastic strain over the cycle" }
                 } }
                 tbody {
                     @for each in begin { (row(each)) }

@@ -235,7 +235,7 @@ fn story(header: &RunHeader, model: &Model, results: &Results, labels: &Labels) 
     }
     if let Some(last) = results.states.last().filter(|s| s.residual_depth > 0.0) {
         text.push_str(&format!(
-            "Without load a dent {} deep stays.",
+            "A dent {} deep remains without load.",
             quantity(last.residual_depth, labels.length())
         ));
     }
@@ -321,7 +321,7 @@ fn pictures(all: &PageFigures) -> Markup {
         @let films = film::of(&all.states);
         @if !films.is_empty() {
             h3 { "The states one after the other" }
-            p.quiet { "A pointer that rests on a picture halts it." }
+            p.quiet { "Rest the pointer on a picture to pause it." }
             (figures(&films, "figures three"))
         }
     }

@@ -216,7 +216,7 @@ fn on_nodes(model: &Model, action: NodeAction, labels: &Labels) -> String {
             format!("displacement {}", given.collect::<Vec<_>>().join(", "))
         }
         NodeAction::Relative(relative) => format!(
-            "displacement along {}, {} more than of what it follows",
+            "displacement along {}, {} more than that of the set it follows",
             axis(model, relative.direction),
             stated(&relative.value.into(), labels.length())
         ),
@@ -406,7 +406,7 @@ pub(super) fn cost(header: &RunHeader, results: &Results) -> Markup {
         ("plastic iterations", counts.plastic_iterations),
         ("changes of contact", counts.contact_changes),
         (
-            "increments that were not found at once",
+            "increments that took more than one attempt",
             counts.hard_increments,
         ),
     ];
