@@ -1,7 +1,7 @@
 //! Tree of balls that finds the items near a line or nearest to a point.
 //!
-//! Ball trees: S. M. Omohundro, *Five balltree construction algorithms*, ICSI TR-89-063 (1989); of
-//! the five, the algorithm that cuts the longest axis at the median.
+//! Ball trees: S. M. Omohundro, *Five balltree construction algorithms*, ICSI TR-89-063 (1989). Of
+//! the five algorithms, the one used here cuts the longest axis at the median.
 
 use crate::space::{Vector, difference, dot, length};
 use serde::{Deserialize, Serialize};
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 /// Largest number of items of a leaf.
 const LEAF: usize = 4;
 
-/// Balls around items, and a tree of balls around these.
+/// Balls around items, and a tree of larger balls that enclose them.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Balls {
     /// Centre and radius of each item.
@@ -154,8 +154,8 @@ impl Balls {
         least
     }
 
-    /// Finds the items that come nearer than `reach` to the line through a point along a unit
-    /// vector, ascending.
+    /// Finds the items that come nearer than `reach` to the line through `point` along the unit
+    /// vector `way`, in ascending order of their numbers.
     pub(crate) fn near(&self, point: Vector, way: Vector, reach: f64) -> Vec<usize> {
         let mut found = Vec::new();
         self.visit(point, way, reach, |item| found.push(item));

@@ -10,15 +10,16 @@
 //! A row is any linear combination of freedoms: the relative normal displacement of two nodes, or
 //! of a node and a point between others. The freedoms that occur in rows are the contact freedoms
 //! `c`; `K` is condensed on them to `C`. The row displacements `s = B u_c` replace one freedom of
-//! each row, its follower; the other contact freedoms are the leaders `v`. Eliminating `v`, as in
-//! scenes, gives
+//! each row, its follower; the other contact freedoms are the leaders `v`. Eliminating `v`, as is
+//! done for scenes, gives
 //!
 //! ```text
 //!     r = t - T s = q + T g,    q = t - T delta
 //! ```
 //!
 //! which is the problem of [`crate::contact`]. Plastic strains are loads like any others:
-//! `f + sum of B_e' D eps_p` over the elements.
+//! `f + sum of B_e' D eps_p` over the elements, with the strain-displacement matrix `B_e` of each
+//! element.
 
 mod arrays;
 mod displacements;
@@ -64,7 +65,8 @@ const CANCELLED: f64 = 1e-12;
 /// let rows = [vec![(2, 1.0)]];
 /// let mut structure = ConstrainedStructure::new(Backend::default(), &stiffness, &rows, &[1.0])?;
 ///
-/// // Pulled by a force that grows to 2: the wall is met at a third, then it carries the rest.
+/// // A force that grows to 2 pulls the last node. The node meets the wall at a force of 1/3; the
+/// // wall carries the rest.
 /// structure.start(&[0.0, 0.0, 1.0])?;
 /// let event = structure.step(2.0)?;
 /// assert_eq!(event.changes, [Change::Closes(0)]);
@@ -72,7 +74,8 @@ const CANCELLED: f64 = 1e-12;
 /// structure.step(2.0)?;
 /// assert!((structure.forces()[0] - 5.0 / 3.0).abs() < 1e-12);
 ///
-/// // Or at once, under any load: plastic strains as initial loads among them.
+/// // Contact can also be solved at once, under any load, such as the initial loads of plastic
+/// // strains.
 /// structure.solve(&[0.0, 3.0, 0.0])?;
 /// let mut u = [0.0; 3];
 /// structure.displacements(&mut u)?;
@@ -107,9 +110,10 @@ impl ConstrainedStructure {
     /// initial state is the one without load.
     ///
     /// # Errors
-    /// [`crate::ErrorKind::Input`] if sizes, freedoms or values do not fit, or if rows depend on
-    /// each other; [`crate::ErrorKind::Unheld`], naming the freedom, if the structure is not held
-    /// even with all rows closed; backend limits.
+    /// [`crate::ErrorKind::Input`] if sizes, freedoms or values do not fit, or if the rows are
+    /// linearly dependent; [`crate::ErrorKind::Unheld`], naming the freedom, if the structure is
+    /// not held even with all rows closed; an error of the backend if the structure exceeds one of
+    /// its limits.
     pub fn new(
         backend: Backend,
         stiffness: &SymmetricCsc,
@@ -197,8 +201,8 @@ impl ConstrainedStructure {
         self.gaps.len()
     }
 
-    /// Contact freedoms, ascending, which number the rows and columns of
-    /// [`ConstrainedStructure::condensed_stiffness`].
+    /// Contact freedoms, in ascending order. The rows and columns of
+    /// [`ConstrainedStructure::condensed_stiffness`] belong to them in this order.
     pub fn contact_freedoms(&self) -> &[usize] {
         &self.partition.contact
     }
@@ -242,14 +246,14 @@ impl ConstrainedStructure {
         &self.state.force
     }
 
-    /// Shares [`ConstrainedStructure::gaps`] without a copy. The shared values remain those of the
-    /// current state when the structure moves on.
+    /// Shares [`ConstrainedStructure::gaps`] without a copy. The shared values do not change when
+    /// the structure moves on to another state.
     pub fn shared_gaps(&self) -> Arc<Vec<f64>> {
         Arc::clone(&self.state.gap)
     }
 
-    /// Shares [`ConstrainedStructure::forces`] without a copy. The shared values remain those of
-    /// the current state when the structure moves on.
+    /// Shares [`ConstrainedStructure::forces`] without a copy. The shared values do not change when
+    /// the structure moves on to another state.
     pub fn shared_forces(&self) -> Arc<Vec<f64>> {
         Arc::clone(&self.state.force)
     }

@@ -24,12 +24,12 @@ pub enum ErrorKind {
     Analysis,
     /// The load passed the limit load; the message names the load held previously. Exit code 6.
     Collapse,
-    /// The run ended, but a state's quality misses its tolerance, a contact presses that a load has
-    /// opened far, displacements are not small although the deck asks for large ones, or a demanded
-    /// accuracy was not reached; or a family of the selftest failed. Exit code 7.
+    /// The run ended, but a state's quality misses its tolerance, a contact presses although a load
+    /// has opened it far, displacements are not small although the deck asks for large ones, or a
+    /// demanded accuracy was not reached; or a family of the selftest failed. Exit code 7.
     Inaccurate,
-    /// Contact reached the end of its surfaces although the bodies go on there; earlier results are
-    /// right. Exit code 8.
+    /// Contact reached the end of its surfaces although the bodies continue beyond it; earlier
+    /// results are right. Exit code 8.
     Outgrown,
     /// The caller or the user stopped the run. Exit code 130; the program itself returns 128 plus
     /// the number of the signal.

@@ -26,7 +26,7 @@
 //! # fn main() -> brinell::Result<()> {
 //! let scene = Scene::load("data/scenes/contact_patch.toml")?;
 //! let results = Analysis::new(Model::new(&scene)?, Backend::default())?.run(&mut Silent)?;
-//! // A uniform pressure is passed on by the contact as it is.
+//! // The contact transmits a uniform pressure unchanged.
 //! assert!((results.states[0].max_pressure - 10.0).abs() < 1e-9);
 //! # Ok(())
 //! # }
@@ -42,8 +42,8 @@
 //! | list what is reported, or add to it | [`results::QUANTITIES`] |
 //! | compare with what the scene names | [`reference::compare`] |
 //! | solve contact on a stiffness of one's own | [`constrained::ConstrainedStructure`] |
-//! | know how wrong a number is, or say how wrong it may be | [`accuracy::estimate()`], [`accuracy::reach()`] |
-//! | know whether a run kept what was asked of it | [`results::Results::ending`] |
+//! | estimate the error of a number, or demand an accuracy | [`accuracy::estimate()`], [`accuracy::reach()`] |
+//! | know whether a run met all requirements | [`results::Results::ending`] |
 //! | compare with closed forms | [`analytical`] |
 //!
 //! The library never prints, never ends the process and holds no global state; everything that can
@@ -55,7 +55,7 @@
 //! - `cholmod` (default): condense with CHOLMOD of SuiteSparse, which must be installed with its
 //!   headers (and libclang, to read them). Its supernodal module is GPL-2.0-or-later, and so is any
 //!   program that is linked with it.
-//! - `faer`: condense with faer, in pure Rust, at full size without any system library
+//! - `faer`: condense with faer, in pure Rust, for models of any size without any system library
 //!   (`default-features = false, features = ["faer"]`), MIT or Apache-2.0.
 //! - `capi`: the C interface (`ffi/include/brinell.h`; `make install` builds the libraries with
 //!   it).
@@ -73,7 +73,7 @@
 //! Semantic versioning, as described in CONTRIBUTING.md under "Versions".
 #![warn(missing_docs)]
 
-// Blank lines keep the modules in the order of the data: rustfmt sorts adjacent lines.
+// Blank lines keep the modules in the order of the data flow: rustfmt sorts adjacent lines.
 mod text;
 
 mod number;

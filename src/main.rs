@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The allocator of the system. If memory runs out, the program reports how much was requested and
-/// ends with an exit code of its own; without this allocator Rust would abort it.
+/// ends with an exit code of its own; without this allocator Rust would abort the program.
 struct OrEnd;
 
 #[global_allocator]

@@ -51,7 +51,7 @@ pub(crate) fn trimmed(value: f64, digits: usize) -> String {
     format!("{mantissa}{exponent}")
 }
 
-/// Formats with six significant digits for tables; `none` if the value is not finite, as 0 / 0.
+/// Formats with six significant digits for tables; `none` if the value is not finite.
 #[cfg(feature = "report")]
 pub(crate) fn number(value: f64) -> String {
     if value.is_finite() {
@@ -76,7 +76,7 @@ pub(crate) fn percent(share: f64) -> String {
     }
 }
 
-/// Formats as [`percent`] does, without the sign, for sentences that contain it.
+/// Formats as [`percent`] does, without the per cent sign, for sentences that contain the sign.
 pub(crate) fn percentage(share: f64) -> String {
     significant(100.0 * share, 2)
 }

@@ -82,7 +82,7 @@ impl Drop for Restore {
 fn keep_silent_inside() {
     let before = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        // Without a value the thread is being torn down, so it is not inside a call.
+        // If the value cannot be read, the thread is being torn down and is not inside a call.
         let inside = DEPTH.try_with(Cell::get).unwrap_or(0) > 0;
         let for_a_call =
             rayon::current_thread_index().is_some() && CALLS.load(Ordering::SeqCst) > 0;

@@ -92,8 +92,8 @@ fn at_yield(
     ]
 }
 
-/// Returns the contact modulus of the first two bodies, and nu and yield stress of the body that
-/// yields first; none if a yield stress depends on depth.
+/// Returns the contact modulus of the first two bodies, and Poisson's ratio and yield stress of the
+/// body that yields first; `None` if a yield stress depends on depth.
 fn moduli(model: &Model) -> Option<(f64, f64, f64)> {
     if model.yield_by_depth.iter().any(Option::is_some) {
         return None;

@@ -55,7 +55,7 @@ use std::borrow::Cow;
 pub struct Results {
     /// Numbers of nodes, elements, freedoms and contact pairs.
     pub sizes: Sizes,
-    /// Names of the bodies, in the order of the figures of each body.
+    /// Names of the bodies, in the order of all lists that have one value per body.
     pub bodies: Vec<String>,
     /// The effects that were simulated or not, and why.
     pub effects: Vec<Effect>,
@@ -73,8 +73,8 @@ pub struct Results {
     /// `contact_1.approach`, `contact_1.force`, `contact_1.area`, `top.displacement_y`,
     /// `top.force_y`, ...
     pub history_columns: Vec<String>,
-    /// Points of the path between the rows of the history, at places where its figures bend: for
-    /// curves.
+    /// Points of the load path between the rows of the history, at places where a curve of the path
+    /// bends; for plots.
     pub path: Vec<PathPoint>,
     /// Seconds by phase, in order of execution.
     pub timings: Vec<(String, f64)>,
@@ -82,9 +82,9 @@ pub struct Results {
     pub counts: Counts,
     /// Worst figures over all states.
     pub quality: Quality,
-    /// Lower bound of the condition of the factored matrix, rows and columns scaled to a unit
-    /// diagonal: the largest loss of a pivot to cancellation, over all factorisations of the run.
-    /// Relative errors of displacements may be this times round-off.
+    /// Lower bound of the condition number of the factored matrix, rows and columns scaled to a
+    /// unit diagonal: the largest loss of a pivot to cancellation, over all factorisations of the
+    /// run. Relative errors of displacements may be as large as this number times round-off.
     pub condition: f64,
     /// Estimated condition of the same matrix, usually right to a factor of three. It is computed
     /// if the scene asks for it (`analysis.condition`), a state is inaccurate, or the lower bound
@@ -222,9 +222,7 @@ pub struct EdgeReading {
 
 impl EdgeReading {
     /// Number of pairs at the edge, the last closed one included, of which only the total force is
-    /// trusted: the share of each depends on where in the facet the contact ends (on Hertz's line
-    /// contact the last two pairs put the edge off by 0.08 and -0.06 elements, those before by
-    /// 0.01).
+    /// trusted: the share of each depends on where in the facet the contact ends.
     pub(crate) const AT_EDGE: usize = 2;
 
     /// Whether the contact of this half width ends inside the surfaces, where pressures show its
@@ -239,7 +237,7 @@ impl EdgeReading {
 pub struct State {
     /// Name of the state, from the scene or made from the target.
     pub name: String,
-    /// Load factor in the program's unit.
+    /// Load factor, in the unit of the load program.
     pub alpha: f64,
     /// Number of increments up to the state: rows of the history.
     #[serde(default)]
@@ -280,8 +278,9 @@ pub struct State {
     pub contact_arc: Option<[f64; 2]>,
     /// The dent that the plastic strains leave once all loads and contact forces have vanished: the
     /// largest distance by which the two surfaces of a contact have moved away from each other,
-    /// each measured from its undeformed shape. Rigid motion is that of the far boundary: the
-    /// supports, or for a body without supports the surface through which it is loaded.
+    /// each measured from its undeformed shape. The rigid motion of a body is that of its far
+    /// boundary: the supports, or for a body without supports the surface through which it is
+    /// loaded.
     pub residual_depth: f64,
     /// Each body's share in [`State::residual_depth`]: depth of its surface below the undeformed
     /// one at the deepest place of its contacts. The shares of two bodies in one contact add up to
@@ -297,11 +296,11 @@ pub struct State {
     /// Largest equivalent plastic strain at a Gauss point.
     pub max_equivalent_plastic_strain: f64,
     /// Amount by which the equivalent plastic strain may be larger between the outermost Gauss
-    /// points and the surface, by the slope over the points of each element.
+    /// points and the surface, extrapolated with the slope over the points of each element.
     #[serde(default)]
     pub plastic_strain_reading: f64,
-    /// Area (axisymmetric or solid: volume) of the whole body whose Gauss points have plastic
-    /// strain.
+    /// Size of the plastic zone of the whole body: the area (axisymmetric or solid: volume) of the
+    /// Gauss points that have plastic strain.
     pub plastic_zone_size: f64,
     /// Size of a layer of Gauss points along the border of the plastic zone, which is the
     /// resolution of [`State::plastic_zone_size`].

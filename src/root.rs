@@ -26,7 +26,8 @@ pub(crate) struct RootTolerance {
 }
 
 impl RootTolerance {
-    /// Goes on until no double lies within the bracket: the same root in whatever way it is found.
+    /// Ends only when no double lies within the bracket, so that the root does not depend on how it
+    /// is found.
     pub(crate) const ROUND_OFF: RootTolerance = RootTolerance {
         value: f64::NEG_INFINITY,
         place: 0.0,

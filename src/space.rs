@@ -171,8 +171,8 @@ impl Space {
 }
 
 impl RigidMotion {
-    /// Displacement at a distance `arm` from the fixed point: the unit vector along the axis of a
-    /// translation, or the displacement of a unit rotation.
+    /// Displacement at the position `arm` relative to the fixed point: the unit vector along the
+    /// axis of a translation, or the displacement of a unit rotation.
     pub fn displacement(self, arm: Vector) -> Vector {
         match self {
             RigidMotion::Along(axis) => unit(axis),

@@ -95,9 +95,9 @@ impl Substructure {
         })
     }
 
-    /// Changes the zone. Within the factored zone freedoms are only selected (the backend may keep
-    /// more of them); for other freedoms the structure is condensed anew. Returns whether it was
-    /// condensed.
+    /// Changes the zone. Within the factored zone, freedoms are only selected (the backend may keep
+    /// more of them than are given); for other freedoms the structure is condensed anew. Returns
+    /// whether the structure was condensed anew.
     ///
     /// # Errors
     /// Errors of [`Substructure::new`].
@@ -347,9 +347,9 @@ impl Substructure {
     }
 }
 
-/// Cost of the dense part of contact, known from the model alone. A group of `p` rows and `m`
-/// leaders that bodies join takes `m^3 / 3 + m^2 p + m p^2` operations once, because no matrix of
-/// the method has zeros there.
+/// Cost of the dense part of contact, known from the model alone. A group of pairs that are joined
+/// by bodies, with `p` rows and `m` leaders, takes `m^3 / 3 + m^2 p + m p^2` operations once,
+/// because no matrix of the method has zeros there.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct ContactCost {
     /// Number of contact pairs.
@@ -412,9 +412,9 @@ impl ContactCost {
     }
 }
 
-/// The stiffness's own diagonal on the contact freedoms of bodies that supports do not hold, zero
-/// elsewhere. A rigid surface has no stiffness of its own and gets the largest diagonal entry of
-/// all contact freedoms.
+/// Shift of the diagonal on the contact freedoms: the stiffness's own diagonal on the freedoms of
+/// bodies that supports do not hold, zero elsewhere. A rigid surface has no stiffness of its own
+/// and gets the largest diagonal entry of all contact freedoms.
 fn shift(model: &Model, system: &System, partition: &Partition) -> Vec<f64> {
     let own = |freedom: &usize| system.stiffness.diagonal(*freedom);
     let floats = &model.floating.of_contact;

@@ -14,12 +14,14 @@ pub(crate) fn shown(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// Escapes as [`shown`] does, for a name or title of one line: line breaks and tabs as well.
+/// Escapes as [`shown`] does, for a name or title of one line: line breaks and tabs are escaped
+/// too. Numbers are not shortened.
 pub(crate) fn shown_in_line(text: &str) -> Cow<'_, str> {
     written_out(text, |c| is_obeyed(c) || matches!(c, '\n' | '\t'), escape)
 }
 
-/// Escapes as [`shown`] does, in the notation of JSON, so that its reader gets the character back.
+/// Escapes as [`shown`] does, in the notation of JSON, so that a reader of the JSON text gets the
+/// characters back. Numbers are not shortened.
 #[cfg(feature = "cli")]
 pub(crate) fn shown_json(text: &str) -> Cow<'_, str> {
     written_out(text, is_obeyed, |c, out| {

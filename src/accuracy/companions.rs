@@ -14,15 +14,18 @@ const COARSER: [f64; 4] = [1.5, 2.0, 3.0, 4.0];
 /// Ratios of the element sizes of finer meshes to that of the run, for a run that is too coarse to
 /// have coarser companions.
 const FINER: [f64; 4] = [1.0 / 1.5, 0.5, 1.0 / 3.0, 0.25];
-/// Least ratio of two element sizes: meshes nearer to each other differ by how numbers are rounded.
+/// Least ratio of two element sizes: meshes nearer to each other differ only by the rounding of
+/// their numbers of elements.
 const LEAST_RATIO: f64 = 1.15;
-/// Number of closed pairs on a side of a contact that its edge is read from: the last two, and the
-/// four before them, to which the pressure is fitted ([`crate::results::EdgeReading`]).
+/// Number of closed pairs on a side of a contact that the reading of the contact's edge needs: the
+/// last two, and the four before them, to which the pressure is fitted
+/// ([`crate::results::EdgeReading`]).
 pub(super) const READABLE: usize = 6;
-/// Number of closed pairs over the smaller half axis of a patch of solids that its area is read
-/// from: the last pair, two that are trusted, and the middle.
+/// Number of closed pairs over the smaller half axis of a patch of solids that the reading of its
+/// area needs: the last pair, two pairs whose pressures are trusted, and the pair in the middle.
 const READABLE_PATCH: usize = 4;
-/// Ratio for the nearest coarser mesh of solids, if no other can be read: five elements for six.
+/// Ratio for the nearest coarser mesh of solids, if the contact cannot be read on coarser ones:
+/// five elements for six.
 const NEARER: f64 = 1.2;
 /// Largest time that the other runs of an estimate may take together by default, as a multiple of
 /// the time of the run itself.
@@ -115,9 +118,9 @@ fn wanted(scene: &Scene, elements: usize, can_be_read: impl Fn(f64) -> bool) -> 
     found.companions("subdivided, the mesh would take many times the run")
 }
 
-/// Chooses the nearest two coarser meshes that take no more than [`QUICK`] times the run, together
-/// with the estimate of the path's error on the coarser one. Meshes on which the contact can be
-/// read are preferred.
+/// Chooses the nearest two coarser meshes for which all further runs together take no more than
+/// [`QUICK`] times the run. These include the run that estimates the path's error on the coarser
+/// mesh. Meshes on which the contact can be read are preferred.
 fn cheap(scene: &Scene, can_be_read: impl Fn(f64) -> bool) -> Companions {
     let mut found = MembersFound::new(scene);
     for ratio in COARSER {
@@ -215,8 +218,8 @@ fn finest(scene: &Scene, elements: usize) -> f64 {
     if 16 * elements <= most { 0.25 } else { 0.5 }
 }
 
-/// Describes what the error estimate of a run will do and what time it will take. As this is told
-/// before the run, contacts are assumed to be readable on coarser meshes.
+/// Describes what the error estimate of a run will do and what time it will take. The description
+/// is given before the run, so contacts are assumed to be readable on coarser meshes.
 pub fn planned(scene: &Scene, elements: usize, effort: Effort) -> String {
     if effort == Effort::None {
         return "not estimated".to_string();

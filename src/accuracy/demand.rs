@@ -33,8 +33,8 @@ use crate::scene::{AccuracyDemand, Scene};
 use std::collections::BTreeMap;
 use std::time::Instant;
 
-/// Element size of the first mesh over that of the scene's mesh: a thirtieth of the elements in the
-/// plane, and almost no time.
+/// Element size of the first mesh over that of the scene's mesh. The first mesh has a thirtieth of
+/// the elements in the plane and takes almost no time.
 const COARSEST: f64 = 6.0;
 /// Least and largest ratio of the element sizes of neighbouring meshes, and (`STEP`) the ratio if
 /// nothing is known. The runs of a plane sequence in steps of [`STEP`] together take 1.6 times the
@@ -352,9 +352,9 @@ impl Pursuit {
         Next::Finer(by.clamp(STEPS[0], STEPS[1]))
     }
 
-    /// Returns a quantity without a limit: its meshes show no believable order, and over a ratio of
-    /// element sizes of [`WITHOUT_LIMIT`] its stated error fell more slowly than with the lowest
-    /// such order.
+    /// Returns a quantity without a limit: its meshes show no order of at least [`LEAST_ORDER`],
+    /// and over a ratio of element sizes of [`WITHOUT_LIMIT`] its stated error fell more slowly
+    /// than with that order.
     fn without_limit(&mut self, outcome: &Outcome, ratio: f64, is_judged: bool) -> Option<String> {
         let mut slow = BTreeMap::new();
         for missed in outcome.missed.iter().filter(|_| is_judged) {
@@ -421,7 +421,8 @@ impl Pursuit {
 }
 
 impl MeshRun {
-    /// A mesh whose run ended before its program did: nothing is known of the errors.
+    /// Builds the record of a mesh whose run ended before its load program did: nothing is known of
+    /// the errors.
     fn unjudged(reached: Reached) -> Self {
         let outcome = Outcome {
             stated: f64::NAN,

@@ -9,7 +9,7 @@ pub enum Effort {
     /// No more time than the run itself.
     #[default]
     Quick,
-    /// The time of two meshes on which every figure of the run can be read, however long.
+    /// The time of two meshes that are fine enough to read every figure of the run, however long.
     Full,
     /// No error estimate.
     None,

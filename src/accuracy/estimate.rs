@@ -345,8 +345,9 @@ fn algebraic_error(run: &Judged, quantity: &Quantity) -> f64 {
     relative * quantity.scale
 }
 
-/// A note on targets by half width or another figure. Each mesh reaches such a target at a load of
-/// its own, and the error of this load is in all figures of this state and of the states after it.
+/// Returns a note on targets that are given by half width or another figure instead of a load. Each
+/// mesh reaches such a target at a load of its own, and the error of this load is in all figures of
+/// this state and of the states after it.
 fn said_by_load(scene: &Scene, quantities: &[QuantityError]) -> Option<String> {
     let labels = scene.program.labels();
     let targets = scene.program.targets.iter().zip(&labels);

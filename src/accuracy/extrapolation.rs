@@ -143,8 +143,9 @@ fn by_fit(values: &[(f64, f64)], formal: f64, free: &FittedLaw, is_reliable: boo
     (uncertainty.max(least), fit.limit)
 }
 
-/// Uncertainty and limit for the first of at least four values, from its distance to the limit of
-/// the most likely law and from the half width of the limit's confidence interval.
+/// Uncertainty and limit for the first of at least four values. The uncertainty follows from the
+/// distance of this value from the limit of the most likely law, and from the half width of the
+/// limit's confidence interval.
 fn by_confidence(values: &[(f64, f64)], formal: f64) -> (f64, f64) {
     let steps = ((formal - LEAST_ORDER) / LIKELY_STEP).round() as usize;
     let orders = (0..=steps).map(|i| LEAST_ORDER + LIKELY_STEP * i as f64);
@@ -277,7 +278,7 @@ fn fit(values: &[(f64, f64)], order: f64, weight: impl Fn(f64) -> f64) -> Fitted
 mod tests {
     use super::*;
 
-    /// Sums of twelve evenly distributed numbers: mean 0, variance 1.
+    /// Pseudo-random numbers of mean 0 and variance 1: sums of twelve evenly distributed numbers.
     fn evenly() -> impl FnMut() -> f64 {
         let mut seed = 1u64;
         move || {
@@ -309,10 +310,10 @@ mod tests {
         }
     }
 
-    /// Values with an error of order `p` that scatters by a share of itself: counts how often the
-    /// limit lies within the stated uncertainty. It does so in two thirds of the cases if meshes
-    /// near each other take a law of first order with little scatter for one of higher order,
-    /// otherwise nearly always.
+    /// Values with an error of order `p` that scatters by a fraction of the error: counts how often
+    /// the limit lies within the stated uncertainty. That is nearly always so. For an error of
+    /// first order with little scatter, which meshes near each other can mistake for one of higher
+    /// order, it is so in only two thirds of the cases.
     #[test]
     fn the_limit_is_within_the_uncertainty() {
         let mut noise = evenly();
@@ -404,8 +405,9 @@ mod tests {
         assert!((1e3 * other.uncertainty / found.uncertainty - 1.0).abs() < 1e-6);
     }
     /// Sums of evenly distributed numbers about a straight line: over many sets of five values the
-    /// mean square of the scatter is the variance of the noise, whose relative error is
-    /// `sqrt(2 / (3 N))`, 1.3 %. Without the line's two constants it would be 0.6 of that.
+    /// mean square of the scatter is the variance of the noise, apart from a relative error of
+    /// `sqrt(2 / (3 N))`, 1.3 %. If the two constants of the line were not counted, the mean square
+    /// would be 0.6 of the variance.
     #[test]
     fn the_scatter_about_a_line_is_that_of_the_noise() {
         const N: usize = 4000;

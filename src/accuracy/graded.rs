@@ -21,7 +21,7 @@ const REACH: f64 = 2.0;
 /// refinement that misses the contact does neither.
 const NARROWER: f64 = 0.9;
 
-/// A contact at first yield or in a state, with the number of pairs that carry a side of it.
+/// A contact at first yield or in a state, with the number of closed pairs on a side of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ContactSpot {
     /// Name of the state; `None` for first yield.

@@ -105,7 +105,8 @@ pub struct Setting {
 /// The other knobs are turned on the scene's own mesh.
 pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) -> Vec<Setting> {
     let mut out = of_meshes(scene, backend, knobs, levels);
-    // Up to first yield there is no iteration and no path, so there is nothing to turn in them.
+    // Up to first yield there is no plastic iteration and no path, so their settings change
+    // nothing.
     if scene.any_can_yield() && scene.program.targets.iter().any(|t| !t.first_yield) {
         out.extend(of_path(scene, backend, knobs));
     }
@@ -120,7 +121,8 @@ pub fn settings(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) 
     out
 }
 
-/// Settings of the series of meshes: the scene's element, this with loose tolerances, others.
+/// Settings of the series of meshes: first the scene's element, then the same element with loose
+/// tolerances, then other elements.
 fn of_meshes(scene: &Scene, backend: Backend, knobs: &[Knob], levels: usize) -> Vec<Setting> {
     let own = scene.mesh.shape();
     let name = own.map_or("mesh", Shape::name);

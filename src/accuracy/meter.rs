@@ -82,9 +82,9 @@ const PER_NONZERO: f64 = 250.0;
 /// multiplication and one addition each.
 const PER_SOLVE: f64 = 4.0;
 
-/// Cost of a run in floating point operations: of its factorisations, with the assembly and
-/// analysis before them, and of its solves. It does not depend on the machine, nor on its other
-/// work.
+/// Cost of a run in floating point operations: factorisations, the assembly and analysis before
+/// them, and solves. The cost does not depend on the machine or on other work that the machine
+/// does.
 pub fn work(results: &Results) -> f64 {
     let (counts, factor) = (&results.counts, &results.factor);
     counts.factorizations as f64 * (factor.flops + PER_NONZERO * factor.factor_nonzeros)

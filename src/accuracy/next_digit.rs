@@ -63,8 +63,8 @@ mod tests {
     use super::*;
     use crate::results::Accuracy;
 
-    /// Errors of a body, a set, a place and of a pressure at a point are larger, but a demand on
-    /// all does not include them.
+    /// Errors of a body, of a set, at a place and of a pressure at a point are larger, but a demand
+    /// on all quantities does not include them.
     #[test]
     fn what_a_demand_on_all_counts_is_made_a_tenth() {
         let row = |quantity: &str, share: f64| QuantityError {

@@ -9,8 +9,8 @@ use crate::scene::AccuracyDemand;
 /// The next mesh is chosen for an error of this fraction of the demanded one, so that the demand is
 /// not narrowly missed.
 const AIM: f64 = 0.8;
-/// Fraction of the demand from which on the path is made finer if it limits more than the mesh, and
-/// the fraction that is then aimed at.
+/// Two fractions of the demand. If the error of the path exceeds the first one and the error of the
+/// mesh, the increments are made finer, so that the path's error falls to the second one.
 pub(super) const PATH: [f64; 2] = [0.5, 0.25];
 
 /// A quantity beyond its demand.

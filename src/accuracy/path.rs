@@ -4,12 +4,13 @@
 //! Strains follow a straight line from one end of an increment to the other, and flow is followed
 //! along this line (`material/strain_path.rs`). This leaves an error of second order in the
 //! increments, and of slightly lower order while they are few ([`ORDER`]). With `n` increments the
-//! error is `c/n^p`, and the difference from a run with twice as many increments shows `c`; from a
-//! run with [`FEWEST`] if there were few, or with half as many in a quick estimate. If the stepping
-//! is `events`, changes of contact end the increments, which cannot be divided; the other run then
-//! has fixed steps, or increments by a path error in a quick estimate. All these runs use the
-//! coarsest mesh at hand on which everything yields that yields in the run. The error of the path
-//! hardly depends on the mesh except through the number of increments, by whose ratio it is scaled.
+//! error is `c/n^p`. The constant `c` follows from the difference from a run with twice as many
+//! increments, with [`FEWEST`] increments if the run took few, or with half as many in a quick
+//! estimate. If the stepping is `events`, increments end at changes of contact and cannot be
+//! divided; the other run then has fixed steps, or in a quick estimate increments by a path error.
+//! All these runs use the coarsest mesh at hand on which everything yields that yields in the run.
+//! The error of the path hardly depends on the mesh except through the number of increments, and is
+//! scaled by the ratio of these numbers.
 //!
 //! Where nothing yields there is no such error: elastic contact follows its path exactly from event
 //! to event, and a state depends on its load alone.

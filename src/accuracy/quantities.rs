@@ -90,7 +90,7 @@ fn read_with(key: &str, value: f64, (width, reading): (f64, &EdgeReading)) -> f6
 }
 
 /// All quantities of a run whose error is estimated, as far as the scene has contact and yields:
-/// those at first yield, then those of each state.
+/// the quantities at first yield, then those of each state.
 pub fn quantities(results: &Results) -> Vec<Quantity> {
     let contact = results.sizes.contact_pairs > 0;
     let plastic = results.states.iter().any(|s| s.plastic_points > 0);

@@ -10,9 +10,9 @@ use serde::Serialize;
 /// A setting with its results and its cost.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StudyRun {
-    /// The curve it belongs to.
+    /// The curve that the run belongs to.
     pub series: String,
-    /// What was turned.
+    /// The knob that was turned.
     pub knob: Knob,
     /// New value of the setting, in words.
     pub value: String,

@@ -263,8 +263,8 @@ mod tests {
         let of_yield = all([1, 3]);
         assert!(of_yield.contains(&"yield.load".to_string()));
         assert!(of_yield.iter().all(|path| path.starts_with("yield.")));
-        // If loads are in units of the load at first yield, every state has the unknown error of
-        // that.
+        // If loads are in units of the load at first yield and the error of that load is unknown,
+        // so is the error of the load of every state.
         let passed_on = hidden([1, 3], 0.01, Unit::Yield);
         assert!(passed_on.contains(&"states.pressed.load".to_string()));
     }

@@ -7,8 +7,8 @@
 //! | room | what | paper |
 //! |---|---|---|
 //! | `zone` | elements that may yield, their points and initial loads | 4.1 |
-//! | `structure` | the factored structure under load, and what it answers | 3.7, 3.8, 4.1 to 4.7 |
-//! | `stress` | stresses: recovered, as fields, by ranks, and their error | 3.11, 3.12 |
+//! | `structure` | the factored structure and its response to loads | 3.7, 3.8, 4.1 to 4.7 |
+//! | `stress` | stresses of a state, their recovery between points, their error | 3.11, 3.12 |
 //! | `figures` | what is read off a state: contact, dent, forces, quality | 5 |
 //! | `choice` | which elements may yield in a run | |
 //! | `increments` | along a straight piece of the load path: first yield, elastic and elastoplastic increments | 3.9 to 3.14, 4.3 to 4.23 |

@@ -98,7 +98,8 @@ impl RelativeRadii {
 
 /// Smaller and larger sum of curvatures, and the direction of the smaller one.
 fn principal(k1: [f64; 2], k2: [f64; 2], angle: f64) -> [f64; 3] {
-    // If the principal planes coincide, no differences are needed, in which digits would be lost.
+    // If the principal planes coincide, the curvatures are added without differences, which would
+    // lose digits.
     let aligned = match angle.rem_euclid(180.0) {
         0.0 => Some(k2),
         90.0 => Some([k2[1], k2[0]]),

@@ -10,9 +10,9 @@ use crate::error::Result;
 /// The plastic front stands at `c` under the pressure `p(c) = k [2 ln(c/a) + 1 - c^2/b^2]`,
 /// `k = Y/sqrt(3)`. In the plastic part `s_rr = -k [2 ln(c/r) + 1 - c^2/b^2]`, `s_tt = s_rr + 2 k`;
 /// outside `s_rr = -k c^2 (1/r^2 - 1/b^2)`, `s_tt = k c^2 (1/r^2 + 1/b^2)`; everywhere
-/// `s_zz = (s_rr + s_tt)/2` and, the volume being constant, `u = 3 k c^2/(2 E r)`. The elastic
-/// Poisson ratio of the exact solution is 1/2; below that it is close, not exact. Units are
-/// any consistent ones; displacements are positive outwards.
+/// `s_zz = (s_rr + s_tt)/2` and, the volume being constant, `u = 3 k c^2/(2 E r)`. The solution is
+/// exact for an elastic Poisson's ratio of 1/2 and an approximation for smaller ones. Units are any
+/// consistent ones; displacements are positive outwards.
 ///
 /// # Source
 /// R. Hill, *The Mathematical Theory of Plasticity*, Oxford 1950, ch. V par. 2, pp. 106-114; W.

@@ -105,8 +105,8 @@ impl HertzEllipse {
         }
     }
 
-    /// Load under which the half axis along x (0) or y (1) has the given length; `P` is
-    /// proportional to its cube.
+    /// Load under which the half axis along x (0) or y (1) has the given length. The load is
+    /// proportional to the cube of the length.
     pub fn load_for_semi_axis(&self, axis: usize, length: f64) -> f64 {
         (length / self.semi_axes(1.0)[axis]).powi(3)
     }
@@ -127,12 +127,12 @@ impl HertzEllipse {
         self.max_pressure(load) * x.min(y) * k / self.contact_modulus
     }
 
-    /// Load at which the greatest pressure is `p0`; `P` is proportional to its cube.
+    /// Load at which the greatest pressure is `p0`. The load is proportional to the cube of `p0`.
     pub fn load_for_max_pressure(&self, pressure: f64) -> f64 {
         (pressure / self.max_pressure(1.0)).powi(3)
     }
 
-    /// Load at `approach >= 0`; it is proportional to `approach^(3/2)`.
+    /// Load at `approach >= 0`. The load is proportional to `approach^(3/2)`.
     pub fn load_for_approach(&self, approach: f64) -> f64 {
         (approach / self.approach(1.0)).powf(1.5)
     }

@@ -124,8 +124,9 @@ impl Indentation {
         of_area(stiffness, self.area())
     }
 
-    /// Reduced modulus from measurements in which the contact is not seen, with the area of the
-    /// ball's cap at the depth `h_c = h - 0.75 P/S`. `None` if this depth or area is not positive.
+    /// Reduced modulus from a measurement that does not show the contact area: the area is that of
+    /// the ball's cap at the depth `h_c = h - 0.75 P/S`. `None` if this depth or area is not
+    /// positive.
     ///
     /// # Source
     /// W. C. Oliver, G. M. Pharr, J. Mater. Res. 7 (1992) 1564, doi:10.1557/JMR.1992.1564.

@@ -12,17 +12,17 @@
 //! | cylinder on a half plane (the paper's 5.1) | `hertz_line.rs`: [`HertzLine`] | half width, pressure, stress everywhere, largest shears, first yield for any `nu`, compression of cylinder and half space | Hertz; McEwen 1949; Johnson pp. 99-103, 129-131 |
 //! | ball on a half space | `hertz_point.rs`: [`HertzPoint`] | contact radius, approach, pressure, stress everywhere, first yield for any `nu` | Hertz; Huber 1904; Johnson pp. 60-63, 90-93 |
 //! | bodies of any curvature | `hertz_ellipse.rs`: [`HertzEllipse`] | half axes, approach, pressure, stress below the middle, largest shears, first yield for any `nu` | Hertz; Johnson pp. 84-99; Lundberg and Palmgren 1947 |
-//! | any of these by its radii | `hertz_contact.rs`: [`HertzContact`] | circle, ellipse or line | as they |
+//! | any of the three contacts above, from radii | `hertz_contact.rs`: [`HertzContact`] | circle, ellipse or line | as above |
 //! | disc in a plate (the paper's 5.2) | `disc_in_plate.rs`: [`DiscInPlate`] | contact angle, pressure, gap, stress in both bodies, first yield | derived in the file from Muskhelishvili's potentials |
 //! | pin in a hole | `pin_in_hole.rs`: [`PinInHole`] | contact angle, pressure, with clearance, neat or with interference | Persson 1964; Ciavarella and Decuzzi 2001 |
 //! | hole in a plate | `kirsch.rs`: [`KirschField`] | stress, traction on a cut, displacement | Kirsch 1898; Timoshenko and Goodier par. 35 |
 //! | thick cylinder, elastic | `thick_cylinder.rs`: [`ThickCylinder`] | stress, displacement, first yield, both planes | Lame; Timoshenko and Goodier par. 28 |
 //! | thick cylinder, elastoplastic | `elastoplastic_cylinder.rs`: [`ElastoplasticCylinder`] | front, stress, displacement, residual stress, collapse | Hill ch. V |
-//! | thick sphere, elastoplastic | `thick_sphere.rs`: [`ThickSphere`] | the same, for any `nu` | Hill ch. V |
+//! | thick sphere, elastoplastic | `thick_sphere.rs`: [`ThickSphere`] | front, stress, displacement, residual stress, collapse, for any `nu` | Hill ch. V |
 //! | shaft in a ring | `shrink_fit.rs`: [`ShrinkFit`] | pressure, stress, interference at first yield | Timoshenko |
 //! | flat punches | `flat_punch.rs`: [`FlatPunch`], [`CircularPunch`] | elastic pressure, limit load | Prandtl 1920; Shield 1955 |
-//! | what an indentation is read by | `indentation.rs`: [`Indentation`] | Brinell and Meyer hardness, pile-up, modulus from the unloading stiffness | ISO 6506; Hill et al. 1989; Oliver and Pharr 1992 |
-//! | two bodies as one | `contact_pair.rs`: [`contact_modulus`], [`relative_radius`], [`RelativeRadii`] | contact modulus, relative radii, planes at an angle too | Johnson pp. 85-92 |
+//! | evaluation of an indentation | `indentation.rs`: [`Indentation`] | Brinell and Meyer hardness, pile-up, modulus from the unloading stiffness | ISO 6506; Hill et al. 1989; Oliver and Pharr 1992 |
+//! | constants of a pair of bodies | `contact_pair.rs`: [`contact_modulus`], [`relative_radius`], [`RelativeRadii`] | contact modulus, relative radii, also for principal planes at an angle | Johnson pp. 85-92 |
 //!
 //! The published figures that these closed forms reproduce are in `data/reference`; a test compares
 //! them row by row.

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 #[derive(Serialize, Deserialize)]
 pub(super) struct Elements<'a> {
     continuum: Cow<'a, Continuum>,
-    /// Elements whose displacements are weighted sums of other slots than those of their nodes.
+    /// Elements whose nodal displacements are weighted sums of the displacements at other slots.
     sums: BTreeMap<usize, Sums>,
     springs: Vec<f64>,
     /// Number of freedoms.

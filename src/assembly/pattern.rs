@@ -8,7 +8,7 @@ const BLOCK: usize = 4096;
 /// Number of rows for which each column gets room at first: that of bilinear elements.
 const ROWS_EXPECTED: usize = 10;
 
-/// For each freedom the elements that hold it.
+/// For each freedom, the elements that act on it.
 #[derive(Debug, Clone)]
 pub(super) struct Incidence {
     starts: Vec<usize>,
@@ -39,7 +39,7 @@ impl Incidence {
         Incidence { starts, entries }
     }
 
-    /// Elements that hold a freedom, ascending, each with the local number of the freedom.
+    /// Elements that act on a freedom, ascending, each with the local number of the freedom.
     pub(super) fn elements(&self, freedom: usize) -> &[(u32, u16)] {
         &self.entries[self.starts[freedom]..self.starts[freedom + 1]]
     }

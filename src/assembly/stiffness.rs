@@ -44,7 +44,7 @@ impl Elements<'_> {
         SymmetricCsc::new_csc((n, n), pointers, rows, values)
     }
 
-    /// For each freedom, whether the same elements hold it as hold the freedom before.
+    /// For each freedom, whether the same elements act on it as on the freedom before.
     #[cfg(feature = "mumps")]
     pub(super) fn continued(&self) -> Vec<bool> {
         let incidence = Incidence::new(self);

@@ -6,7 +6,7 @@ use crate::panics::contained;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
 
-/// The call did what it was asked for.
+/// The call succeeded.
 pub const BRINELL_OK: i32 = 0;
 /// An argument, the scene or the mesh is wrong, or asks for an effect that brinell does not have.
 pub const BRINELL_INPUT: i32 = 2;
@@ -21,7 +21,7 @@ pub const BRINELL_COLLAPSE: i32 = 6;
 /// The run is complete, but a state's quality misses its tolerance, an accuracy that the scene
 /// demands was not reached, or the message names another reason not to trust the results.
 pub const BRINELL_INACCURATE: i32 = 7;
-/// Contact reached the end of its candidates although the bodies go on there.
+/// Contact reached the end of the contact candidates, although the bodies extend beyond it.
 pub const BRINELL_OUTGROWN: i32 = 8;
 /// A fault of brinell itself.
 pub const BRINELL_INTERNAL: i32 = 70;
@@ -32,7 +32,7 @@ thread_local! {
     static LAST_ERROR: RefCell<CString> = RefCell::new(CString::default());
 }
 
-/// The reason of the last failure in this thread, UTF-8; empty before the first one. Valid until
+/// The message of the last failure in this thread, UTF-8; empty before the first one. Valid until
 /// the next failure in this thread.
 #[unsafe(no_mangle)]
 pub extern "C" fn brinell_last_error() -> *const c_char {

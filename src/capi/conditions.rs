@@ -11,13 +11,13 @@ use serde::Deserialize;
 use serde::de::DeserializeOwned;
 use std::ffi::c_char;
 
-/// Adds tables of a scene (TOML text): materials, bodies, contact, tie, equation, support, load,
-/// program, analysis, units, title; whatever a scene file may say but for `kind`, `symmetry`
-/// and `mesh`. Materials, bodies, contacts, ties, equations, supports and loads come to those that
-/// are there, the others take their place. A model without a target has load factor 1 as one.
+/// Adds tables of a scene (TOML text): materials, bodies, rigid, contact, tie, equation, support,
+/// load, program, analysis, units, title. Materials, bodies, rigid surfaces, contacts, ties,
+/// equations, supports and loads are added to the existing ones; the other tables replace the
+/// existing ones. A model without a target gets one target, at load factor 1.
 ///
 /// # Safety
-/// `model` is a living handle, `tables` ends with a zero.
+/// `model` is a living handle, `tables` ends with a zero byte.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_tables(
     model: *mut brinell_model,
@@ -33,16 +33,16 @@ pub unsafe extern "C" fn brinell_model_tables(
 }
 
 /// Lets two surfaces touch at n given pairs of nodes. `contact` has the keys of a `[[contact]]`
-/// table (TOML text): `first`, `second` and what else is given. Nodes of the surfaces that are in
-/// no pair do not touch.
+/// table (TOML text): `first`, `second` and any other keys. Nodes of the surfaces that are in no
+/// pair do not touch.
 ///
-/// `normals` are n x 2, of a solid n x 3, directions from the second body to the first; NULL for
-/// the second surface's outward normals. `gaps` are n gaps >= 0; NULL for the contact's `gap`, or
-/// the geometric ones.
+/// `normals` holds the direction of each pair from the second body to the first, n x 2 components
+/// (n x 3 in a solid); NULL for the outward normals of the second surface. `gaps` holds n gaps >=
+/// 0; NULL for the contact's key `gap` or, without this key, for the geometric gaps.
 ///
 /// # Safety
-/// `model` is a living handle, `contact` ends with a zero, the arrays have so many values or are
-/// NULL where they may be.
+/// `model` is a living handle, `contact` ends with a zero byte, the arrays have the stated numbers
+/// of values, or are NULL where NULL is allowed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_contact_pairs(
     model: *mut brinell_model,
@@ -88,12 +88,13 @@ struct NodalLoad {
     history: History,
 }
 
-/// Adds a load that has a force of its own on each of n nodes: n x 2 components, of a solid n x 3.
-/// The forces act on the model itself, not on the whole of a symmetric one. `load` has the keys
-/// `name` and, where the load is not proportional, `history` of a `[[load]]` table (TOML text).
+/// Adds a load with a force of its own on each of n nodes: n x 2 components (n x 3 in a solid). The
+/// forces act on the meshed part of a symmetric model, not on the whole. `load` has keys of a
+/// `[[load]]` table (TOML text): `name` and, unless the load is proportional, `history`.
 ///
 /// # Safety
-/// `model` is a living handle, `load` ends with a zero, the arrays have so many values.
+/// `model` is a living handle, `load` ends with a zero byte, the arrays have the stated numbers of
+/// values.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_nodal_load(
     model: *mut brinell_model,

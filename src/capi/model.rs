@@ -66,10 +66,10 @@ pub(super) unsafe fn change(
     guarded(|| act(unsafe { exclusive(model, "the model") }?))
 }
 
-/// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC,
-/// BRINELL_SOLID. `symmetry` copies of it make the whole: 1 where all of it is meshed, 2 for a half
-/// model, 4 for a quarter of a plane or solid one, 8 for an eighth of a solid one (loads and
-/// results are those of the whole).
+/// Creates an empty model of the given kind: BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS,
+/// BRINELL_AXISYMMETRIC or BRINELL_SOLID. `symmetry` is the number of copies of the model that make
+/// up the whole: 1 if the whole is meshed, 2 for a half model, 4 for a quarter of a plane or solid
+/// model, 8 for an eighth of a solid model. Loads and results are those of the whole.
 ///
 /// # Safety
 /// `out` may be written to.
@@ -99,11 +99,11 @@ pub unsafe extern "C" fn brinell_model_free(model: *mut brinell_model) {
     unsafe { free(model) }
 }
 
-/// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the
-/// order in which they were added.
+/// Adds nodes with n x 2 coordinates (n x 3 in a solid), node by node. Nodes are numbered from 0 in
+/// the order in which they were added.
 ///
 /// # Safety
-/// `model` is a living handle, `coordinates` has 2 n, of a solid 3 n values.
+/// `model` is a living handle, `coordinates` has 2 n values (3 n in a solid).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_nodes(
     model: *mut brinell_model,
@@ -120,8 +120,8 @@ pub unsafe extern "C" fn brinell_model_nodes(
     }
 }
 
-/// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other,
-/// in the order of its shape.
+/// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body. `nodes` holds the nodes of one
+/// element after the other, each in the order of the shape.
 ///
 /// # Safety
 /// `model` is a living handle, `body` a text that ends with a zero byte, `nodes` has n values for
@@ -146,7 +146,7 @@ pub unsafe extern "C" fn brinell_model_elements(
     }
 }
 
-/// Names some nodes.
+/// Adds a named set of nodes.
 ///
 /// # Safety
 /// `model` is a living handle, `name` a text that ends with a zero byte, `nodes` has n values.
@@ -167,8 +167,8 @@ pub unsafe extern "C" fn brinell_model_node_set(
     }
 }
 
-/// Names a surface of n facets, each by its element and its number there: facet k lies between
-/// corners k and k + 1.
+/// Adds a named surface of n facets, each given by its element and its local number in the element.
+/// In the plane, facet k lies between corners k and k + 1.
 ///
 /// # Safety
 /// `model` is a living handle, `name` a text that ends with a zero byte, `elements` and `facets`
@@ -193,8 +193,8 @@ pub unsafe extern "C" fn brinell_model_surface(
     }
 }
 
-/// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose
-/// nodes are among them.
+/// Adds a named surface by its nodes, mid-side nodes included. The surface consists of all boundary
+/// facets that have no other nodes than the given ones.
 ///
 /// # Safety
 /// `model` is a living handle, `name` a text that ends with a zero byte, `nodes` has n values.
@@ -243,12 +243,12 @@ pub unsafe extern "C" fn brinell_model_circle(
     }
 }
 
-/// Runs the load program of a model; all else as brinell_run. The model may be changed and run
+/// Runs the load program of a model; otherwise like brinell_run. The model may be changed and run
 /// again.
 ///
 /// # Safety
-/// `model` is a living model, `options` NULL or as long as it says, `out` may be written to;
-/// `callback` does not unwind.
+/// `model` is a living model, `options` is NULL or as long as its `size` says, `out` may be written
+/// to; `callback` does not unwind.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_model_run(
     model: *const brinell_model,

@@ -13,7 +13,7 @@ pub const BRINELL_BACKEND_DENSE: i32 = 2;
 /// Sparse Cholesky in pure Rust (faer).
 pub const BRINELL_BACKEND_FAER: i32 = 3;
 
-/// How to compute. NULL stands for the defaults, which are all zeros.
+/// Options of the computation. NULL stands for the defaults, which are all zeros.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct brinell_options {

@@ -4,15 +4,17 @@ use super::border::{SizePrefixed, give, guarded, shared};
 use super::results::brinell_results;
 use crate::error::Error;
 
-/// A patch of contact of a solid; of a patch that reaches planes of symmetry the whole.
+/// A contact patch of a solid. If the patch reaches planes of symmetry, the figures are those of
+/// the whole patch, mirror images included.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct brinell_patch {
     /// sizeof(brinell_patch).
     pub size: usize,
-    /// Which contact of the scene, from 0.
+    /// Number of the contact in the scene, from 0.
     pub contact: u64,
-    /// Area, on the plane across the mean normal.
+    /// Area, projected on the plane perpendicular to the mean normal; for a patch that closes round
+    /// a body the area of its surface.
     pub area: f64,
     /// Centroid of the area.
     pub centroid: [f64; 3],
@@ -33,7 +35,7 @@ unsafe impl SizePrefixed for brinell_patch {
     const NAME: &'static str = "brinell_patch";
 }
 
-/// Number of patches of contact of state `index` of a solid; 0 where there is no such state.
+/// Number of contact patches of a solid in state `index`; 0 if there is no such state.
 ///
 /// # Safety
 /// `results` is NULL or a living handle.
@@ -47,10 +49,10 @@ pub unsafe extern "C" fn brinell_results_n_patches(
     state.map_or(0, |state| state.patches.len())
 }
 
-/// A patch of contact of state `index`, from 0.
+/// A contact patch of state `index`; `index` and `patch` count from 0.
 ///
 /// # Safety
-/// `results` is a living handle; `out` is as long as it says.
+/// `results` is a living handle; `out` is as long as its `size` says.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_results_patch(
     results: *const brinell_results,

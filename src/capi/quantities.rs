@@ -14,7 +14,7 @@ pub extern "C" fn brinell_n_quantities() -> usize {
 }
 
 /// The key of quantity `index`, from 0, as in summary.json: "load", "half_width", "residual_depth"
-/// and so on; NULL where there is none such. Static.
+/// and so on; NULL if there is no such quantity. Static.
 #[unsafe(no_mangle)]
 pub extern "C" fn brinell_quantity_key(index: usize) -> *const c_char {
     static KEYS: LazyLock<Vec<CString>> = LazyLock::new(|| {
@@ -26,8 +26,8 @@ pub extern "C" fn brinell_quantity_key(index: usize) -> *const c_char {
 
 /// A number of the results by its path in summary.json: "yield.KEY" at first yield, or
 /// "states.NAME.KEY" of a state, where the number of the state, from 0, may stand for its name.
-/// Counts are numbers too; not a number where it is not known. BRINELL_INPUT where the results have
-/// none such.
+/// Counts are numbers too; a number that is not known is NaN. The status is BRINELL_INPUT if the
+/// results have no such number.
 ///
 /// # Safety
 /// `results` is a living handle; `path` is a text that ends with a zero byte; `value` may be

@@ -33,15 +33,15 @@ pub const BRINELL_PAIR_FORCE: i32 = 3;
 pub const BRINELL_PAIR_AREA: i32 = 4;
 /// Pressure, compressive positive.
 pub const BRINELL_PAIR_PRESSURE: i32 = 5;
-/// 1 where closed, 0 where open.
+/// 1 if the pair is closed, 0 if it is open.
 pub const BRINELL_PAIR_CLOSED: i32 = 6;
-/// Undeformed z, of a solid.
+/// Undeformed z of the pair in a solid.
 pub const BRINELL_PAIR_Z: i32 = 7;
 
-/// n_nodes x 2 displacements, of a solid x 3, node by node.
+/// Displacements, n_nodes x 2 components (n_nodes x 3 in a solid), node by node.
 pub const BRINELL_FIELD_DISPLACEMENT: i32 = 0;
-/// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz); of a solid x 6, yz
-/// and zx after them.
+/// Mean stresses of the elements, n_elements x 4 components: xx, yy, zz, xy (axisymmetric rr, zz,
+/// tt, rz). In a solid n_elements x 6: xx, yy, zz, xy, yz, zx.
 pub const BRINELL_FIELD_STRESS: i32 = 1;
 /// n_elements von Mises stresses.
 pub const BRINELL_FIELD_VON_MISES: i32 = 2;
@@ -63,7 +63,7 @@ pub const BRINELL_HISTORY_PLASTIC_STRAIN: i32 = 5;
 /// Relative out-of-balance force.
 pub const BRINELL_HISTORY_RESIDUAL: i32 = 6;
 
-/// First yield. Not a number where it is not known.
+/// First yield. Numbers that are not known are NaN.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct brinell_yield {
@@ -77,13 +77,13 @@ pub struct brinell_yield {
     pub max_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
-    /// Where it yields first: x (r).
+    /// Coordinate x (r) of the point that yields first.
     pub x: f64,
-    /// Where it yields first: y (z).
+    /// Coordinate y (z) of the point that yields first.
     pub y: f64,
     /// Number of the body that yields, from 0.
     pub body: u64,
-    /// Where it yields first: z, of a solid.
+    /// Coordinate z of the point that yields first, in a solid.
     pub z: f64,
 }
 
@@ -108,17 +108,18 @@ pub struct brinell_state {
     pub max_pressure: f64,
     /// Contact half width.
     pub half_width: f64,
-    /// The residual dent.
+    /// Depth of the residual dent.
     pub residual_depth: f64,
-    /// Displacement of the loaded surface along the load.
+    /// Relative approach of the bodies; for a single load the mean displacement of the loaded
+    /// surface along the load.
     pub approach: f64,
     /// Largest equivalent plastic strain.
     pub max_equivalent_plastic_strain: f64,
-    /// Gauss points with plastic strain.
+    /// Number of Gauss points with plastic strain.
     pub plastic_points: u64,
     /// Number of contact pairs.
     pub n_pairs: u64,
-    /// 1 where the state has fields.
+    /// 1 if the state has fields, otherwise 0.
     pub has_fields: i32,
 }
 
@@ -127,7 +128,7 @@ unsafe impl SizePrefixed for brinell_state {
     const NAME: &'static str = "brinell_state";
 }
 
-/// The mesh, as it lies in memory: valid as long as the results.
+/// The mesh, not copied: the arrays are valid as long as the results.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct brinell_mesh {
@@ -137,13 +138,13 @@ pub struct brinell_mesh {
     pub n_nodes: usize,
     /// Number of elements.
     pub n_elements: usize,
-    /// n_nodes x 2 coordinates, of a solid x 3, node by node.
+    /// Coordinates, n_nodes x 2 (n_nodes x 3 in a solid), node by node.
     pub coordinates: *const f64,
     /// Nodes of all elements, one element after the other.
     pub connectivity: *const u32,
     /// n_elements + 1 starts of the elements' nodes in the connectivity.
     pub offsets: *const usize,
-    /// n_elements bodies.
+    /// Number of the body of each element, from 0; n_elements values.
     pub element_body: *const u32,
 }
 
@@ -225,7 +226,7 @@ pub(super) unsafe fn lend<T>(values: &[T], data: *mut *const T, n: *mut usize) -
     Ok(())
 }
 
-/// Frees results; arrays taken from them are gone.
+/// Frees results; arrays taken from them are no longer valid.
 ///
 /// # Safety
 /// `results` is NULL or was handed out by this library and not freed before.
@@ -245,10 +246,10 @@ pub unsafe extern "C" fn brinell_results_n_states(results: *const brinell_result
     unsafe { results.as_ref() }.map_or(0, |r| r.results.states.len())
 }
 
-/// First yield. BRINELL_INPUT where the run has none.
+/// First yield. The status is BRINELL_INPUT if the run has no first yield.
 ///
 /// # Safety
-/// `results` is a living handle; `out` is as long as it says.
+/// `results` is a living handle; `out` is as long as its `size` says.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_results_yield(
     results: *const brinell_results,
@@ -277,10 +278,10 @@ pub unsafe extern "C" fn brinell_results_yield(
     })
 }
 
-/// The figures of state `index`, from 0; brinell_results_value has all of them.
+/// The main figures of state `index`, from 0; brinell_results_value gives every figure.
 ///
 /// # Safety
-/// `results` is a living handle; `out` is as long as it says.
+/// `results` is a living handle; `out` is as long as its `size` says.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_results_state(
     results: *const brinell_results,
@@ -312,7 +313,7 @@ pub unsafe extern "C" fn brinell_results_state(
     })
 }
 
-/// The name of state `index`; NULL where there is no such state. Valid as long as the results.
+/// The name of state `index`; NULL if there is no such state. Valid as long as the results.
 ///
 /// # Safety
 /// `results` is NULL or a living handle.
@@ -415,7 +416,7 @@ pub unsafe extern "C" fn brinell_results_history(
 /// The mesh of the run.
 ///
 /// # Safety
-/// `results` is a living handle; `out` is as long as it says.
+/// `results` is a living handle; `out` is as long as its `size` says.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_results_mesh(
     results: *const brinell_results,

@@ -26,7 +26,7 @@ pub struct brinell_increment {
     pub size: usize,
     /// Number, from 1.
     pub number: u64,
-    /// Load factor at its end, in the program's unit.
+    /// Load factor at the end of the increment, in the program's unit.
     pub alpha: f64,
     /// Total load at the end of the increment.
     pub load: f64,
@@ -36,9 +36,9 @@ pub struct brinell_increment {
     pub half_width: f64,
     /// Sum of the contact forces.
     pub contact_force: f64,
-    /// Pairs that are closed.
+    /// Number of closed pairs.
     pub closed_pairs: u64,
-    /// Gauss points with plastic strain.
+    /// Number of Gauss points with plastic strain.
     pub plastic_points: u64,
     /// Largest equivalent plastic strain.
     pub max_equivalent_plastic_strain: f64,
@@ -99,20 +99,20 @@ impl Observer for Caller {
 /// Runs a scene's load program. `callback` (NULL for none) is called after each increment with
 /// `user`.
 ///
-/// A run that was stopped, collapsed or failed after increments were accepted returns
-/// BRINELL_STOPPED, BRINELL_COLLAPSE or BRINELL_ANALYSIS *and* results: what was computed before; a
-/// complete one with a state whose quality misses its tolerance, or that does not reach the
-/// accuracy its scene demands, returns BRINELL_INACCURATE and results. After any other failure
-/// `*out` is NULL.
+/// A run that ends early after increments were accepted returns the status of the reason, such as
+/// BRINELL_STOPPED, BRINELL_COLLAPSE, BRINELL_OUTGROWN or BRINELL_ANALYSIS, *and* the results
+/// computed up to then. A complete run returns BRINELL_INACCURATE and results if the quality of a
+/// state misses its tolerance, if the accuracy that the scene demands is not reached, or for
+/// another reason that the message names. After any other failure `*out` is NULL.
 ///
-/// A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are
-/// within it: the callback sees the increments of each, counted from 1 anew, and the results are
-/// those of the last (`accuracy` of the summary says what is stated of each figure, and why a
-/// demand was not reached).
+/// A scene with the key `accuracy` is run on finer and finer meshes until the stated errors are
+/// within the demand. The callback receives the increments of each run, counted anew from 1. The
+/// results are those of the last mesh; `accuracy` in the summary lists the stated error of each
+/// figure, and the reason if the demand was not reached.
 ///
 /// # Safety
-/// `scene` is a living scene, `options` NULL or as long as it says, `out` may be written to;
-/// `callback` does not unwind.
+/// `scene` is a living scene, `options` is NULL or as long as its `size` says, `out` may be written
+/// to; `callback` does not unwind.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_run(
     scene: *const brinell_scene,

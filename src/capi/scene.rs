@@ -10,8 +10,8 @@ pub struct brinell_scene {
     pub(super) scene: Scene,
 }
 
-/// Reads a scene file, with `n_overrides` texts "key.path=value" put over it (as `--set` of the
-/// program: tables are merged, "key=" removes a key; NULL and 0 for none).
+/// Reads a scene file and applies `n_overrides` texts "key.path=value" to it, as `--set` of the
+/// program does: tables are merged, "key=" removes a key; NULL and 0 for none.
 ///
 /// # Safety
 /// `path` and the overrides are texts that end with a zero byte; `out` may be written to.

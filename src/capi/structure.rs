@@ -70,7 +70,7 @@ unsafe impl SizePrefixed for brinell_rows {
     const NAME: &'static str = "brinell_rows";
 }
 
-/// Returns the number of entries that an array of starts asks for; other errors in the array are
+/// Returns the number of entries that an array of starts implies; other errors in the array are
 /// found later.
 fn entries(starts: &[i64], what: &str) -> Result<usize> {
     let end = starts.last().and_then(|n| usize::try_from(*n).ok());
@@ -124,10 +124,11 @@ unsafe fn read_rows(rows: &brinell_rows, n: usize) -> Result<ConstraintRows> {
 }
 
 /// Factors and condenses a stiffness with contact rows (NULL for none). The arrays are not needed
-/// afterwards. The state is that without load.
+/// afterwards. The initial state is that without load.
 ///
 /// # Safety
-/// The structures are as long as they say and so are their arrays; `out` may be written to.
+/// The structures are as long as their `size` says, and their arrays as long as their numbers say;
+/// `out` may be written to.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn brinell_structure_new(
     matrix: *const brinell_matrix,
@@ -252,7 +253,7 @@ unsafe fn under(
     })
 }
 
-/// Solves contact under a load on all freedoms (plastic loads among them).
+/// Solves contact under a load on all freedoms, which includes any plastic loads.
 ///
 /// # Safety
 /// `structure` is a living handle, `load` has `n` values.
@@ -266,7 +267,7 @@ pub unsafe extern "C" fn brinell_structure_solve(
     unsafe { under(structure, load, n, "load", ConstrainedStructure::solve) }
 }
 
-/// Starts a piece of the load path: from the state at hand the load goes on as load + t rate, t
+/// Starts a piece of the load path: from the current state on the load is load + t rate, with t
 /// from 0.
 ///
 /// # Safety
@@ -281,8 +282,8 @@ pub unsafe extern "C" fn brinell_structure_start(
     unsafe { under(structure, rate, n, "rate", ConstrainedStructure::start) }
 }
 
-/// Goes on to `end` or to the next change of contact: `t` is where, `n_changes` how many rows
-/// change there, 0 at the end.
+/// Goes on to `end` or to the next change of contact, whichever comes first. `t` receives the
+/// position, `n_changes` the number of rows that change there, 0 at the end.
 ///
 /// # Safety
 /// `structure` is a living handle; `t` and `n_changes` may be written to.
@@ -421,8 +422,8 @@ pub unsafe extern "C" fn brinell_structure_statuses(
     })
 }
 
-/// Displacements of all freedoms. Costs one full solve. `backward_error` (NULL if not wanted) is
-/// that of this solve.
+/// Displacements of all freedoms. Costs one full solve. `backward_error` (NULL if not wanted)
+/// receives the backward error of this solve.
 ///
 /// # Safety
 /// `structure` is a living handle; `u` has room for `n` values.

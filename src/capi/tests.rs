@@ -23,7 +23,7 @@ fn null_and_nonsense_are_refused_with_a_message() {
     let mut scene = null_mut();
     let mut results = null_mut();
     let text = CString::new("kind = 'plane_stretch'").unwrap();
-    // SAFETY: NULL is allowed to be given everywhere.
+    // SAFETY: NULL is allowed for every argument.
     unsafe {
         assert_eq!(
             brinell_scene_load(null(), null(), 0, &raw mut scene),
@@ -382,7 +382,7 @@ fn a_kind_or_symmetry_that_there_is_not_makes_no_model() {
     }
 }
 
-/// Asserts that a call was refused with a message that holds all words.
+/// Asserts that a call was refused with a message that contains all words.
 fn refused(status: i32, words: &[&str]) {
     assert_eq!(status, BRINELL_INPUT);
     for word in words {

@@ -11,7 +11,8 @@
 //! that a complete one exists at every moment. Parts are written before the first checkpoint that
 //! names them and deleted after the first that does not.
 //!
-//! A resumed run does what it would have done, bit for bit, in the same build on the same machine.
+//! A resumed run gives the results of an uninterrupted run, bit for bit, in the same build on the
+//! same machine.
 //! With CHOLMOD this needs the same BLAS with the same number of threads (the run says so if the
 //! factor differs). Each file carries a hash of its content. The checkpoint also carries the
 //! [`Identity`] of its run; it is refused, with the name of the first difference, if the run to be

@@ -1,5 +1,5 @@
-//! Restarts the program if OpenBLAS, which reads its settings when it is loaded, needs other
-//! settings than it was given.
+//! Restarts the program with other settings of OpenBLAS if the present ones do not suit: OpenBLAS
+//! reads its settings only when it is loaded.
 
 use std::os::unix::process::CommandExt;
 use std::process::Command;
@@ -11,8 +11,7 @@ const THREADS: &str = "OPENBLAS_NUM_THREADS";
 /// is a third of a millisecond, some ten times the time that it takes to wake a thread.
 const SPINNING: (&str, &str) = ("OPENBLAS_THREAD_TIMEOUT", "20");
 
-/// Restarts the program with the settings that the BLAS should have had; returns if it has them
-/// already.
+/// Restarts the program with the settings that the BLAS needs; returns if they are set already.
 pub(super) fn start_with_better_settings() {
     let needed = [fewer_threads(), better_kernels()];
     let mut settings: Vec<_> = needed.into_iter().flatten().collect();
@@ -35,15 +34,15 @@ pub(super) fn start_with_better_settings() {
     let _ = again.args(arguments).envs(settings).exec();
 }
 
-/// Asks for one thread if limits of the process leave no room for the work buffers of more:
-/// OpenBLAS would request these buffers forever.
+/// Returns the setting for one thread if limits of the process leave no room for the work buffers
+/// of several threads: OpenBLAS would request these buffers forever.
 fn fewer_threads() -> Option<(&'static str, &'static str)> {
     let is_set = std::env::var_os(THREADS).is_some_and(|threads| threads == "1");
     let are_too_many = !is_set && crate::linalg::cholmod::blas_threads_are_too_many();
     are_too_many.then_some((THREADS, "1"))
 }
 
-/// Asks for the kernels of the processor, unless the user named some.
+/// Returns the setting for the kernels of this processor, unless the user chose kernels.
 fn better_kernels() -> Option<(&'static str, &'static str)> {
     use crate::linalg::cholmod::{KERNEL_SETTING, better_kernels};
     better_kernels().map(|kernels| (KERNEL_SETTING, kernels))

@@ -9,7 +9,8 @@ use crate::results::State;
 use nalgebra::Matrix3;
 use std::path::Path;
 
-/// Distance from the line over the size of the mesh up to which a node counts as on it: round-off.
+/// Largest distance of a node from the line at which the node counts as on the line, relative to
+/// the size of the mesh: round-off.
 const ON_LINE: f64 = 1e-9;
 
 /// Writes a row for each state with fields and each node on the line x = 0 (in solids x = y = 0),

@@ -134,8 +134,8 @@ impl Job {
         ))
     }
 
-    /// Returns the model of the deck, with elements integrated as in ccx if the deck has no other
-    /// kinds.
+    /// Returns the model of the deck. Its elements are fully integrated, as in ccx, if ccx
+    /// integrates all linear elements of the deck fully.
     fn model(&self) -> Result<Model> {
         let path = with_ending(&self.name, "inp");
         let deck = Deck::read(&path)?;

@@ -45,8 +45,8 @@ pub(super) struct CommonArguments {
     pub overrides: Vec<String>,
 }
 
-/// Largest number of threads for each processor, and lower bound of this limit over all processors:
-/// more threads would only wait for each other.
+/// Limit of the number of threads: the first number times the number of processors, or the second
+/// number if that is larger. More threads would only wait for each other.
 const MOST_THREADS: [usize; 2] = [16, 64];
 
 fn threads(text: &str) -> Result<u16, String> {

@@ -199,7 +199,7 @@ fn once(
         }
         (Extent::Yield, _) => analysis.yield_load(progress)?,
     };
-    // The times of the run itself have their rows already.
+    // The table has rows for the times of the run itself already.
     laps.next();
     reference::compare(analysis.model(), &mut results);
     results

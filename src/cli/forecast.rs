@@ -37,7 +37,7 @@ impl TimeForecast {
         self.size.targets = targets.max(1) as f64;
     }
 
-    /// Takes a model, whose size is known.
+    /// Takes the size of the model: the numbers of its freedoms and of its contact pairs.
     pub fn model(&mut self, freedoms: usize, pairs: usize) {
         (self.size.freedoms, self.size.pairs) = (freedoms as f64, pairs as f64);
     }

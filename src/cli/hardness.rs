@@ -65,7 +65,8 @@ struct HardnessSheet {
     unloading_stiffness: Option<f64>,
     reduced_modulus: Option<f64>,
     reduced_modulus_by_depth: Option<f64>,
-    /// Contact modulus of the materials, the true value.
+    /// Contact modulus from the elastic constants of both bodies, to compare with the two moduli
+    /// that are found from the unloading stiffness.
     contact_modulus: f64,
     /// Whether the contact is too wide for the assumption of small strains.
     beyond_small_strains: bool,

@@ -128,7 +128,7 @@ impl Progress {
         }
     }
 
-    /// Announces a run of this scene.
+    /// Takes the number of targets of the scene's load program, for the predictions.
     pub fn scene(&mut self, scene: &Scene) {
         self.forecast.program(scene.program.targets.len());
     }

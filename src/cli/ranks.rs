@@ -20,7 +20,7 @@ pub(super) enum ProcessRole {
     Helped,
 }
 
-/// The ranks of a run; the other ranks are released when it is dropped.
+/// The ranks of a run; the other ranks are released when the guard is dropped.
 pub(super) struct RankGuard {
     #[cfg(feature = "mumps")]
     world: Option<crate::linalg::mumps::World>,

@@ -114,9 +114,9 @@ mod tests {
         }
     }
 
-    /// The prediction is half or twice the true time: `rest (w P + e)/(w + p)` is off by
-    /// `w (P/T - 1)/(w + p)`, which is 3 % and 6 % at three quarters; an estimate that was too low
-    /// holds until then.
+    /// The prediction is half or twice the true time `T`: `rest (w P + e)/(w + p)` is off by
+    /// `w (P/T - 1)/(w + p)`, which is 3 % and 6 % at three quarters. An estimate that was too low
+    /// stays on display until then.
     #[test]
     fn a_wrong_prediction_is_made_up_for() {
         for (predicted, bound) in [(150.0, 0.04), (600.0, 0.07)] {
@@ -131,14 +131,15 @@ mod tests {
         }
     }
 
-    /// A prediction of 5 minutes for a run of a quarter of an hour once became 11 minutes.
+    /// With a prediction of 5 minutes for a run of a quarter of an hour, the time shown never
+    /// exceeds 5 minutes.
     #[test]
     fn five_minutes_do_not_become_eleven() {
         let shown = shown(300.0, 900.0, 45.0, |t| t / 900.0);
         assert_eq!(shown[0][1], 300.0);
         assert!(shown.iter().all(|s| s[1] <= 300.0));
-        // The estimate at 765 s holds, with p = 0.8 since the first one: off by `w (P/T - 1)/(w +
-        // p)` of what was left.
+        // The estimate made at 765 s is shown, with p = 0.8 since the first increment: it is off by
+        // the fraction `w (P/T - 1)/(w + p)` of the time that was left then.
         let off = WEIGHT * (1.0 - 300.0 / 900.0) / (WEIGHT + 0.8) * (900.0 - 765.0);
         let [now, left] = shown[8105];
         assert!((left - (900.0 - now)).abs() <= off + 1e-9, "{left}");

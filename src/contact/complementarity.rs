@@ -100,8 +100,8 @@ fn block_pivoting(
         } else {
             patience -= 1;
         }
-        // Pairs are closed first, so that the set of open pairs is as small, hence as definite, as
-        // possible.
+        // Pairs are closed first: the fewer pairs are open, the further is the stiffness of the
+        // open pairs from singular.
         let (closing, opening): (Vec<usize>, Vec<usize>) =
             violated.into_iter().partition(|&k| tableau.open()[k]);
         for k in closing {

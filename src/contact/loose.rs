@@ -111,8 +111,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// A body in a notch between two walls: driven into the notch, onto one wall, not at all, and
-    /// out of it.
+    /// A body in a notch between two walls. The load drives it into the notch, onto one wall,
+    /// nowhere, and out of the notch.
     #[test]
     fn a_body_moves_until_the_load_is_held() {
         let slips = DMatrix::from_row_slice(3, 2, &[0.6, 0.8, 0.8, -0.6, 0.0, 0.0]);

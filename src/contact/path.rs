@@ -2,8 +2,8 @@
 //!
 //! For `q(t) = q_0 + t q_1` and fixed statuses, gaps and forces are linear in `t`, so the next
 //! change is computed, not searched for. Pairs at the border of both conditions (gap and force
-//! zero) are settled together by the complementarity problem of their rates: pairs that tie open or
-//! close together, and nothing chatters.
+//! zero) are settled together by the complementarity problem of their rates: pairs that reach the
+//! border at once open or close together, and no status flips back and forth.
 //!
 //! # Source
 //! Paper, section 4.1, with (4.17) read as `Delta alpha / psi`; parametric principal pivoting:
@@ -35,21 +35,22 @@ pub enum PathEnd {
     Event(Vec<Change>),
 }
 
-/// Fraction of the largest gap below which a gap counts as zero, and of the largest force below
-/// which a force does, when pairs that change status at once are collected.
+/// Fraction of the largest force below which a force counts as zero when pairs that change status
+/// at once are collected. For gaps the fraction is a hundredth of this.
 const TIE: f64 = 1e-10;
 /// Fraction of the terms of a force's rate that is round-off: eps times the number of pairs and the
 /// condition of the tied structure from which the terms come.
 const ROUND_OFF: f64 = 1e-11;
-/// Least number of events over which gaps, forces and their rates are carried along, each event for
-/// the cost of a column. After that they are solved for anew, so that round-off does not add up.
+/// Least number of events after which gaps, forces and their rates are solved for anew, so that
+/// round-off does not add up. Until then they are updated, which takes one column of the matrix for
+/// each event.
 const CARRIED: usize = 16;
-/// Number of pairs for each event that may be carried along without a new solution: a solution is
-/// itself a sum of as many terms as there are pairs.
+/// With `n` pairs, at least `n/PAIRS_PER_CARRIED` events pass before a new solution: the round-off
+/// of a solution, a sum of as many terms as there are pairs, also grows with `n`.
 const PAIRS_PER_CARRIED: usize = 32;
-/// Fraction of the largest rate of a force up to which a pair may be pulled and stay closed, if a
-/// body would be free without the pair: the load passes so near to the other pairs that round-off
-/// decides on which side.
+/// Fraction of the largest force (or of the largest rate of a force) up to which a pair may be
+/// pulled and stay closed, if a body would be free without the pair. The line of action of the load
+/// then passes so near to the other pairs that round-off decides on which side.
 const PULLED: f64 = 1e-9;
 /// Value of [`Path`]'s event counter before any rates are known.
 const NEVER: usize = usize::MAX;
@@ -140,7 +141,8 @@ impl Path {
         )
     }
 
-    /// Whether gaps, forces and rates have been carried along for long enough.
+    /// Whether gaps, forces and rates have been updated over so many events that they are to be
+    /// solved for anew.
     fn is_old(&self) -> bool {
         self.carried >= CARRIED.max(self.gap.len() / PAIRS_PER_CARRIED)
     }
@@ -223,7 +225,7 @@ impl Path {
         let mut first = None;
         let (end_gap, end_force) = self.zero(tableau, AT_END);
         let largest = self.force.iter().fold(0.0, |m: f64, r| m.max(*r));
-        // Whether the group of a pair carries no force at the end of the piece any more.
+        // Whether the group of a pair carries no contact force any more at the end of the piece.
         let comes_loose = |path: &Path, k: usize| {
             let (block, _) = tableau.matrix().place(k);
             let pairs = &tableau.matrix().blocks()[block].pairs;
@@ -237,7 +239,7 @@ impl Path {
                 let at_end = if tableau.open()[k] {
                     end_gap
                 } else if tableau.would_free(k) {
-                    // A body hangs on this pair: it may be pulled a little.
+                    // A body would be free without this pair: the pair may be pulled a little.
                     (LAST * value).max(PULLED * largest)
                 } else if comes_loose(self, k) {
                     // The last pairs that hold a body cannot open: when the body is unloaded

@@ -73,7 +73,8 @@ impl Springs {
             && self.at_rest.len() == self.directions.len()
     }
 
-    /// Whether other springs have the same pairs and stiffness, whatever gaps they rest at.
+    /// Whether other springs have the same pairs and stiffness. The gaps at which the springs carry
+    /// no force may differ.
     pub(crate) fn as_stiff_as(&self, other: &Springs) -> bool {
         self.pairs == other.pairs && self.directions == other.directions
     }

@@ -125,7 +125,8 @@ fn sweeping_there_and_back_is_the_identity() {
     assert!((DMatrix::from_fn(5, 5, |i, j| tableau.swept(i, j)) - t).amax() < 1e-13);
 }
 
-/// However long a run is, the history of its tableau is repeated in few pivots, to the same bits.
+/// The record of a tableau that has undergone many pivots is repeated in few pivots, and the result
+/// has the same bits.
 #[test]
 fn the_way_of_a_tableau_stays_short_enough_to_be_repeated() {
     let t = semidefinite(

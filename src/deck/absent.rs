@@ -32,7 +32,7 @@ pub(super) fn leave_out_absent(deck: &mut Deck) -> Result<()> {
     Ok(())
 }
 
-/// Remarks on undefined numbers in sets, which find nothing.
+/// Remarks on numbers in sets for which the deck has no node or element.
 fn absent_of_sets(lookup: Lookup) -> Result<Vec<AbsentRemark>> {
     let mut remarks = Vec::new();
     for what in [What::Nodes, What::Elements] {

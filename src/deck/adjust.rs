@@ -45,7 +45,7 @@ fn slaves_and_master(lookup: Lookup, pair: &ContactPair) -> Option<(Vec<u32>, Su
     Some((slaves, SurfacePieces::new(lookup.mesh, &master.ok()?)))
 }
 
-/// Moves the nodes of all contact pairs that ask for it.
+/// Moves the slave nodes of all contact pairs with `ADJUST`.
 pub(super) fn adjust(deck: &mut Deck) {
     for number in 0..deck.properties.contacts.len() {
         let pair = deck.properties.contacts[number].clone();

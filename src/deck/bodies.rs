@@ -64,9 +64,10 @@ struct Assignment<'d> {
 }
 
 impl Assignment<'_> {
-    /// The section of each element. In a deck without sections, the number of the first element set
-    /// that contains the element. A set of `*ELEMENT` gives way to one of `*ELSET` with the same
-    /// elements: a mesher names parts of the geometry by the former, and its groups by the latter.
+    /// The section of each element. In a deck without sections, the number of the first element
+    /// set, in alphabetical order, that contains the element. If an `*ELSET` has the same elements
+    /// as a set of `*ELEMENT`, the `*ELSET` counts: mesh generators name groups by `*ELSET`, and
+    /// parts of the geometry by `*ELEMENT`.
     fn section_of_elements(&self) -> Result<Vec<u32>> {
         let mut out = vec![NONE; self.lookup.mesh.n_elements()];
         if self.sections.is_empty() {
@@ -255,7 +256,7 @@ impl Assignment<'_> {
     }
 }
 
-/// Turns an error into one of an effect that brinell does not have.
+/// Turns an error into one of kind `Unsupported`.
 pub(super) fn unsupported(error: Error) -> Error {
     Error::new(crate::ErrorKind::Unsupported, error.message())
 }

@@ -61,8 +61,8 @@ impl BoundaryElements {
         between.filter(move |label| (label - first).is_multiple_of(step))
     }
 
-    /// Turns plane elements in a mesh with solids into boundary elements, in the sets of elements
-    /// too. Returns the first element of each type.
+    /// Turns plane elements in a mesh with solids into boundary elements, also in the element sets.
+    /// Returns the first element of each type.
     pub(super) fn take_faces_of_solids(
         &mut self,
         elements: &mut DeckElements,

@@ -221,8 +221,8 @@ pub(super) struct LinearEquation {
 #[derive(Debug, Clone)]
 pub(super) struct Rigid {
     pub(super) nodes: RigidNodes,
-    /// The reference node: its displacement is the body's there, its degrees of freedom from 4 on
-    /// are the body's rotations.
+    /// The reference node: its displacement is the displacement of the body at this node, its
+    /// degrees of freedom from 4 on are the body's rotations.
     pub(super) reference: EntitySelection,
     /// The node whose displacement is the body's rotation.
     pub(super) rotation: Option<EntitySelection>,
@@ -404,7 +404,7 @@ pub(super) struct TimePoints {
 pub(super) struct DeckStep {
     pub(super) place: LinePlace,
     pub(super) period: f64,
-    /// Number of increments that the step would take, if it gives one.
+    /// Number of increments of the step if all are as long as its first.
     pub(super) increments: usize,
     /// Time of each increment except the last, if it is fixed.
     pub(super) fixed: Option<f64>,
@@ -416,8 +416,8 @@ pub(super) struct DeckStep {
     /// For each kind, the place at which the step declares that conditions replace those of earlier
     /// steps.
     pub(super) renewed: [Option<LinePlace>; ConditionKind::COUNT],
-    /// Whether the step gives conditions of each kind; the `OP` of a kind is that of its first
-    /// keyword.
+    /// Whether the step has given conditions of each kind. Only the first keyword of a kind decides
+    /// on its `OP`.
     pub(super) is_begun: [bool; ConditionKind::COUNT],
 }
 

@@ -100,7 +100,8 @@ impl DeckMesh {
         self.free_faces(nodes, |face, is_given| self.face_nodes(face).any(is_given))
     }
 
-    /// The faces that belong to a single element, chosen by which nodes are given.
+    /// The faces that belong to a single element and that `is_chosen` selects. `is_chosen` gets a
+    /// face and a function that tells whether a node is given.
     fn free_faces(
         &self,
         nodes: impl IntoIterator<Item = u32>,

@@ -1,12 +1,13 @@
 //! Histories of the values of degrees of freedom, nodes and faces over all steps.
 //!
-//! A value given in a step is reached linearly from the one before over the time of the step, or
-//! follows an amplitude. Where an amplitude jumps at the start of a step, the first increment goes
-//! linearly to the value at its end, as in CalculiX. A value not given in a step stays, or goes
-//! back to zero with `OP=NEW`. Several values for the same node or face in one step are added, but
-//! values of supports replace each other. A displacement that is first given in a later step is
-//! reached from where the node then is, and `OP=NEW` releases it: such a history has a span of
-//! steps.
+//! A value given in a step is reached linearly from the previous value over the time of the step,
+//! or follows an amplitude. Where an amplitude jumps at the start of a step, the first increment
+//! goes linearly to the value at the end of this increment, as in CalculiX. A value not given in a
+//! step stays. With `OP=NEW`, a load that is not given goes back to zero, a temperature to its
+//! initial value, and a displacement is released. Several values for the same node or face in one
+//! step are added, but values of supports and temperatures replace each other. A displacement that
+//! is first given in a later step starts from the position that the node then has. The history of a
+//! displacement that begins in a later step or is released has a span of steps.
 
 use super::Deck;
 use super::data::{Amplitude, ConditionKind, DeckProgram, DeckStep};
@@ -181,7 +182,7 @@ impl<'d> HistoryStep<'d> {
         let mut given = self.given()?;
         let is_renewed = self.step.renewed[kind as usize];
         if kind == ConditionKind::Boundary {
-            // A node that stayed where it was begins a history when it gets a value.
+            // A node that kept its position begins a new history when it gets a value.
             let ends = |key: &Key, entry: &KeyHistory| match given.get(key) {
                 Some(given) => entry.stays && !given.is_fixed,
                 None => is_renewed.is_some() && number > 0,
@@ -334,7 +335,7 @@ fn value_at(laws: &[(f64, &Amplitude)], at: f64, time: &Interval) -> f64 {
 }
 
 /// Continues a history along amplitudes to the end of a step: linearly to the value at the time
-/// `from`, and from there on as they go.
+/// `from`, and then along the amplitudes themselves.
 fn follow(laws: &[(f64, &Amplitude)], time: &Interval, from: f64, series: &mut Series) {
     let mut times = vec![time.end];
     times.extend((time.start < from).then_some(from));

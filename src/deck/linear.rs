@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Fraction of the largest coefficient of a column below which a coefficient counts as round-off.
 const ROUND_OFF: f64 = 1e-11;
-/// Fraction of the largest coefficient of a row from which on the row's first term is chosen to
-/// follow the others, as the deck writes it.
+/// Fraction of the largest coefficient of a row. The first term of the row, in the order of the
+/// deck, follows the others if its coefficient is at least this large.
 const LARGE_ENOUGH: f64 = 0.1;
 
 /// Coefficients of displacements, by node and axis.

@@ -37,7 +37,7 @@ pub fn load_with(path: impl AsRef<Path>, overrides: &[String], options: Options)
 
 impl super::Conversion {
     /// The scene in the form in which it would be read from a file: validated, with overrides
-    /// applied, and with places in the deck.
+    /// applied, and with the places of its data in the deck.
     ///
     /// # Errors
     /// The errors of [`Scene::parse_with`], at the lines of the deck.

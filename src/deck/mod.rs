@@ -138,9 +138,9 @@ impl Deck {
         }
     }
 
-    /// Whether no element has a type that CalculiX integrates in another way than fully, or for
-    /// quadratic elements reduced. Other ways are one point with hourglass control and incompatible
-    /// modes.
+    /// Whether CalculiX integrates all linear elements of the deck fully, without hourglass
+    /// control, incompatible modes or additional unknowns. Quadratic elements of any type are
+    /// accepted.
     pub fn is_fully_integrated(&self) -> bool {
         let mut types = self.mesh.elements.types.iter();
         types.all(|of| of.shape.is_quadratic() || of.note.is_none())

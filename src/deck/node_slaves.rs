@@ -1,8 +1,8 @@
-//! Slave surfaces that a deck gives by nodes (`TYPE=NODE`) which do not make up whole faces of one
-//! piece: a single node, a row, or the corners of faces alone.
+//! Slave surfaces that a deck gives by nodes (`TYPE=NODE`) which do not make up a connected surface
+//! of whole faces: a single node, a row, or the corners of faces alone.
 //!
-//! Contact is found on the faces around these nodes that face the master surface; no other node of
-//! these faces may touch.
+//! Contact is computed on the faces around these nodes that face the master surface. Of the nodes
+//! of these faces, only the given ones may touch.
 
 use super::adjust::SurfacePieces;
 use super::data::{ContactPair, SurfacePart};
@@ -14,8 +14,8 @@ use crate::error::Result;
 use crate::space::{direction, dot};
 use std::collections::{BTreeSet, HashMap};
 
-/// Cosine of the angle between the outward normals of two faces below which they face each other: a
-/// face perpendicular to the other does not, whatever the round-off.
+/// Cosine of the angle between the outward normals of two faces below which they face each other.
+/// Negative, so that perpendicular faces do not face each other in spite of round-off.
 const FACING: f64 = -1e-3;
 
 /// A slave surface of nodes.
@@ -39,8 +39,9 @@ impl Lookup<'_> {
         Ok(self.mesh.nodes_of(&faces))
     }
 
-    /// The nodes of a surface, if it is given by nodes on the boundary not all of which make up
-    /// whole faces, or which make up several pieces.
+    /// The nodes of a surface that is given by nodes, if some of its boundary nodes belong to no
+    /// face whose nodes are all given, or if the faces are not connected. `None` for any other
+    /// surface.
     fn loose_slaves(self, name: &str) -> Result<Option<Vec<u32>>> {
         let mut nodes = Vec::new();
         for (part, place) in self.sets.surfaces.get(name).into_iter().flatten() {

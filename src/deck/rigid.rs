@@ -7,8 +7,8 @@
 //! u = u_r + w x (x - x_r)
 //! ```
 //!
-//! along the axes that follow. The rotation is either the displacement of a rotation node
-//! (`ROT NODE`), or given by the degrees of freedom 4 to 6 of the reference node.
+//! along the axes along which the nodes follow the body. The rotation is either the displacement of
+//! a rotation node (`ROT NODE`), or given by the degrees of freedom 4 to 6 of the reference node.
 //!
 //! # Source
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, `*RIGID BODY`, `*KINEMATIC`.

@@ -153,8 +153,9 @@ impl<'d> Lookup<'d> {
         Ok(())
     }
 
-    /// Collects the numbers of `GENERATE`: those between its ends that are defined, as in CalculiX.
-    /// They are looked up one by one if they are few, otherwise searched among all numbers.
+    /// Collects the defined numbers of `GENERATE`; undefined numbers between its ends are skipped,
+    /// as in CalculiX. Few numbers are looked up one by one; for many numbers, all nodes or
+    /// elements of the deck are searched.
     fn range(
         self,
         what: What,

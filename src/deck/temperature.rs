@@ -55,10 +55,12 @@ impl OfNode {
     }
 }
 
-/// The largest change of temperature at each node of an element, with the node's number.
+/// The largest change of temperature at each node that belongs to an element, with the node's
+/// number.
 ///
 /// # Errors
-/// `Input` for undefined sets and nodes.
+/// `Input` for undefined sets and nodes; `Unsupported` for a node to which two materials give
+/// different equivalent changes.
 pub(crate) fn largest_changes(deck: &Deck) -> Result<Vec<(u64, f64)>> {
     let nodes = of_nodes(deck)?;
     let bodies = &Bodies::of(deck)?;

@@ -76,8 +76,8 @@ fn every_keyword_becomes_what_it_means() {
         .filter(|support| support.direction.is_some());
     assert_eq!(turned.count(), 2);
     assert_eq!(directions(&scene, "boundary-line-60"), [Direction::X]);
-    // The force on the leader of a plane, divided by the thickness; the pressure that is removed
-    // again.
+    // Load 0 is the force on the leader of a plane, divided by the thickness. Load 1 is the
+    // pressure that is removed again.
     let plane = &scene.load[0];
     assert_eq!(plane.plane_force.unwrap().total, -2.5);
     assert_eq!(

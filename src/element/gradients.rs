@@ -114,7 +114,7 @@ pub struct Gradients<const D: usize, const S: usize, const P: usize, const N: us
     pub(super) has_mean: bool,
     /// Inverse Jacobian, `dxi_a/dx_d` as `[d][a]`.
     inverse: [[Lanes<P>; D]; D],
-    /// Quadrature weight times Jacobian times thickness (1) or circumference (2 pi r).
+    /// Quadrature weight times Jacobian determinant times thickness (1) or circumference (2 pi r).
     pub(super) weights: Lanes<P>,
     /// Reciprocal radius `1/r` at the points if axisymmetric.
     pub(super) per_radius: Option<Lanes<P>>,
@@ -180,8 +180,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> Gradients<D
         self.table.n_nodes
     }
 
-    /// Weights of the points: quadrature weight times Jacobian times thickness (1) or circumference
-    /// (2 pi r).
+    /// Weights of the points: quadrature weight times Jacobian determinant times thickness (1) or
+    /// circumference (2 pi r).
     pub fn weights(&self) -> &[f64] {
         &self.weights[..self.n_points()]
     }

@@ -23,13 +23,13 @@
 //! at the Gauss points the work of that field in a variation of `u_z` is
 //! `sum w (r/r_c) (a r_c + 2 b r_c) dv/dr = sum w (a + 2 b) r dv/dr`: exact, element by element.
 //! The interpolated field is then in equilibrium node by node on rectangles of any size (tested).
-//! The shear changes nothing for constant normal strains and for sections that turn.
+//! The shear changes nothing for constant normal strains and for rotations of a cross-section.
 //!
 //! The effects of this shear, measured case by case, are listed in `data/elements.md`.
 //!
 //! `du_r/dz` must be taken at the centre. With the derivative at the point, times `sqrt(r_c/r)`,
-//! the field is in equilibrium too, but sections that turn are sheared, and a ring of flat elements
-//! is up to 65 % too stiff.
+//! the field is in equilibrium too, but a cross-section that rotates is sheared, and a ring of flat
+//! elements is up to 65 % too stiff.
 //!
 //! # Source
 //! The shear is derived here. It is an assumed strain, of the kind of M. Fredriksson,

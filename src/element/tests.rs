@@ -288,8 +288,8 @@ fn what_is_regular_at_the_axis_is_in_equilibrium_node_by_node() {
     }
 }
 
-/// Distorted elements on the axis and off it: constant strains are exact, and a section that turns
-/// has the strain of its hoops, reduced by the mean dilatation, but no shear.
+/// Distorted elements on the axis and off it: constant strains are exact. A cross-section that
+/// rotates has the hoop strain of the rotation, reduced by the mean dilatation, but no shear.
 #[test]
 fn constant_strains_are_exact_and_a_turning_section_has_no_shear() {
     let on_axis = padded(&[[0.0, 0.2], [1.1, 0.0], [1.4, 1.3], [0.0, 1.0]]);

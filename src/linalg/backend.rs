@@ -31,8 +31,8 @@ impl Backend {
         Backend::Dense,
     ];
 
-    /// Name on the command line and in results, and of the cargo feature that builds the backend
-    /// in.
+    /// Name of the backend on the command line and in results. The cargo feature that builds a
+    /// sparse backend in has the same name; `dense` needs no feature.
     pub fn name(self) -> &'static str {
         match self {
             Backend::Cholmod => "cholmod",
@@ -42,7 +42,7 @@ impl Backend {
         }
     }
 
-    /// Finds the backend with a name.
+    /// Finds the backend called `name`.
     ///
     /// # Errors
     /// `Input` with the names that exist.
@@ -81,7 +81,7 @@ impl Backend {
     }
 
     /// Processor whose kernels the BLAS uses (`Haswell`); `None` if there is no BLAS or if the BLAS
-    /// cannot be asked.
+    /// does not report it.
     pub fn kernels(self) -> Option<String> {
         match self {
             #[cfg(feature = "cholmod")]
@@ -90,7 +90,7 @@ impl Backend {
         }
     }
 
-    /// Number of threads of a factorisation; `None` if it cannot be asked.
+    /// Number of threads that a factorisation uses; `None` if the BLAS does not report it.
     pub(crate) fn threads(self) -> Option<usize> {
         match self {
             #[cfg(feature = "cholmod")]
@@ -124,11 +124,11 @@ impl Default for Backend {
 /// Factors `K + diag(shift on contact freedoms)` and condenses it.
 ///
 /// # Errors
-/// [`crate::ErrorKind::Internal`], naming the freedom as `freedom I`, if the matrix is not positive
-/// definite to working precision (`smallest_pivot_ratio`; callers map the freedom back to body,
-/// node and direction through [`crate::linalg::NotDefinite`] as cause), or if the arguments do not
-/// fit together; `Input` if the backend is not built in or the model is too large for it;
-/// `Analysis` if the memory does not suffice.
+/// [`crate::ErrorKind::Internal`] if the matrix is not positive definite to working precision
+/// (`smallest_pivot_ratio`), or if the arguments do not fit together; `Input` if the backend is not
+/// built in or the model is too large for it; `Analysis` if the memory does not suffice. The
+/// message about a matrix that is not definite names `freedom I`. The cause of that error is a
+/// [`crate::linalg::NotDefinite`], from which callers find body, node and direction.
 pub fn condense(
     backend: Backend,
     matrix: &SymmetricCsc,

@@ -1,7 +1,7 @@
 //! Dense kernels by blocks, on all threads, for models with thousands of contact pairs.
 //!
-//! Blocks have the same sizes and sums the same order whatever the number of threads, so results
-//! are the same bit for bit.
+//! The sizes of the blocks and the order of summation do not depend on the number of threads, so
+//! results are the same bit for bit.
 //!
 //! # Source
 //! G. H. Golub, C. F. Van Loan, *Matrix Computations*, 4th ed., 2013, sections 3.1.7 and 4.2.9.
@@ -13,12 +13,13 @@ use rayon::prelude::*;
 const BLOCK: usize = 96;
 /// Number of entries that a thread takes at a time.
 const ENTRIES: usize = 1 << 14;
-/// Fraction of nonzero entries of a block from which its product is faster as that of a full
-/// matrix. Measured with 300, 1000 and 2000 rows: both take the same at 0.25, 0.2 and 0.1.
+/// Fraction of nonzero entries above which a block is multiplied faster as a full matrix than as a
+/// sparse one. With 300, 1000 and 2000 rows, both ways take the same time at fractions of 0.25, 0.2
+/// and 0.1, respectively.
 const FULL: f64 = 0.2;
 
-/// Number of columns of the given length that a thread takes at a time: fewer cost less than waking
-/// it.
+/// Number of columns of the given length that a thread takes at a time: for fewer columns, waking
+/// the thread would cost more than the work.
 pub(crate) fn at_once(length: usize) -> usize {
     ENTRIES / length.max(1) + 1
 }
@@ -116,8 +117,8 @@ pub(crate) fn solve_lower(l: &DMatrix<f64>, b: &mut DMatrix<f64>) {
 }
 
 /// Returns the lower triangle of `a a'`, computed by strips of columns; only entries within a strip
-/// are valid above the diagonal. `depth(i)` bounds the columns that are not zero in the rows before
-/// `i`.
+/// are valid above the diagonal. In the rows before `i`, only the first `depth(i)` columns of `a`
+/// may have nonzero entries.
 pub(crate) fn outer(a: &DMatrix<f64>, depth: impl Fn(usize) -> usize + Sync) -> DMatrix<f64> {
     let n = a.nrows();
     let mut product = DMatrix::zeros(n, n);
@@ -152,8 +153,8 @@ mod tests {
         for n in [0, 1, 95, 96, 97, 250] {
             let mut numbers = Numbers::new(5);
             let random = DMatrix::from_vec(n, n, numbers.vector(n * n));
-            // Diagonally dominant: condition below 4, round-off n eps times the size of the
-            // entries.
+            // The matrix is diagonally dominant with a condition number below 4; round-off is n eps
+            // times the size of the entries.
             let a = &random * random.transpose() + DMatrix::identity(n, n) * (n * n) as f64;
             let tolerance = n as f64 * f64::EPSILON * 2.0 * (n * n + 1) as f64;
             let l = cholesky(a.clone()).unwrap();

@@ -3,9 +3,10 @@
 
 use super::{ContactStiffness, ZonePart};
 
-/// A factor of `M = S + diag(shift) - sum_e P_e' A_e P_e`, with small matrices `A_e` that couple
-/// only what the condensed matrix `S` couples. Vectors are those of [`super::Condensed`] for the
-/// zone that was chosen when this factor was made.
+/// A factor of `M = S + diag(shift) - sum_e P_e' A_e P_e`, with small symmetric matrices `A_e` on
+/// the freedoms that `P_e` selects. Each `A_e` couples only freedoms that the condensed matrix `S`
+/// couples. Vectors are those of [`super::Condensed`] for the zone that was chosen when this factor
+/// was made.
 pub trait ChangedFactor: Send {
     /// Floating point operations of one factorisation, and of one solve.
     fn flops(&self) -> [f64; 2];

@@ -88,7 +88,7 @@ pub(super) fn partition(partition: &Partition, shift: &[f64]) -> Result<()> {
     Ok(())
 }
 
-/// Checks the length of a vector of `what`.
+/// Checks that a vector of `what` has the `expected` length.
 pub(super) fn length(what: &str, found: usize, expected: usize) -> Result<()> {
     if found == expected {
         return Ok(());

@@ -70,7 +70,8 @@ pub trait Condensed: Send + Sync {
     }
 
     /// Makes a second factor, of the condensed matrix with changed values in the chosen zone and on
-    /// the contact freedoms. `None` if the backend has none, or if the memory does not suffice.
+    /// the contact freedoms. `None` if the backend cannot make one, or if the memory does not
+    /// suffice.
     fn changed(&self) -> Option<Box<dyn ChangedFactor>> {
         None
     }
@@ -86,7 +87,7 @@ pub trait Condensed: Send + Sync {
     /// The predicted cost of this factorisation; nothing is measured.
     fn cost(&self) -> Prediction;
 
-    /// Pivot that lost most digits to cancellation. If its ratio is close to
+    /// Pivot that lost the most digits to cancellation. If its ratio is close to
     /// `smallest_pivot_ratio`, the model is barely held at that freedom.
     fn weakest_pivot(&self) -> Pivot;
 }
@@ -106,9 +107,9 @@ pub struct Pivot {
 /// factorisation with a smaller ratio is refused as not definite, since the pivot's sign has no
 /// meaning.
 ///
-/// The computed factor is that of `A + E` with `|E_ij| <= (m + 1) eps sqrt(a_ii a_jj)`, m the
-/// nonzeros in a row of `L`. For a singular `A` with null vector `v` the last pivot is
-/// `v' E v / v_j^2`; the terms of the sum have either sign and stay below `n eps a_jj`.
+/// The computed factor is that of `A + E` with `|E_ij| <= (m + 1) eps sqrt(a_ii a_jj)`, where `m`
+/// is the number of nonzeros in a row of `L`. For a singular `A` with null vector `v` the last
+/// pivot is `v' E v / v_j^2`; the terms of the sum have either sign and stay below `n eps a_jj`.
 ///
 /// # Source
 /// N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., SIAM 2002, theorem

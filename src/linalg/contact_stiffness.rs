@@ -83,7 +83,8 @@ impl ContactStiffness {
         part
     }
 
-    /// Adds the submatrix of the given rows and columns to `sum`, in order.
+    /// Adds the submatrix of the given rows and columns to `sum`, whose rows and columns are in the
+    /// order of the two lists.
     pub(crate) fn add_part(&self, rows: &[usize], columns: &[usize], sum: &mut DMatrix<f64>) {
         let mut row_of = vec![None; self.n_contact()];
         for (i, &freedom) in rows.iter().enumerate() {
@@ -102,8 +103,8 @@ impl ContactStiffness {
     }
 
     /// Splits the stiffness into groups of freedoms that no block couples with others. `place`
-    /// gives the group of each freedom and its number there, which ascends with the freedoms of a
-    /// block.
+    /// gives the group of each freedom and its number within the group. These numbers ascend with
+    /// the freedoms of a block.
     pub(crate) fn split(self, place: &[(usize, usize)], n_groups: usize) -> Vec<Self> {
         let mut blocks: Vec<Vec<ContactBlock>> = vec![Vec::new(); n_groups];
         for mut block in self.blocks {

@@ -228,7 +228,7 @@ fn refuse_large(n: usize) -> Result<()> {
     )))
 }
 
-/// Pivots of several factorisations that together form one of the whole matrix.
+/// Pivots of several factorisations that together form a factorisation of the whole matrix.
 struct Pivots {
     smallest: f64,
     weakest: Pivot,

@@ -9,8 +9,8 @@
 //! The result is the solution for the matrix as it is stored. If the matrix is exact (a caller's
 //! own), this is the true solution. If its entries are rounded sums of element stiffnesses, their
 //! round-off costs as much accuracy as the solve's, and refinement gains nothing: the analysis of
-//! scenes does not use it (measured: `tests/stability/refinement.rs`; slivers factored by faer
-//! would gain a digit).
+//! scenes does not use it (checked in `tests/stability/refinement.rs`; only for extremely thin
+//! elements factored by faer would refinement gain a digit).
 //!
 //! # Source
 //! N. J. Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed., theorem 12.1; T. Ogita,
@@ -32,10 +32,10 @@ const PROGRESS: f64 = 0.5;
 pub struct Refinement {
     /// Number of corrections that were added.
     pub steps: usize,
-    /// Size of the first correction relative to the solution (largest values): the error of the
-    /// solution before the refinement.
+    /// Largest value of the first correction, relative to the largest value of the solution: the
+    /// error of the solution before the refinement.
     pub first: f64,
-    /// Size of the last correction computed, relative to the solution.
+    /// Size of the last correction that was added, relative to the solution in the same way.
     pub last: f64,
 }
 
@@ -102,9 +102,9 @@ fn subtract_product(high: &mut f64, low: &mut f64, a: f64, b: f64) {
 }
 
 /// Componentwise backward error of `u` as a solution of `K u = load`: the smallest `omega` for
-/// which `u` is the exact solution of a system whose entries of matrix and load differ by at most
-/// this share. Rows without load and almost without displacement are measured against their own
-/// stiffness times the largest displacement.
+/// which `u` is the exact solution of a system whose entries of matrix and load differ from the
+/// given ones by at most the fraction `omega`. Rows without load and almost without displacement
+/// are measured against their own stiffness times the largest displacement.
 pub fn componentwise_backward_error(matrix: &SymmetricCsc, load: &[f64], u: &[f64]) -> f64 {
     let mut rows = RowSums::new(matrix, load, u);
     rows.residual = twofold_residual(matrix, load, u);

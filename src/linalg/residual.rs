@@ -19,8 +19,8 @@ pub struct Recovered {
     pub u: Vec<f64>,
     /// Residual `|f - K u|` in the infinity norm.
     pub residual: f64,
-    /// Backward error `|f - K u| / (|K| |u| + |f|)` in infinity norms; zero if all are zero, NaN if
-    /// one is NaN.
+    /// Backward error `|f - K u| / (|K| |u| + |f|)` in infinity norms; zero if the residual is
+    /// zero, NaN if a value is NaN.
     pub backward_error: f64,
     /// Componentwise backward error ([`super::componentwise_backward_error`]), with the residual in
     /// working precision: the residual's own round-off, one rounding error for each entry of a row,
@@ -52,10 +52,10 @@ impl Recovered {
 
 /// Recovers all freedoms ([`Condensed::recover_all`]) with the residual for the load `f` on all
 /// freedoms (contact forces included). A step of iterative refinement of interior and zone follows
-/// if it lowers the residual. `norm` is that of `matrix` ([`super::norm`]). `beside` are a
-/// displacement and a load, for instance the largest of other solutions that belong to this one, or
-/// zeros: if they are larger than those of this solution, the residual need only be small compared
-/// with them.
+/// if it lowers the residual. `norm` is the infinity norm of `matrix` ([`super::norm`]). `beside`
+/// gives the size of a displacement and of a load, for instance the largest values of related
+/// solutions, or zeros. If these are larger than the values of this solution, the residual need
+/// only be small compared with them.
 ///
 /// # Errors
 /// Errors of [`Condensed::recover_all`].

@@ -7,8 +7,8 @@ use std::ops::Range;
 /// Number of parts of the matrix that are processed in parallel. It is fixed, so that the order of
 /// summation does not depend on the number of threads.
 const PARTS: usize = 4;
-/// Number of entries from which a matrix is processed in parallel: below it, waking a thread costs
-/// more.
+/// Number of entries from which a matrix is processed in parallel: with fewer entries, waking a
+/// thread costs more than it saves.
 const MANY: usize = 1 << 15;
 /// Number of rows that a thread takes at a time.
 const GRAIN: usize = 1 << 14;
@@ -76,14 +76,14 @@ pub(super) struct RowSums {
     pub stiffness: Vec<f64>,
 }
 
-/// Rows that have the numbers of a part's columns.
+/// Block of rows with the same numbers as the columns of a part of the matrix.
 struct RowBlock<'a> {
     columns: Range<usize>,
     residual: &'a mut [f64],
     terms: &'a mut [f64],
     stiffness: &'a mut [f64],
-    /// Contributions of the columns to rows before these: `K u`, `|K| |u|` and `|K|`. The entry at
-    /// place `i` belongs to row `columns.start - 1 - i`.
+    /// Contributions of the columns to rows above this block: `K u`, `|K| |u|` and `|K|`. The entry
+    /// at place `i` belongs to row `columns.start - 1 - i`.
     before: Vec<[f64; 3]>,
 }
 

@@ -4,9 +4,10 @@ use super::{Condensed, Partition};
 use crate::error::Result;
 use nalgebra::{Cholesky, DVector, Dyn};
 
-/// Solves `(K + D) u = x` in place. `held` is the factor of `C + D`, the contact stiffness with
-/// anything that acts on the contact freedoms in addition to `K`; `None` if there are no contact
-/// freedoms. `partition` holds the zone that is chosen at present. Costs a full solve.
+/// Solves `(K + D) u = x` in place. `D` is the stiffness of anything that acts on the contact
+/// freedoms in addition to `K`. `held` is the Cholesky factor of `C + D`, where `C` is the contact
+/// stiffness; `None` if there are no contact freedoms. `partition` holds the zone that is chosen at
+/// present. Costs a full solve.
 ///
 /// # Errors
 /// Errors of [`Condensed::recover_all`].

@@ -31,11 +31,12 @@ impl Material {
     /// belongs to the history `old`, to `end`; by the implicit rule in one step if `begin` is not
     /// known. If the point yields, `memory` holds the strains at the end afterwards.
     ///
-    /// The tangent is that of the implicit rule over the whole path with two changes: its normal is
-    /// the one at the end, and the reduction of stiffness across the flow is that of the path while
-    /// flow does not turn ([`parts::Across`]). One step takes off `3 G d/q = x/(1 + x)` where the
-    /// path takes `1 - (1 - exp(-x))/x`, a difference that would determine the speed of iterations.
-    /// If back stresses fade, the tangent is that of one step.
+    /// The tangent is that of the implicit rule over the whole path with two changes. Its normal is
+    /// the direction of flow at the end. Its reduction of the stiffness across the flow is that
+    /// along a path on which flow does not turn ([`parts::Across`]): without hardening and with
+    /// `x = 3 G d/sigma_y` this is `1 - (1 - exp(-x))/x`, whereas one step gives
+    /// `3 G d/q = x/(1 + x)`. The difference would slow down iterations. If back stresses fade, the
+    /// tangent is that of one step.
     pub(crate) fn integrate_along<const S: usize>(
         &self,
         law: &Lame,

@@ -16,7 +16,8 @@ fn material(space: Space, nu: f64, hardening: Hardening) -> Material {
     }
 }
 
-/// Without kinematic hardening, with Prager's, and with Prager's and two fading back stresses.
+/// Returns the material without kinematic hardening, with Prager's, and with Prager's and two
+/// fading back stresses.
 fn each_kind(material: Material) -> [Material; 3] {
     let laws: [&[[f64; 2]]; 3] = [
         &[],

@@ -65,9 +65,9 @@ pub enum Curve {
 }
 
 impl Curve {
-    /// The point nearest to `x` of the surface's spine, from which the radius is measured (the
-    /// centre, the axis or the ring), with the radius and the value of `outward`. `None` for lines
-    /// and planes.
+    /// Point of the surface's spine that is nearest to `x`, with the radius and the value of
+    /// `outward`. The spine is the centre, the axis or the ring from which the radius is measured.
+    /// `None` for lines and planes.
     pub(crate) fn spine(&self, x: Vector) -> Option<(Vector, f64, bool)> {
         match *self {
             Curve::Line { .. } | Curve::Plane { .. } => None,

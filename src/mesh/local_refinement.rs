@@ -1,12 +1,12 @@
 //! Refinement of a plane mesh around points.
 //!
-//! In pass `k` of `times`, each element that touches the disc of radius `2^(times-k)` radii around
-//! the point, or one of its neighbours, is divided into four ([`crate::shape::cuts`]). Element
-//! sizes so double with the distance, and each pass divides about as many elements. An element
-//! beside these is divided only at the sides that it shares with divided elements
-//! ([`partial_cuts`]), or into four if no such division fits. Because of the layer of neighbours no
-//! later pass divides such an element again, which would make its angles sharper. Surfaces that
-//! face each other node by node continue to do so.
+//! In pass `k` of `times`, all elements that touch the disc of radius `2^(times-k)` radii around
+//! the point, and the neighbours of these elements, are divided into four ([`crate::shape::cuts`]).
+//! The element size therefore doubles whenever the distance from the point doubles, and all passes
+//! divide about the same number of elements. An element beside these is divided only at the sides
+//! that it shares with divided elements ([`partial_cuts`]), or into four if no such division fits.
+//! Because of the layer of neighbours no later pass divides such an element again, which would make
+//! its angles sharper. Surfaces that face each other node by node continue to do so.
 
 use super::subdivision::{Finer, MOST_ELEMENTS, check_node_sets, partners};
 use super::{Mesh, Surface};
@@ -115,9 +115,9 @@ fn divided(mesh: &Mesh, element: usize, sides: &HashSet<ElementSide>) -> usize {
         .fold(0, |bits, (k, _)| bits | 1 << k)
 }
 
-/// All sides that are divided if the given elements are divided into four: sides of these elements,
-/// sides opposite them on facing surfaces, and sides of further elements that fit no other
-/// division.
+/// All sides that are divided if the given elements are divided into four: the sides of these
+/// elements, the sides opposite divided ones on facing surfaces, and all sides of further elements
+/// that cannot be divided at their divided sides alone.
 fn closed(mesh: &Mesh, elements: &[usize], contacts: &[Contact]) -> HashSet<ElementSide> {
     let facing = facing_nodes(mesh, contacts);
     let mut sides = HashSet::new();

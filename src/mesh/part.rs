@@ -30,8 +30,8 @@ impl Mesh {
         for (part, elements) in (0..).zip(parts) {
             elements.iter().for_each(|&e| part_of[e] = part);
         }
-        // The first part that holds each node; nodes held by several parts are listed separately
-        // with all of them.
+        // The first part that holds each node; nodes held by several parts are listed separately,
+        // each with all its parts.
         let mut first = vec![NONE; self.n_nodes()];
         let mut several: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
         let mut is_shared = vec![false; self.n_nodes()];

@@ -1,4 +1,4 @@
-//! Connectedness of each body: its elements must hang together.
+//! Connectedness of each body: its elements must be joined to one piece.
 
 use super::Mesh;
 use crate::classes::Classes;

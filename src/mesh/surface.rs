@@ -135,10 +135,10 @@ pub(crate) fn ordered_nodes(mesh: &Mesh, surface: &Surface) -> Result<Vec<usize>
 ///
 /// The normals are exact if the surface's [`Curve`](super::Curve) is known. They are also exact at
 /// inner nodes of flat facets that lie on a circle or a sphere, whatever the lengths of the facets:
-/// at a node where the edges `e` meet, straight facets have the weights `1 / |e|^2` and flat faces
-/// `1 / |e_1|^2 |e_2|^2` (of their area vectors). At the end of a line of straight facets a circle
-/// is continued. For a curved facet the normal at the node is taken, and several curved facets are
-/// weighted with their areas. A node that is not on the surface gets zeros.
+/// at a node where the edges `e` meet, the area vectors of straight facets have weights of
+/// `1/|e|^2`, and those of flat faces `1/(|e_1|^2 |e_2|^2)`. At the end of a line of straight
+/// facets a circle is continued. For a curved facet the normal at the node is taken, and several
+/// curved facets are weighted with their areas. A node that is not on the surface gets zeros.
 ///
 /// # Source
 /// N. Max, *Weights for computing vertex normals from facet normals* (1999),
@@ -186,8 +186,9 @@ fn add_areas(mesh: &Mesh, facet: Facet, sums: &mut BTreeMap<usize, Vector>) {
 }
 
 /// Continues the normals to the end of a line of straight facets: the end gets the mirrored normal
-/// of the other end of its facet, which is the normal of a circle through both. This is done only
-/// if the line has a similar curvature (angle of the turn over the length) at the next two nodes.
+/// of the other end of its facet, which is the normal of a circle through both ends. This is done
+/// only if the line has a similar curvature (angle of the turn over the length) at the next two
+/// nodes.
 fn continue_to_the_ends(mesh: &Mesh, surface: &Surface, normals: &mut BTreeMap<usize, Vector>) {
     let mut facets_at: BTreeMap<usize, Vec<Facet>> = BTreeMap::new();
     for &facet in &surface.facets {

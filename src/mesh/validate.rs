@@ -1,4 +1,4 @@
-//! Checks that a mesh can be computed with.
+//! Checks that a mesh is fit for a computation.
 
 use super::{Facet, Integration, Mesh, Shape, conformity, jacobian, pieces};
 use crate::shape::{Functions, MAX_NODES};

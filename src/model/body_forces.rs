@@ -4,7 +4,8 @@
 //! f_i = sum_e int N_i rho b dV,   b = a,   b = omega^2 (x - x_0),  x_0 nearest to x on the axis
 //! ```
 //!
-//! `omega = 2 pi rpm/60` with the scene's second.
+//! The angular velocity is `omega = 2 pi rpm/60` per second; the unit of time in the density must
+//! also be the second.
 
 use crate::element::volume_points;
 use crate::mesh::Mesh;
@@ -51,7 +52,7 @@ pub(super) fn on_body(
 }
 
 /// Centrifugal field `omega^2 (x - x_0)`, which points away from the axis. In plane models the axis
-/// is normal to the plane, in an axisymmetric model it is the axis of symmetry.
+/// is normal to the plane; in an axisymmetric model it is the axis of symmetry.
 pub(super) fn spinning(space: Space, rotation: &Rotation) -> impl Fn(Vector) -> Vector {
     let center = rotation.center.map_or([0.0; 3], |c| c.vector());
     let axis: Vector = match space {

@@ -237,7 +237,8 @@ impl ModelBuilder {
         Ok(self)
     }
 
-    /// Adds a target to the load program. Without any target there is one at load factor 1.
+    /// Adds a target to the load program. If no target is added, the program has a single target at
+    /// load factor 1.
     pub fn target(&mut self, target: Target) -> &mut Self {
         self.scene.program.targets.push(target);
         self

@@ -7,8 +7,8 @@ use crate::scene::{History, Scene};
 use crate::space::length;
 
 impl Carried {
-    /// Adds the load cases of the displacements and forces carried over. A load whose nodes are
-    /// still on their way to its value begins at zero.
+    /// Adds the load cases of the displacements and forces carried over. The factor of a load
+    /// begins at zero if its nodes are still on their way to the prescribed value.
     pub(super) fn add_cases(
         &self,
         scene: &Scene,

@@ -1,17 +1,18 @@
 //! Displacements of quadratic faces in contact, expressed by control points.
 //!
-//! A uniform pressure pulls at the corners of a face of eight nodes (their weight is -1/12 of the
-//! area) and does not act on the corners of a face of six: no contact condition can be stated
-//! there. In the basis
+//! A uniform pressure pulls at the corners of a face with eight nodes (their weight is -1/12 of the
+//! area) and does not act on the corners of a face with six nodes, so no contact condition can be
+//! stated at these corners. In the basis
 //!
 //! ```text
 //! phi_c = N_c + alpha sum N_m (edges at c),   phi_m = (1 - 2 alpha) N_m,   alpha = 1/5
 //! u_m = (1 - 2 alpha) q_m + alpha (q_c1 + q_c2),   u_c = q_c
 //! ```
 //!
-//! all weights are positive (1/20 and 1/5 of the area; 2/15 and 1/5), and bodies touch where their
-//! control points `q` touch. Freedoms and forces of such faces belong to the control points; the
-//! sum of the coefficients is 1, so a rigid motion moves control points as it moves points.
+//! all weights are positive: corners and middles have 1/20 and 1/5 of the area of a face with eight
+//! nodes, and 2/15 and 1/5 of a face with six. Bodies touch where their control points `q` touch.
+//! Freedoms and forces of such faces belong to the control points. The coefficients add up to 1, so
+//! a rigid motion of the body moves its control points like any of its other points.
 //!
 //! # Source
 //! A. Popp, B. Wohlmuth, M. Gee, W. Wall, *Dual quadratic mortar finite element methods for 3D
@@ -39,11 +40,13 @@ impl ContactBasis {
     /// Weight of each end of an edge in the displacement of the middle of the edge.
     pub const ALPHA: f64 = 0.2;
 
-    /// Finds the basis for the pairs and ties of a solid model. It covers the slaves' faces, the
-    /// faces that match them, and the following faces of ties.
+    /// Finds the basis for the pairs and ties of a solid model. The basis covers the faces of the
+    /// slaves, master faces that match them node by node, and the slave faces of ties.
     ///
     /// # Errors
-    /// `Input` if two nodes face each other of which only one is the middle of an edge.
+    /// `Input` if the middle node of an edge faces a node that is not one, if matching faces have
+    /// different edges, or if a slave of a contact of single nodes is the middle of an edge in the
+    /// basis.
     pub(super) fn of(
         mesh: &Mesh,
         pairs: &[Pair],
@@ -207,8 +210,8 @@ impl ContactBasis {
 
     /// Converts terms whose sum is the displacement of a node along a direction to terms whose sum
     /// is the displacement of its control point. The middle of an edge moves by
-    /// `w q + sum w_e q_e`, so its control point moves by the sum less `w_e q_e` of the edge's
-    /// ends, over `w`.
+    /// `u = w q + sum w_e q_e`, with a sum over the ends `e` of the edge, so its control point
+    /// moves by `q = (u - sum w_e q_e) / w`.
     pub(super) fn at_control_point(
         &self,
         node: usize,

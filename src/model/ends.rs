@@ -67,8 +67,8 @@ fn find_in_plane(mesh: &Mesh, pairs: &[Pair], contacts: &mut [ContactSurface], b
             followed &= follows(&master);
             turn += master.turn;
         } else {
-            // Facets of the other surface continue unless that surface ends among the masters; in
-            // that case a surface of another contact may begin there.
+            // The other surface continues beyond this end unless it ends among the masters of the
+            // pair. Where it ends, a surface of another contact may begin.
             let contact = &contacts[end.contact];
             let other = mesh.surfaces.get(&contact.names[1 - contact.slave]);
             let other: BTreeSet<Facet> = (other.into_iter())
@@ -161,8 +161,8 @@ impl<'m> Boundary<'m> {
     }
 
     /// Continuation of the boundary at `node` on the side opposite to the `inner` node of the
-    /// surface. `None` if the node does not have two boundary facets, or if no inner node shows the
-    /// side.
+    /// surface. `None` if the node does not have two boundary facets, or if `inner` does not lie on
+    /// exactly one of them.
     fn beyond(&self, node: usize, inner: Option<usize>) -> Option<Beyond> {
         let [a, b] = self.at.get(&node)?[..] else {
             return None;

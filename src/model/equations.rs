@@ -158,11 +158,11 @@ fn on_their_way(scene: &Scene, mesh: &Mesh, carried: &Carried) -> Result<Vec<Fol
     Ok(out)
 }
 
-/// A list of the scene, and the number of an entry.
+/// Name of a list of the scene, and the index of an entry in this list.
 type EntryNumber = (&'static str, usize);
 
-/// All equations with their terms, the displacement that follows first, and with the value of a
-/// prescribed difference.
+/// All equations of the scene, each with its entry, its terms and the value of a prescribed
+/// difference. The first term is the displacement that follows the others.
 fn all(scene: &Scene) -> impl Iterator<Item = (EntryNumber, Vec<EquationTerm>, Option<f64>)> {
     let equations = scene.equation.iter().enumerate();
     let equations =

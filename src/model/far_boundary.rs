@@ -3,7 +3,7 @@
 //! The dent of a body is measured from the position that its undeformed surface would have.
 //! Supports define this position. A body that only contact holds has no supports; the surface
 //! through which it is loaded takes their place. The rigid motion `sum a_j R_j` that best fits the
-//! displacement `u` of its nodes,
+//! displacement `u` of the nodes of this surface,
 //!
 //! ```text
 //!     a = G^-1 b,    G_ij = sum_f w_f R_if R_jf,    b_i = sum_f w_f R_if u_f
@@ -26,8 +26,8 @@ use std::collections::BTreeMap;
 /// motions: half of the digits are left.
 const TOLD_APART: f64 = 1e-8;
 
-/// A rigid motion that was pinned. The body takes part in it through deformation, so it is fitted
-/// together with the motions that remain free.
+/// A rigid motion that a pin stops at one freedom. The deformation of the body can still contain a
+/// share of this motion, so it is fitted together with the motions that remain free.
 pub(super) struct StoppedMotion {
     pub part: usize,
     /// Displacement of the freedoms that move. The number of a pinned freedom is the number of its
@@ -47,8 +47,9 @@ pub(super) struct FarBoundary<'a> {
 }
 
 impl FarBoundary<'_> {
-    /// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]). `work(motion)` is the
-    /// work on the motion of each load with forces on its bodies, by the numbers of the loads.
+    /// Finds the weights of each motion ([`RigidMotion::in_far_boundary`]). `work(motion)` gives,
+    /// by load number, the work that each load does on the motion; it lists the loads with forces
+    /// on the bodies of the motion.
     pub(super) fn measure(
         &self,
         motions: &mut [RigidMotion],
@@ -121,7 +122,8 @@ impl FarBoundary<'_> {
     }
 }
 
-/// Share of each node in the volume of its elements: equal shares, so that none is negative.
+/// Share of each node in the volume of its elements. The nodes of an element have equal shares, so
+/// that none is negative.
 pub(crate) fn volumes_of_nodes(space: Space, mesh: &Mesh) -> Vec<f64> {
     let mut out = vec![0.0; mesh.n_nodes()];
     for (element, &shape) in mesh.shapes.iter().enumerate() {

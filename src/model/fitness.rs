@@ -11,7 +11,8 @@ use std::path::Path;
 /// Completes and checks the mesh of a scene, and adds the elements of rigid surfaces to it.
 ///
 /// # Errors
-/// A mesh that is damaged, with its file if it has one, or does not fit the scene.
+/// A mesh that is damaged or does not fit the scene. For a damaged mesh from a file the message
+/// names the file.
 pub(super) fn prepare(scene: &Scene, mesh: &mut Mesh, file: Option<&Path>) -> Result<RigidBodies> {
     mesh.name_parts(scene.set_names());
     mesh.integration = integration(scene, mesh);
@@ -88,7 +89,8 @@ fn check_dimension(scene: &Scene, mesh: &Mesh) -> Result<()> {
     Err(scene.places.in_front("kind", error))
 }
 
-/// Refuses a reference for a point that lies in no element.
+/// Refuses a reference whose place is farther from the nearest node than the longest edge at this
+/// node.
 fn check_places(scene: &Scene, mesh: &Mesh) -> Result<()> {
     for (index, entry) in scene.reference.iter().enumerate() {
         let Some(place) = entry.place() else { continue };
@@ -109,7 +111,7 @@ fn check_places(scene: &Scene, mesh: &Mesh) -> Result<()> {
     Ok(())
 }
 
-/// Refuses nodes beyond the axis of an axisymmetric model.
+/// Refuses nodes at a negative radius in an axisymmetric model.
 pub(super) fn check_radii(mesh: &Mesh) -> Result<()> {
     match (0..mesh.n_nodes()).find(|&node| mesh.point(node)[0] < 0.0) {
         Some(node) => Err(Error::input(format!(

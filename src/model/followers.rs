@@ -1,10 +1,10 @@
 //! Displacements that follow others: those of slave nodes in ties, and those of equations.
 //!
-//! A row `j` of a tie states `R_j = D_j u_j - sum_k M_jk u_k = 0` for all directions. It makes the
-//! displacement of a slave along each of its axes a sum of others, which assembly eliminates. If
-//! something else acts in a direction `n` of a slave `h` (a support, a prescribed displacement, a
-//! contact normal), it takes precedence, and `n . R_h` is added to the rows of the slave's
-//! neighbours:
+//! A row `j` of a tie states `R_j = D_j u_j - sum_k M_jk u_k = 0` for all directions. The row
+//! expresses the displacement of a slave along each of its axes as a sum of other displacements,
+//! and assembly eliminates the displacement of the slave. If something else acts in a direction `n`
+//! of a slave `h` (a support, a prescribed displacement, a contact normal), it takes precedence,
+//! and `n . R_h` is added to the rows of the slave's neighbours:
 //!
 //! ```text
 //!     R_j + sum_h c_jh n n' R_h = 0,    c_jh = D_j / sum_j D_j
@@ -187,8 +187,8 @@ impl Followers {
         Ok(())
     }
 
-    /// Passes the tie of a slave along an axis in other use on to the rows of the slave's
-    /// neighbours.
+    /// Adds the tie row of a slave to the rows of the slave's neighbours. This is done along an
+    /// axis `i` that another condition of the slave already uses.
     fn hand_on(
         &mut self,
         freedoms: &Freedoms,
@@ -244,8 +244,8 @@ impl Followers {
     }
 
     /// Expresses followers by numbered freedoms, and moves their nodes to where they follow without
-    /// strain: `x_j = sum w_jk x_k`, so that a rigid motion remains one. Returns whether any node
-    /// moved by more than round-off.
+    /// strain: `x_j = sum w_jk x_k`, so that rigid motions of the bodies satisfy the equations.
+    /// Returns whether any node moved by more than round-off.
     ///
     /// # Errors
     /// Ties and equations that form a circle.

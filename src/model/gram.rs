@@ -64,8 +64,8 @@ impl Gram {
     }
 
     /// Whether a block minus `shift` times the identity is positive definite, that is, has a
-    /// Cholesky factor. The factor is temporary; each of its rows is held from the first nonzero to
-    /// the diagonal.
+    /// Cholesky factor. The factor is temporary; each of its rows is stored from the first nonzero
+    /// to the diagonal.
     pub(super) fn is_definite(&self, block: &[usize], shift: f64) -> bool {
         let mut place = BTreeMap::new();
         place.extend(block.iter().enumerate().map(|(k, &row)| (row, k)));

@@ -1,15 +1,15 @@
 //! Strains without stress: from a change of temperature, or initial ones of a body.
 //!
-//! A point that can expand freely has the strain `eps_0 = alpha dT` along all axes, a point with
-//! residual stress the strain that causes it. The free strain enters like plastic strains, as an
-//! initial load:
+//! If a point can expand freely, its free strain `eps_0` is `alpha dT` along all axes. Where a body
+//! has residual stress, the free strain is the one that causes this stress. The free strain enters
+//! like plastic strains, as an initial load:
 //!
 //! ```text
 //! sigma = D (eps - eps_p - eps_0),   f = sum_g w_g B' D eps_0
 //! ```
 //!
 //! The free strain is interpolated between the nodes. Linear elements take the mean of their nodes'
-//! values, as their stress cannot follow more.
+//! values, because their stress cannot follow a free strain that varies within the element.
 
 use crate::element::{Gradients, Kernel, with_kernel};
 use crate::material::Lame;

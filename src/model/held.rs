@@ -55,8 +55,9 @@ impl FloatingBodies {
 pub struct Pin {
     /// Description of the motion in words.
     pub motion: String,
-    /// Load that does most work on the motion, with its work over its size, which a round surface
-    /// explains; `None` if no load does work on the motion.
+    /// Name of the load that does the most work on the motion, and the ratio of this work to the
+    /// size of the load. The flat facets of a round surface explain this work. `None` if no load
+    /// does work on the motion.
     pub driven: Option<(String, f64)>,
     /// Node of the pinned freedom.
     pub node: usize,

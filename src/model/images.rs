@@ -126,7 +126,8 @@ impl Image {
         }
     }
 
-    /// Whether this image equals another one in which all its planes take part.
+    /// Whether this image has the same reflection as `other`, and all planes of this image also
+    /// take part in `other`.
     fn is(&self, other: &Image) -> bool {
         let entries = self.reflection.0.iter().zip(&other.reflection.0);
         let mut entries = entries.flat_map(|(a, b)| a.iter().zip(b));

@@ -179,7 +179,8 @@ fn resolve_load(
 }
 
 impl LoadCase {
-    /// Distributes a total force over a surface like a uniform traction, over a node set equally.
+    /// Distributes a total force: over a surface like a uniform traction, over the nodes of a set
+    /// in equal parts.
     fn push(&mut self, force: Vector, load: &scene::Load, scene: &Scene, mesh: &Mesh) {
         self.set_size(force, Magnitude::Force);
         let share = force.map(|f| f / scene.symmetry as f64);
@@ -196,8 +197,9 @@ impl LoadCase {
         };
     }
 
-    /// Takes over the nodal forces of a pressure or traction on a surface, with its largest size.
-    /// The direction is that of the traction if it is uniform, otherwise that of the resultant.
+    /// Stores the nodal forces of a pressure or traction on a surface, and its largest magnitude.
+    /// The load has the direction of the traction if this is uniform, otherwise the direction of
+    /// the resultant.
     fn press(&mut self, (nodal, largest): (NodeForces, f64), uniform: Option<Vector>) {
         self.nodal = nodal;
         match uniform {
@@ -275,7 +277,7 @@ fn shares(space: Space, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
     else {
         return equal();
     };
-    // Areas and nodes are in the same order, since both ascend.
+    // Areas and nodes are in the same order, since both are sorted by node number.
     let areas = integrate(space, mesh, surface, |_| unit(0));
     let whole: f64 = areas.iter().map(|(_, a)| a[0]).sum();
     if areas.len() == nodes.len() && whole > 0.0 {

@@ -176,9 +176,9 @@ impl Model {
     }
 
     /// Forces of supports, equations and prescribed displacements, if a support or load ends at the
-    /// load factor `at`. Constraints that go on bear their forces in the next leg, where these do
-    /// no work. All nodes are taken, because a held middle of an edge also acts on the ends of the
-    /// edge.
+    /// load factor `at`. The forces of constraints that continue are included: the same constraints
+    /// bear these forces in the next leg, where the forces do no work. All nodes are taken, because
+    /// a held middle of an edge also acts on the ends of the edge.
     fn ending_at(&self, at: f64, forces: &[Vector]) -> Option<Released> {
         let supports = self.scene.support.iter().map(Support::span);
         let spans = supports.chain(self.scene.load.iter().map(Load::span));

@@ -42,7 +42,7 @@ impl Mirror {
         self.beyond(x).abs() <= ON_PLANE * facet_length
     }
 
-    /// Distance of a point beyond the plane.
+    /// Signed distance of a point from the plane, positive on the side away from the body.
     pub fn beyond(&self, x: Vector) -> f64 {
         dot(self.normal, x) - self.offset
     }

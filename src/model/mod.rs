@@ -121,8 +121,8 @@ enum Origin {
 }
 
 impl Model {
-    /// Number of the load by which results are reported: the first that varies, otherwise the
-    /// first.
+    /// Number of the load by which results are reported: the first load that varies, or the first
+    /// of all if none varies; a load that acts in all legs of the program is preferred.
     pub fn leading_load(&self) -> Option<usize> {
         loads::leading(&self.scene, &self.loads)
     }

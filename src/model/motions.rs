@@ -453,8 +453,8 @@ struct Plain {
 }
 
 /// Transforms motions to a basis of the same space that can be described in words: rotations are
-/// eliminated from all but as few vectors as possible, then motions along y, then along x (reduced
-/// echelon form).
+/// eliminated from all but as few vectors as possible, then translations along z (in solids), y and
+/// x in turn (reduced echelon form).
 fn plain(rows: &[usize], mut motions: Vec<DVector<f64>>, per: usize) -> Vec<Plain> {
     let mut pivots = Vec::new();
     for kind in (0..per).rev() {

@@ -41,7 +41,7 @@ impl<'s> SceneEntry<'s> {
         }
     }
 
-    /// Finds the nodes of the set whose name the entry itself is.
+    /// Finds the nodes of the set `name` for an entry that consists of this name alone.
     pub(super) fn named(&self, mesh: &Mesh, name: &str) -> Result<Vec<usize>> {
         let nodes = self.found(mesh, &self.what, name);
         nodes.map_err(|error| self.refused(error))

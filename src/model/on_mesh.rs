@@ -73,8 +73,8 @@ impl<'a> OnMesh<'a> {
         }
     }
 
-    /// Value of the field at a point of a facet with these nodes: that of the formula at the point,
-    /// or the interpolation of the values at nodes by the shape functions.
+    /// Value of the field at a point of a facet with these nodes: the value of the formula at the
+    /// point, or the values at the nodes interpolated by the shape functions.
     ///
     /// # Errors
     /// Errors of [`at_node`](Self::at_node); for a formula the message names the point.
@@ -109,7 +109,7 @@ impl<'a> OnMesh<'a> {
     /// Value at a node, refused if it is below zero.
     ///
     /// # Errors
-    /// `Input` naming the node, with the alternative `instead`.
+    /// `Input` naming the node; `instead` says in the message what to give in place of the value.
     pub fn not_negative(&self, node: usize, instead: &str) -> Result<f64> {
         let value = self.at_node(node)?;
         if value >= 0.0 {

@@ -37,7 +37,7 @@ const ROUND_OFF: f64 = 256.0 * f64::EPSILON;
 pub struct Pair {
     /// Index of the scene's contact entry.
     pub contact: usize,
-    /// Slave node, of the second surface unless the scene says that the first is the slave.
+    /// Slave node, which lies on the surface with the number [`ContactSurface::slave`].
     pub slave: usize,
     /// Nodes of the other surface with their weights: a single node of weight 1 if it faces the
     /// slave.
@@ -49,9 +49,9 @@ pub struct Pair {
     pub gap: f64,
     /// Interference: the overlap that contact has to push apart.
     pub interference: f64,
-    /// Gap of this pair if the surfaces are 1 apart, along the local normal, everywhere; gaps and
-    /// interferences of the scene are multiplied by it. It is 1, except at control points of
-    /// quadratic faces: there it is the component along `normal` of a combination of the
+    /// Gap of this pair if the surfaces are everywhere 1 apart along the local normal; gaps and
+    /// interferences of the scene are multiplied by this factor. The factor is 1, except at control
+    /// points of quadratic faces: there it is the component along `normal` of a combination of the
     /// surrounding normals.
     pub unit_gap: f64,
     /// Area that belongs to the pair: integral of the slave's shape function over the part of its
@@ -103,7 +103,8 @@ pub struct ContactSurface {
     pub names: [String; 2],
     /// Number of the surface with the slaves: 0 or 1.
     pub slave: usize,
-    /// Whether the other surface is rigid and has no mesh: it moves as a body.
+    /// Whether the other surface is rigid, that is, has no mesh of its own and moves as a rigid
+    /// body.
     pub is_rigid: bool,
     /// Pairs of the contact: `pairs[range]`.
     pub range: std::ops::Range<usize>,

@@ -190,7 +190,8 @@ pub(super) fn apply_loads(
     let is_plane = |load: &Load| load.plane_force.is_some();
     let displaced = loads().filter(|(_, load)| !is_plane(load));
     for (index, load) in displaced.chain(loads().filter(|(_, load)| is_plane(load))) {
-        // Displacements that start from where an earlier leg left the nodes are equations.
+        // A prescribed displacement that starts from where an earlier leg left the nodes is imposed
+        // by equations instead.
         let is_taken_over = |carried: &Carried| carried.taken_over(scene, index, [0.0; 2]);
         let comes = carried.and_then(is_taken_over).is_some();
         if comes || !load.span().holds_from(start) {
@@ -225,8 +226,8 @@ pub(super) fn apply_loads(
     Ok(planes)
 }
 
-/// Whether nodes are all held along some directions, so that a force there goes into what holds
-/// them.
+/// Whether all nodes are held along the given directions, so that a force along these directions
+/// moves nothing.
 fn all_are_held<T>(freedoms: &Freedoms, nodes: &[usize], directions: &[(usize, T)]) -> bool {
     let is_held = |node: usize, direction: usize| {
         let axis = freedoms.local_axis(node, direction);

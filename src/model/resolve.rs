@@ -1,4 +1,5 @@
-//! Resolution of a scene on a mesh: names become indices, surfaces pairs, loads forces on freedoms.
+//! Resolution of a scene on a mesh: names become indices, surfaces become pairs, and loads become
+//! forces on freedoms.
 
 use super::contact_basis::ContactBasis;
 use super::followers::Followers;
@@ -41,7 +42,7 @@ pub(super) fn build_mesh(scene: &Scene) -> Result<Mesh> {
             scene.places.in_front(&key, error)
         })?;
     }
-    // The shapes that sets declare for their surfaces are needed here.
+    // Only now can the parts `body.set` of a surface take over its exact shape.
     mesh.name_parts(scene.set_names());
     let times = scene.mesh.subdivisions;
     if times > 0 {
@@ -214,8 +215,8 @@ fn resolve_bodies(scene: &Scene, mesh: &Mesh) -> Result<(Vec<Material>, Vec<bool
     let mut may_yield = Vec::new();
     for name in &mesh.bodies {
         if scene.rigid.contains_key(name) {
-            // A rigid surface is never strained: any material will do, similar moduli keep
-            // round-off alike.
+            // A rigid surface is never strained, so any material will do. With similar moduli the
+            // round-off is similar, too.
             materials.extend(materials.first().cloned());
             may_yield.push(false);
             continue;

@@ -1,9 +1,10 @@
 //! Rigid surfaces in the model: each is a body of one element, all of whose nodes move alike.
 //!
-//! The element has no mechanical effect: its nodes share one displacement, along the push, and are
-//! held across it, so that it is never strained. Its position has no meaning for the surface, whose
-//! distance from any point is known ([`Form`]). As a body, it is treated like any other in contact
-//! rows, loads, supports and the motions that contact alone holds.
+//! The element has no mechanical effect: its nodes share one displacement, along the applied force
+//! or the prescribed displacement, and are held in the other directions, so that the element is
+//! never strained. Its position has no meaning for the surface, whose distance from any point is
+//! known ([`Form`]). As a body, it is treated like any other in contact rows, loads, supports and
+//! the motions that contact alone holds.
 
 mod form;
 mod heights;

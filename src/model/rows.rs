@@ -213,7 +213,8 @@ fn on_masters(freedoms: &Freedoms, pair: &Pair) -> Vec<(usize, f64)> {
                         None => row.push((freedom, b)),
                     }
                 }
-                // A prescribed motion changes the gap instead ([`super::openings`]).
+                // A prescribed motion of a master changes the gap instead
+                // (`loads::open_by_moved_masters`).
                 Slot::Prescribed(_) | Slot::Fixed | Slot::Sum(_) => {}
             });
         }

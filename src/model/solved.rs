@@ -102,8 +102,8 @@ pub(super) fn solved(
         let is_free = |key: &NodeAxis| !taken.contains(key) && !pivots.contains(key);
         let free = rows[k].terms.iter().filter(|(key, _)| is_free(key));
         let largest = free.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        // If no displacement is free, any is taken: the condition is refused later, with all
-        // others.
+        // If no displacement of the condition is free, any of them is taken: the condition is
+        // refused later, when the axis that would follow turns out to be held or in use.
         let any = rows[k].terms.iter().next();
         let Some((&pivot, &c)) = largest.or(any) else {
             let why =

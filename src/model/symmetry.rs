@@ -24,7 +24,7 @@ fn held(model: &Model, node: usize) -> impl Iterator<Item = Vector> + '_ {
 impl Mirror {
     /// Finds the planes of symmetry on which each contact ends: an end of its surface lies on the
     /// plane, and the plane bounds all bodies of the contact. A single node that is held to keep a
-    /// body in place is no plane of symmetry.
+    /// body in place does not define a plane of symmetry.
     pub(super) fn of_contacts(model: &Model) -> Vec<Vec<Mirror>> {
         let of_contact = |contact| Self::of_contact(model, contact);
         model.contacts.iter().map(of_contact).collect()
@@ -84,9 +84,10 @@ impl Mirror {
             .then_some(mirror)
     }
 
-    /// Whether a body ends on the plane and is held across it everywhere on it. Other conditions on
-    /// the plane act on the mirror image in the same way. A facet that does not move along the
-    /// plane either means that the body is clamped there, unless the scene declares a symmetry.
+    /// Whether a body ends on the plane, and all its nodes on the plane are held along the plane's
+    /// normal. Other conditions on the plane act on the mirror image in the same way. A facet that
+    /// does not move along the plane either means that the body is clamped there, unless the scene
+    /// declares a symmetry.
     fn bounds(&self, model: &Model, body: u32, near: f64) -> bool {
         let mesh = &model.mesh;
         let ours = |element: &usize| mesh.element_body[*element] == body;
@@ -232,7 +233,8 @@ impl Conditions {
     }
 
     /// Whether the condition of a slot along an axis holds on the whole side: all nodes of the side
-    /// are tied, or the side is held or kept plane across.
+    /// are tied, or the axis is normal to the side and all nodes of the side are held along it or
+    /// share one freedom.
     fn go_on(&self, model: &Model, side: &MirrorSide, slot: Slot, axis: Vector) -> bool {
         let is_tied = matches!(slot, Slot::Sum(_));
         let is_held = Self::is_held(model, slot);
@@ -358,7 +360,8 @@ impl ActingSides {
 
     /// Whether the conditions along a side are those of a plane of symmetry: its nodes move freely
     /// along it and nothing pushes them. At its rim another surface may be loaded, tied, or held or
-    /// kept plane across its own normal, since such a condition continues beyond the plane.
+    /// kept plane in the direction of its own normal, since such a condition continues beyond the
+    /// plane of symmetry.
     fn are_symmetric(
         &self,
         side: &MirrorSide,

@@ -111,8 +111,8 @@ pub fn stale(dir: &Path) -> Option<String> {
     there?.ok().map(|text| text.trim_end().to_string())
 }
 
-/// Marks the results in `dir`, if there are any. An error of writing is ignored: that the directory
-/// can be written was checked already.
+/// Marks the results in `dir`, if there are any. A write error is ignored, because `Staging::new`
+/// has already checked that the directory can be written.
 fn mark(dir: &Path, why: &str) -> bool {
     let there = is_result(dir);
     if there {

@@ -28,8 +28,9 @@ pub(crate) fn cell(quantity: &Quantity, value: f64) -> String {
     }
 }
 
-/// Returns the columns of states. A narrow table leaves out details, and leaves out the width and
-/// the approach if it shows arcs or pressures at the pole.
+/// Returns the columns of states. A narrow table leaves out details. If it shows contact arcs, it
+/// also leaves out the half width; if it shows contact arcs or pressures at the pole, it also
+/// leaves out the approach.
 pub(crate) fn of_states(
     states: &[State],
     labels: &Labels,

@@ -1,5 +1,6 @@
-//! `contact.csv`: a row per state and contact pair, states, pairs and contacts counted from 1.
-//! Units are the scene's; gap > 0 open, force and pressure > 0 compressive.
+//! `contact.csv`: a row for each state and contact pair. States, pairs and contacts are counted
+//! from 1. Units are those of the scene. A positive gap is open; a positive force or pressure is
+//! compressive.
 
 use super::table;
 use crate::results::{PairState, State, Status, number};
@@ -24,7 +25,7 @@ pub(super) struct PairRow {
     /// Second coordinate of that position: y, or z in an axisymmetric model.
     #[serde(deserialize_with = "number")]
     y: f64,
-    /// Undeformed z; only of a solid.
+    /// Undeformed z; only in a solid model.
     #[serde(skip_serializing_if = "Option::is_none")]
     z: Option<f64>,
     #[serde(deserialize_with = "number")]

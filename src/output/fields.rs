@@ -1,7 +1,7 @@
 //! Fields on the mesh for ParaView, meshio and pyvista: one `.vtu` file per state, and
 //! `fields.pvd`, which joins them to a time series. The time of a state is the load factor while
-//! the load factor grows; where loads are taken off, the time increases by as much as the load
-//! factor falls, because readers sort states by time.
+//! the load factor grows; where the load factor falls, the time increases by the same amount,
+//! because readers sort states by time.
 //!
 //! In a run on several ranks a state is a `.pvtu` file with a `.vtu` file for the part of space of
 //! each rank, so that programs that display it can share the work too.
@@ -9,7 +9,7 @@
 //! | array | on | type | components |
 //! |---|---|---|---|
 //! | `displacement` | points | Float64 | x, y, 0; of a solid x, y, z |
-//! | `contact_pressure` | points | Float64 | 1, 0 if there is no pair |
+//! | `contact_pressure` | points | Float64 | 1, zero where there is no pair |
 //! | `gap` | points | Float64 | 1, NaN where there is no pair |
 //! | `nodal_stress` | points | Float64 | recovered, components as of `stress` |
 //! | `stress` | cells | Float64 | xx, yy, zz, xy; axisymmetric: rr, zz, tt, rz; of a solid the tensor row by row, 9 |

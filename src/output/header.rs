@@ -14,7 +14,7 @@ pub struct RunHeader {
     pub scene_file: Option<String>,
     /// `plane_strain`, `plane_stress`, `axisymmetric` or `solid`, as in the scene.
     pub kind: String,
-    /// The backend that factored the stiffness: `cholmod`, `faer` or `dense`.
+    /// The backend that factored the stiffness: `cholmod`, `faer`, `mumps` or `dense`.
     pub solver: String,
     /// The processor for which the kernels of the backend's BLAS are written (`Haswell`); `None`
     /// for a backend without such kernels.

@@ -1,11 +1,11 @@
-//! The files that CalculiX's program leaves beside a deck NAME.inp.
+//! The files that a run leaves beside a deck NAME.inp, in the forms of CalculiX.
 //!
 //! | file | what |
 //! |---|---|
 //! | NAME.frd | results at nodes ([`super::write_frd`]) |
 //! | NAME.dat | tables ([`super::write_prints`]) |
 //! | NAME.sta | a row per increment |
-//! | NAME.cvg | a row per increment: what it cost and how well it is balanced |
+//! | NAME.cvg | a row per increment: iterations, closed contact pairs, residual |
 
 use super::atomic;
 use super::dat::fortran;

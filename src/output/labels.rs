@@ -185,7 +185,7 @@ pub(crate) fn capitalised(text: &str) -> String {
         .collect()
 }
 
-/// `name [unit]`, or the name alone.
+/// Returns `name [unit]`, or the name alone if the unit is empty.
 pub(crate) fn labelled(name: &str, unit: &str) -> String {
     if unit.is_empty() {
         name.to_string()

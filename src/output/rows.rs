@@ -1,4 +1,4 @@
-//! Reading the files of a run: its summary, and a table by rows or columns.
+//! Reading the files of a run: its summary, and the rows of its tables.
 
 use super::summary::Summary;
 use crate::error::{Error, Result};

@@ -12,7 +12,8 @@ pub(crate) struct StatedErrors {
     pub columns: Vec<&'static str>,
     /// A row per state: its name and the stated errors, ready to print, in per cent.
     pub states: Vec<(String, Vec<String>)>,
-    /// The largest of each kind of error, before the kinds are added.
+    /// A row per kind of error (mesh, path, algebra): its name and the largest error of this kind
+    /// in each column, before the kinds are added.
     pub kinds: Vec<(&'static str, Vec<String>)>,
     /// Method by which the discretisation error was estimated.
     pub method: String,

@@ -18,10 +18,10 @@ use std::path::Path;
 /// The content of `summary.json`. Numbers that are not finite become null.
 ///
 /// `timings` are the phases of [`Results::timings`] (a phase that ran more than once is summed) and
-/// `total`, the wall time of the run; `peak_memory_bytes` is that of this process, null if the
-/// system does not report it.
+/// `total`, the wall time of the run; `peak_memory_bytes` is the most memory that this process has
+/// held so far, null if the system does not report it.
 pub fn summary(header: &RunHeader, results: &Results) -> Value {
-    // Numbers, texts and keys that are texts: JSON can hold all of it.
+    // A summary consists of numbers and texts, and its keys are texts, so JSON can hold all of it.
     serde_json::to_value(Summary::new(header, results)).unwrap_or_default()
 }
 
@@ -100,7 +100,7 @@ struct StateEntry {
     fields: Option<String>,
     /// Contact patches, of solids.
     patches: Option<Vec<ContactPatch>>,
-    /// The quantities of the table.
+    /// The quantities of the table [`QUANTITIES`], by key.
     #[serde(flatten)]
     figures: Map<String, Value>,
 }
@@ -140,7 +140,7 @@ impl Serialize for StateEntry {
     }
 }
 
-/// Returns the quantities of the table that a record has.
+/// Returns the quantities of the table [`QUANTITIES`] that a record has.
 fn figures<R>(record: &R, field: impl Fn(&Quantity) -> Option<Field<R>>) -> Map<String, Value> {
     let entry = |quantity: &Quantity| {
         let value = (field(quantity)?.get)(record);

@@ -67,8 +67,8 @@ impl SweepPoint {
 }
 
 impl Sweep {
-    /// Creates a sweep of these points, which are all points or those of the share `[i, n]`. Points
-    /// that an earlier sweep in `dir` has finished, in whatever shares, are taken over.
+    /// Creates a sweep of these points: all points, or the share `i` of `n` if `shard` is `[i, n]`.
+    /// Points that an earlier sweep in `dir` has finished, in whatever shares, are taken over.
     ///
     /// # Errors
     /// `Input` if `dir` holds something else, `Io` if it cannot be read.
@@ -216,9 +216,10 @@ impl SweepOutcome<'_> {
         paths
     }
 
-    /// Returns the figures that tables and charts show if none are asked for: the loads that were
-    /// found for targets by a figure; the yield load; pressure, extent, approach and plastic strain
-    /// under the largest load; the dent at the end. Figures that are 0 in all points are left out.
+    /// Returns the figures that tables and charts show if none are asked for: the loads found for
+    /// targets that are given by a figure; the yield load; pressure, half width, approach and
+    /// plastic strain in the state with the largest load; the residual depth in the last state.
+    /// Figures that are 0 in all points are left out.
     pub(crate) fn main_paths(&self) -> Vec<String> {
         let by_load = |a: &&State, b: &&State| a.load.total_cmp(&b.load);
         let with_states = |r: &&Results| !r.states.is_empty();
@@ -265,8 +266,8 @@ impl SweepOutcome<'_> {
         found.filter(|value| value.is_finite())
     }
 
-    /// Returns how many factorisations the run of a point made: none if it took over another
-    /// point's factor.
+    /// Returns the number of factorisations in the run of a point (0 if the run took over another
+    /// point's factor); `None` if the point has no results.
     pub(crate) fn factorizations(&self, point: usize) -> Option<usize> {
         Some(self.results.get(point)?.as_ref()?.counts.factorizations)
     }

@@ -70,7 +70,7 @@ impl<'a> DataArray<'a> {
     }
 }
 
-/// The values of an array as they lie in memory; the variant says how they are written.
+/// The values of an array as they lie in memory; the variant determines how they are written.
 pub(super) enum ArrayValues<'a> {
     /// Numbers, written as they are.
     Float64(&'a [f64]),
@@ -84,7 +84,7 @@ pub(super) enum ArrayValues<'a> {
     UInt8(&'a [u8]),
     /// Small numbers, such as those of bodies.
     Int32(&'a [u32]),
-    /// Numbers of nodes, from 0.
+    /// Numbers of nodes or elements, from 0.
     Int64(&'a [u32]),
     /// For each element, the index behind its last node in the connectivity.
     Offsets(&'a [usize]),

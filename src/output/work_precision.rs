@@ -56,8 +56,8 @@ struct PlottedCurve<'s> {
     points: Vec<PlottedPoint>,
 }
 
-/// Returns a curve for each series: runs on different meshes by element size (finest first), others
-/// by time.
+/// Returns a curve for each series, with its runs in the order of their element sizes, the finest
+/// first.
 fn curves<'s>(study: &'s Study, quantity: &QuantityStudy) -> Vec<PlottedCurve<'s>> {
     let mut order: Vec<usize> = (0..study.runs.len()).collect();
     order.sort_by(|&a, &b| study.runs[a].ratio.total_cmp(&study.runs[b].ratio));

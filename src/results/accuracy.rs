@@ -87,8 +87,8 @@ pub struct Companion {
     pub seconds: f64,
 }
 
-/// Figures of parts of a state that have errors of their own: text within their paths, text at the
-/// end of their paths, and the figures in words.
+/// Parts of a state whose figures have errors of their own. Each entry holds a text within the
+/// paths of the figures, a text at the end of the paths, and the figures in words.
 const PARTS: [(&str, &str, &str); 10] = [
     (".residual_depth_by_body.", "", "dents of bodies"),
     (".patches.", ".force", "forces of patches"),
@@ -130,11 +130,12 @@ impl QuantityError {
 /// quantity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct QuantityError {
-    /// Path of the quantity in `summary.json`; states are given by name: `states.NAME.KEY`. Of a
-    /// part of a state: `states.NAME.residual_depth_by_body.BODY`, `states.NAME.contact_1.force`,
-    /// `states.NAME.patches.1.KEY`, patches counted from 1 in the order of the summary, and
-    /// `states.NAME.history.COLUMN` for a column that the scene adds to the history. Of a place of
-    /// the scene's reference values: `reference.1.states.NAME.stress_xx`, counted from 1.
+    /// Path of the quantity in `summary.json`; states are given by name: `states.NAME.KEY`. A
+    /// figure of a part of a state has the path `states.NAME.residual_depth_by_body.BODY`,
+    /// `states.NAME.contact_1.force`, `states.NAME.patches.1.KEY` (patches counted from 1 in the
+    /// order of the summary), or `states.NAME.history.COLUMN` for a column that the scene adds to
+    /// the history. A value at a place of the scene's reference values has the path
+    /// `reference.1.states.NAME.stress_xx` (places counted from 1).
     pub quantity: String,
     /// The reported value.
     #[serde(deserialize_with = "number")]

@@ -15,8 +15,8 @@ pub struct ContactPatch {
     /// Force that the patch carries.
     #[serde(deserialize_with = "number")]
     pub force: f64,
-    /// Area, on the plane across the mean normal; for a patch that closes round a body the area of
-    /// its surface.
+    /// Area, projected on the plane perpendicular to the mean normal; for a patch that closes round
+    /// a body the area of its surface.
     #[serde(deserialize_with = "number")]
     pub area: f64,
     /// Largest pressure of a pair.
@@ -92,8 +92,8 @@ pub struct PairState {
     pub contact: usize,
     /// Position (on the second surface, undeformed).
     pub position: Vector,
-    /// Gap, >= 0; negative if the surfaces overlap, which happens in soft contact, and on the axis
-    /// of revolution, where quadratic elements have no pair.
+    /// Gap. It is negative only where the surfaces overlap: in soft contact, and on the axis of
+    /// revolution, where quadratic elements have no pair.
     pub gap: f64,
     /// Force, compressive positive.
     pub force: f64,

@@ -13,11 +13,11 @@ pub enum CycleOutcome {
     Elastic,
     /// The material yields at first, but not any more.
     ElasticShakedown,
-    /// Plastic strains go to and fro, and come back in each cycle.
+    /// Plastic strains alternate and return to the same values in each cycle.
     PlasticShakedown,
     /// Plastic strains grow by the same amount in each cycle.
     Ratchetting,
-    /// The response had not settled: the last cycle was not yet like the next.
+    /// The response has not settled: the next cycle would still differ from the last one.
     #[default]
     NotSteady,
 }

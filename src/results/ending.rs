@@ -6,8 +6,8 @@ use crate::error::ErrorKind;
 /// The ending of a run, with the requirements that it did not meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ending<'r> {
-    /// The program is complete, nothing speaks against its states ([`Results::inaccurate`]), and
-    /// the demanded accuracy is reached.
+    /// The program is complete, there is no reason not to trust its states
+    /// ([`Results::inaccurate`]), and the demanded accuracy is reached.
     Complete,
     /// The program is complete, but there are reasons not to trust it ([`Results::inaccurate`]), or
     /// the demanded accuracy is not reached.

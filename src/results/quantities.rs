@@ -1,5 +1,5 @@
-//! The quantities that a run reports. From this one table `summary.json`, the tables of terminal
-//! and report, C, Python, the error estimates and the demands on accuracy take their quantities. To
+//! The quantities that a run reports. This one table defines the quantities of `summary.json`, the
+//! tables of terminal and report, C, Python, the error estimates and the demands on accuracy. To
 //! add a quantity, add its field to [`State`] with its computation, an entry here, and its meaning
 //! to the schema, which a test compares with this table.
 
@@ -59,7 +59,8 @@ impl Scope {
     }
 }
 
-/// Access to a quantity in a record. Counts are numbers too; an unknown quantity is not a number.
+/// Access to a quantity in a record. Counts are numbers too; the value of an unknown quantity is
+/// NaN.
 #[derive(Debug)]
 pub struct Field<Record> {
     /// Reads the quantity.

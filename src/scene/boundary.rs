@@ -49,7 +49,7 @@ pub struct Contact {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub overlap: bool,
     /// Whether supports may hold nodes of the surfaces along the contact normal. A held slave node
-    /// touches nothing: its support bears whatever presses there. A held master node is an
+    /// touches nothing: its support carries whatever force presses on it. A held master node is an
     /// obstacle. By default a held node is rejected.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub held: bool,
@@ -125,13 +125,12 @@ pub struct Support {
     pub angle: Option<f64>,
     /// A single direction, of any orientation, that is held; given instead of `fix`.
     pub direction: Option<Components>,
-    /// Load factor from which on the nodes are held, where they are then. By default they are held
-    /// from the start, where the mesh has them.
+    /// Load factor from which on the nodes are held at the position that they then have. By default
+    /// they are held from the start, at their position in the mesh.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub since: Option<f64>,
-    /// Two load factors: up to the first the nodes are held, then their support forces are taken
-    /// away, linearly, until nothing is left of them at the second. By default the nodes are held
-    /// to the end.
+    /// Two load factors. The nodes are held up to the first. Their support forces are then reduced
+    /// linearly, to zero at the second. By default the nodes are held to the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub until: Option<[f64; 2]>,
 }
@@ -205,14 +204,14 @@ pub struct Load {
     #[serde(default)]
     pub history: History,
     /// Load factor from which on a displacement (or a `relative` one) is prescribed. The nodes
-    /// begin where they are then, and go linearly to the next row of the `history`, a table; with
-    /// the history `"constant"` they stay there. By default a displacement is prescribed from the
-    /// start.
+    /// begin at the position that they then have, and move linearly to the next row of the
+    /// `history`, a table; with the history `"constant"` they stay at that position. By default a
+    /// displacement is prescribed from the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub since: Option<f64>,
-    /// Two load factors: up to the first the displacement is prescribed, then the forces that this
-    /// takes are taken away, linearly, until nothing is left of them at the second. By default the
-    /// displacement is prescribed to the end.
+    /// Two load factors. The displacement is prescribed up to the first. The forces that prescribe
+    /// it are then reduced linearly, to zero at the second. By default the displacement is
+    /// prescribed to the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub until: Option<[f64; 2]>,
 }

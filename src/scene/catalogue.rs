@@ -22,7 +22,7 @@ pub struct Listed {
     pub youngs_modulus: Published,
     /// Poisson's ratio.
     pub poissons_ratio: Published,
-    /// Lowest yield stress; `None` if no published value holds for all of the material.
+    /// Lowest yield stress; `None` if no single published value applies to the material.
     pub yield_stress: Option<Published>,
     /// Tangent modulus beyond yield.
     pub tangent_modulus: Option<Published>,

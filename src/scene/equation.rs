@@ -17,9 +17,9 @@ pub struct Equation {
 }
 
 /// A prescribed difference of displacements: `u_direction - sum_k coefficient_k u_k = value` for
-/// each node of the load's set, reached when the load's factor is 1. Without terms on other nodes
-/// it moves a node along a slope. The displacement along `direction` must meet the conditions on
-/// the first term of an [`Equation`].
+/// each node of the load's set, reached when the load's factor is 1. If all terms are on the same
+/// node, the node moves along an inclined line. The displacement along `direction` must meet the
+/// conditions on the first term of an [`Equation`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Relative {

@@ -207,16 +207,17 @@ pub struct CylinderOnHalfPlane {
     #[serde(default = "super::defaults::fine_depth")]
     pub fine_depth: f64,
     /// Size of each body, in half widths; by default 20,000, and 2,000 for a ball. The bodies stand
-    /// for infinite ones. For a half width b, a finite size W changes the stress under the contact
-    /// by order b/W; under a ball the stress by order (b/W)^2, the approach by b/W. Elements that
-    /// grow with the distance make a large size cheap.
+    /// for infinite ones. Under a cylinder, a finite size W changes the stress at a contact of half
+    /// width b by order b/W. Under a ball, it changes the stress by order (b/W)^2 and the approach
+    /// by order b/W. Elements that grow with the distance make a large size cheap.
     pub far_size: Option<f64>,
     /// Ratio of neighbouring element sizes outside the evenly meshed region.
     #[serde(default = "super::defaults::growth")]
     pub growth: f64,
-    /// Ratio of neighbouring element sizes at the far end; by default equal to `growth`. From
-    /// `growth` on, the logarithm of the ratio rises to this value with a power of the distance.
-    /// Distant elements matter less to the contact, so they may grow ever faster.
+    /// Ratio of neighbouring element sizes at the far end; by default equal to `growth`. Away from
+    /// the contact, the logarithm of the ratio rises from that of `growth` to that of this value,
+    /// with a power of the distance. Distant elements matter less to the contact, so they may grow
+    /// ever faster.
     pub far_growth: Option<f64>,
     /// Shape of the elements.
     #[serde(default = "super::defaults::shape")]
@@ -346,8 +347,8 @@ impl CurvedBodies {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DiscInPlate {
-    /// Names of the two bodies, which also begin the names of their sets: `["ball", "race"]` gives
-    /// `ball.contact` and `race.contact`.
+    /// Names of the two bodies, which also begin the names of their sets: `["pin", "lug"]` gives
+    /// `pin.contact` and `lug.contact`.
     #[serde(default = "super::defaults::disc_names")]
     pub names: [String; 2],
     /// Radius of the hole and the disc.
@@ -363,9 +364,10 @@ pub struct DiscInPlate {
     /// Ratio of neighbouring radial element sizes in the plate.
     #[serde(default = "super::defaults::disc_growth")]
     pub growth: f64,
-    /// Ratio of neighbouring element sizes at the far end; by default equal to `growth`. From
-    /// `growth` on, the logarithm of the ratio rises to this value with a power of the distance.
-    /// Distant elements matter less to the contact, so they may grow ever faster.
+    /// Ratio of neighbouring element sizes at the far end; by default equal to `growth`. Away from
+    /// the contact, the logarithm of the ratio rises from that of `growth` to that of this value,
+    /// with a power of the distance. Distant elements matter less to the contact, so they may grow
+    /// ever faster.
     pub far_growth: Option<f64>,
     /// Shape of the elements.
     #[serde(default = "super::defaults::shape")]

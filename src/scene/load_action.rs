@@ -5,7 +5,8 @@ use super::{
 };
 use crate::space::Components;
 
-/// What a load does. A `match` on it shows the compiler where a new kind of load is missing.
+/// What a load does. With a `match` on this enum, the compiler reports each place that does not
+/// handle a new kind of load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LoadAction<'l> {
     /// On the nodes of a surface or a node set.
@@ -79,8 +80,9 @@ impl Load {
         self.actions().find_map(|(_, action)| action)
     }
 
-    /// Size of the force along an axis, of totals and of uniform stresses, each as a force by its
-    /// own rule; zero for what is no force or is given by a formula or at nodes.
+    /// Size of the load's force along an axis: `of_total` of a total force, `of_stress` of a
+    /// uniform pressure or traction. Zero for a load that is no force, or that is given by a
+    /// formula or by values at nodes.
     pub(crate) fn pushes_along(
         &self,
         along: Direction,

@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Makes the elements of a plane mesh smaller around a point, by dividing them into four again and
-/// again. Element sizes double with the distance from there. A quadrilateral beside divided ones
-/// may become three triangles. `subdivisions` come first, an extrusion or revolution comes
-/// afterwards.
+/// Makes the elements of a plane mesh smaller around a point, by repeatedly dividing them into
+/// four. Beyond `radius`, element sizes double each time that the distance from the point doubles.
+/// A quadrilateral beside divided ones may become three triangles. `subdivisions` come first, an
+/// extrusion or revolution comes afterwards.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LocalRefinement {

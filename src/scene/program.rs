@@ -37,9 +37,9 @@ pub struct Program {
     /// 4.23), and the maximum of the stress at first yield.
     #[serde(default = "super::defaults::gamma")]
     pub gamma: f64,
-    /// Load factor up to which the interference of contacts grows in proportion to it, from none at
-    /// zero. By default the interference is applied before the load factor leaves zero. Needs
-    /// `unit = "load"`.
+    /// Load factor up to which the interference of contacts grows in proportion to the load factor,
+    /// from none at load factor zero. By default the interference is applied before the load factor
+    /// leaves zero. Needs `unit = "load"`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interference_until: Option<f64>,
     /// The targets, reached one after the other; each yields one state in the results.
@@ -54,9 +54,10 @@ pub struct Program {
     /// be like the last. The states are those of the last cycle.
     #[serde(default = "super::defaults::cycles", skip_serializing_if = "is_one")]
     pub cycles: usize,
-    /// Criterion for the end of `cycles`: all cycles to come together would change the plastic
-    /// strains, compared with repeating the last cycle, by less than this fraction of the plastic
-    /// flow in the first cycle.
+    /// Criterion for the end of `cycles`. The change of the plastic strains over a cycle is
+    /// compared with the change over the previous cycle. The cycles end when this difference, and
+    /// the differences expected in all cycles to come taken together, are less than this fraction
+    /// of the plastic flow in the first cycle.
     #[serde(default = "super::defaults::steady", skip_serializing_if = "is_steady")]
     pub steady: f64,
 }

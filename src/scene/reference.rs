@@ -86,7 +86,7 @@ pub struct RadiusOnly {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TwoBodies {
-    /// Principal radii of the first body: positive if convex, 0 or inf if flat.
+    /// Principal radii of the first body: positive if convex, negative if hollow, 0 or inf if flat.
     pub first: [f64; 2],
     /// Principal radii of the second body, along the same directions as those of the first.
     pub second: [f64; 2],

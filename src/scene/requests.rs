@@ -17,7 +17,7 @@ pub struct Requests {
     /// Thickness of a plane model: forces are totals over this thickness.
     pub thickness: Option<f64>,
     /// Local axes of nodes, by node number: tables list displacements and forces of these nodes
-    /// along them.
+    /// along their local axes.
     pub axes: Arc<BTreeMap<u64, [Vector; 3]>>,
     /// Nodes of a deck that belong to no element, by node number.
     pub loose: Arc<BTreeMap<u64, LooseNode>>,
@@ -28,7 +28,8 @@ pub struct Requests {
 }
 
 /// A node of a deck that belongs to no element but occurs in equations, a reference node for
-/// instance. Its displacement and its force are sums of those of other nodes.
+/// instance. Its displacement and its force are weighted sums of the displacements and forces of
+/// other nodes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LooseNode {
     /// The sums along the axes of the node ([`Requests::axes`]).
@@ -185,8 +186,8 @@ impl Requests {
         !self.materials.is_empty()
     }
 
-    /// Requests the usual results in each of `n_targets` states, unless moments are there already;
-    /// without a deck each state is a step of its own.
+    /// Requests the usual results in each of `n_targets` states, unless the requests already have
+    /// moments; without a deck each state is a step of its own.
     pub fn ask_for_usual(&mut self, n_targets: usize) {
         let request = |item| FileRequest {
             item,

@@ -1,22 +1,23 @@
 //! The load factors between which a support or a prescribed displacement holds its nodes.
 //!
-//! The load factors at which one begins or ends divide the program into legs. Within a leg the same
-//! displacements are held.
+//! The load factors at which such a support or displacement begins or ends divide the program into
+//! legs. Within a leg the same displacements are held.
 
 use super::{History, Load, Support};
 
 /// The load factors between which a support or a prescribed displacement holds its nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Span {
-    /// Where it begins; `None` for the start of the program.
+    /// Load factor from which on the nodes are held; `None` for the start of the program.
     pub(crate) since: Option<f64>,
-    /// Where it ends, and where the force with which it held has been taken away; `None` if it
-    /// holds to the end.
+    /// Load factor up to which the nodes are held, and load factor at which their support forces
+    /// have been reduced to zero; `None` if the nodes are held to the end.
     pub(crate) until: Option<[f64; 2]>,
 }
 
 impl Span {
-    /// The span of what holds throughout the program.
+    /// The span of a support or prescribed displacement that holds its nodes throughout the
+    /// program.
     pub(crate) const WHOLE: Span = Span {
         since: None,
         until: None,
@@ -33,7 +34,7 @@ impl Span {
         begun && self.until.is_none_or(|until| start < until[0])
     }
 
-    /// The load factors at which it begins and ends, if they lie within the program.
+    /// The load factors at which the span begins and ends, if they lie within the program.
     pub(crate) fn changes(self) -> impl Iterator<Item = f64> {
         self.since
             .into_iter()
@@ -42,7 +43,7 @@ impl Span {
 }
 
 impl Support {
-    /// A support of a set over a span, which holds nothing yet.
+    /// A support of a set over a span, without any held direction yet.
     pub(crate) fn over(on: String, span: Span) -> Support {
         Support {
             on,
@@ -68,13 +69,14 @@ impl Load {
         }
     }
 
-    /// Whether what is prescribed stays as it is when the load takes it over.
+    /// Whether the nodes stay at the position that they have when the load begins to prescribe
+    /// their displacement.
     pub(crate) fn stays(&self) -> bool {
         self.since.is_some() && self.history == History::Constant
     }
 
-    /// The load factor at which nodes that a prescribed displacement takes over where they are have
-    /// reached the values of its history: that of the next row of its table.
+    /// The load factor at which nodes whose displacement is prescribed from `since` on reach the
+    /// values of the history: the first row of its table after `since`.
     pub(crate) fn arrives(&self) -> Option<f64> {
         let History::Table(rows) = &self.history else {
             return None;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Target {
-    /// Name of the state that the target leaves.
+    /// Name of the state that is recorded when the target is reached.
     pub name: Option<String>,
     /// First yield, given as `yield = true`.
     #[serde(default, rename = "yield")]
@@ -22,14 +22,14 @@ pub struct Target {
     pub displacement: Option<DisplacementTarget>,
     /// The dent that remains after the load factor has gone back to zero from this target,
     /// including any yielding on the way back. The dent is the sum over both surfaces of the
-    /// contact, or that of `body` alone. Found while the load increases.
+    /// contact, or the dent of `body` alone. The target is sought while the load increases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub residual_depth: Option<f64>,
-    /// The sum of all contact forces of the whole, or the force of `contact` alone.
+    /// The sum of all contact forces, for the whole body, or the force of `contact` alone.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_force: Option<f64>,
-    /// The area of the contact patch with the largest force of the whole, or of `contact` alone; in
-    /// plane models the width of the patch.
+    /// The area, for the whole body, of the contact patch with the largest force, or of `contact`
+    /// alone; in plane models the width of the patch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact_area: Option<f64>,
     /// The largest contact pressure, or the largest pressure of `contact` alone.
@@ -38,7 +38,7 @@ pub struct Target {
     /// The approach of the bodies towards each other.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub approach: Option<f64>,
-    /// The largest equivalent plastic strain. Found while the load increases.
+    /// The largest equivalent plastic strain. The target is sought while the load increases.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub max_equivalent_plastic_strain: Option<f64>,
     /// The body to which `residual_depth` refers.
@@ -146,10 +146,11 @@ impl Target {
         self.first_yield || self.half_width.is_some() || stays
     }
 
-    /// Name of the state that this target leaves: the given name, or one made from the condition
-    /// (`yield`, `alpha 1.0515`, `half width 1.5`, `displacement of top y = -0.1`,
-    /// `residual depth 0.001 of flat`). `index` counts from 0 and gives a name to a target without
-    /// a condition. [`super::Program::labels`] keeps repeated names apart.
+    /// Name of the state that is recorded when this target is reached: the given name, or one made
+    /// from the condition (`yield`, `alpha 1.0515`, `half width 1.5`,
+    /// `displacement of top y = -0.1`, `residual depth 0.001 of flat`). `index` counts from 0 and
+    /// gives a name to a target without a condition. [`super::Program::labels`] keeps repeated
+    /// names apart.
     pub fn label(&self, index: usize) -> String {
         if let Some(name) = &self.name {
             name.clone()

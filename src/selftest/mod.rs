@@ -7,10 +7,10 @@
 //! | `contact` | floating and conforming bodies, ties, events, complementarity, spreading contact, dents |
 //! | `numbers` | stiffness ratios, slivers, units, backends |
 //! | `flow` | incompressible flow, limit loads, cycles, ratchetting, the axis of quadratic elements |
-//! | `peers` | cases on which other codes were seen to fail without a word |
+//! | `peers` | cases on which other codes were seen to fail silently |
 //! | `restart` | going on from checkpoints |
 //! | `foreign` | models as they come: few elements, punches on larger bases, stacks, loose bodies |
-//! | `solids` | three dimensions: Hertz, plane strain drawn out, bodies of all stiffnesses, slivers |
+//! | `solids` | three dimensions: Hertz, extruded plane strain, bodies of any stiffness, slivers |
 
 mod cases;
 mod contact;

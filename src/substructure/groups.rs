@@ -36,8 +36,8 @@ struct TiedGroup {
     tied: Tied,
 }
 
-/// Contact rows from which groups are made; for each contact freedom the free freedom, the part it
-/// belongs to, and whether it is the motion of a rigid surface.
+/// Contact rows from which groups are made. For each contact freedom: its number among the free
+/// freedoms, the part it belongs to, and whether it is the motion of a rigid surface.
 #[derive(Clone, Copy)]
 pub(super) struct GroupedRows<'a> {
     pub rows: &'a [RowEntries],

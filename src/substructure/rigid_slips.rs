@@ -11,9 +11,9 @@ pub(super) struct RigidSlip {
 }
 
 /// Enforces `T s = 0` exactly for every rigid `s`. Elimination leaves an error of the order of its
-/// round-off times the condition, and would let a body that nothing but the first bit of load holds
-/// drift away. The matrix is scaled to a unit diagonal meanwhile, so that soft rows keep their
-/// digits.
+/// round-off times the condition. This error would let a body drift away that nothing but the first
+/// bit of load holds. The matrix is scaled to a unit diagonal meanwhile, so that soft rows keep
+/// their digits.
 pub(super) fn take_rigid_slips(matrix: &mut DMatrix<f64>, slips: &[RigidSlip]) {
     if slips.is_empty() {
         return;

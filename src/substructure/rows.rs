@@ -279,8 +279,8 @@ impl Rows {
         v
     }
 
-    /// The rigid motion of a leader of the part itself; for other leaders the mean motion of the
-    /// followers that it carries.
+    /// Returns the motion of a leader: the rigid motion itself if the leader belongs to the part,
+    /// otherwise the mean motion of the followers that the leader carries.
     fn motion_of_leader(&self, trace: &Trace, part: &[usize], leader: usize) -> f64 {
         let moved = self.moved[leader].iter();
         let own = |freedom: usize| part[freedom] == trace.part;

@@ -1,9 +1,10 @@
 //! The structure with all contact rows closed, and the contact matrix without cancellation.
 //!
 //! The stiffer freedoms of a row lead and the softest follows ([`Rows`]): `v` are the displacements
-//! of the leaders, `s` those of the rows, and the leaders are eliminated. The other way round, the
-//! contact matrix, which is no stiffer than the softer body, would be the difference of two
-//! matrices as large as the stiffer body's. With `P = [1; G]` (leaders, followers)
+//! of the leaders, `s` those of the rows, and the leaders are eliminated. If the softest freedom
+//! led instead, the contact matrix, which is no stiffer than the softer body, would be the
+//! difference of two matrices as large as the stiffer body's. With `P = [1; G]` (leaders,
+//! followers)
 //!
 //! ```text
 //!     [ P'S P   P'S H  ] [ v ]   [ P' f         ]

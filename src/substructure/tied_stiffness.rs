@@ -110,7 +110,7 @@ mod tests {
         moved
     }
 
-    /// Slaves follow their masters, or hard slaves lead and the softer masters follow all of them.
+    /// Slaves follow their masters, or stiff slaves lead and the softer masters follow all of them.
     /// Both results equal the products of full matrices, whatever the number of threads, with no
     /// more multiplications than two products of full matrices take.
     #[test]

@@ -1,4 +1,4 @@
-//! What can be told of a run before anything is solved.
+//! What is known about a run before anything is solved.
 //!
 //! | file | what |
 //! |---|---|

@@ -31,13 +31,14 @@ const FILES: f64 = 6e-7;
 const STATE: f64 = 1.0e-6;
 /// Seconds that the search for first yield takes per freedom of the zone.
 const YIELD_LOAD: f64 = 2e-6;
-/// Seconds of ordering, factorisation and condensation, as far as they can be told without the
+/// Seconds of ordering, factorisation and condensation, as far as they can be estimated without the
 /// symbolic factorisation: per freedom, per power 3/2 of the freedoms (the growth of nested
-/// dissection in the plane) and per cube of the pairs (the dense matrix of the contact). From the
-/// same runs.
+/// dissection in the plane) and per cube of the pairs (the dense matrix of the contact). Fitted to
+/// the same timings as [`MODEL`].
 const FACTORISATION: [f64; 3] = [2.5e-6, 2.5e-9, 5e-11];
 /// Seconds of the increments per square of the pairs: each pair that closes or opens costs solves,
-/// and the zone of these solves grows with the number of pairs. From the same runs.
+/// and the zone of these solves grows with the number of pairs. Fitted to the same timings as
+/// [`MODEL`].
 const INCREMENTS: f64 = 2e-4;
 /// Seconds of the elastic path, per cube of the number of pairs: each change of contact passes over
 /// the matrix of the pairs.
@@ -49,8 +50,9 @@ const SOLVE: [f64; 2] = [2e-5, 5.5e-10];
 /// in one direction: first if gaps differ (the contact grows pair by pair), then if all gaps are
 /// alike.
 const CHANGES: [f64; 2] = [0.7, 0.17];
-/// Trailing solves of an elastoplastic increment: if the material hardens; if it has almost no
-/// stiffness left, in a contact that grows; and if all of it may yield.
+/// Trailing solves of an elastoplastic increment, in three cases. In the first, the material
+/// hardens. In the others it has almost no stiffness left: in a contact that grows, and in a
+/// contact whose gaps are alike (or without contact), where the whole body may yield at once.
 const SOLVES: [f64; 3] = [6.0, 12.0, 30.0];
 /// Trailing solves of an elastoplastic increment in which contact may change, for the three cases
 /// of [`SOLVES`].
@@ -181,8 +183,8 @@ fn goals(program: &Program) -> Vec<f64> {
     program.targets.iter().map(goal).collect()
 }
 
-/// Number of ways on the path from zero to the last goal: one more than the number of times at
-/// which the load turns round.
+/// Number of ways on the path from zero to the last goal, on each of which the load only rises or
+/// only falls: one more than the number of load reversals.
 fn ways(goals: &[f64]) -> f64 {
     let (mut at, mut upward, mut count) = (0.0, true, 1.0);
     for &to in goals {
@@ -236,8 +238,8 @@ pub(super) fn of_run(
 mod tests {
     use super::*;
 
-    /// Only load beyond the largest so far takes increments: the fewer, the less load it adds, and
-    /// more if it is far beyond the load at first yield.
+    /// Only load beyond the largest so far takes increments: the fewer, the less load is added, and
+    /// more if the load is far beyond first yield.
     #[test]
     fn increments_are_of_equal_length_in_the_root_of_the_load() {
         for (goals, unit, count) in [

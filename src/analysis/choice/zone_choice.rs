@@ -29,7 +29,8 @@ const GUARD: usize = 1;
 pub struct Choice {
     /// Elements of the zone, ascending.
     pub elements: Vec<usize>,
-    /// Whether each element belongs to the guard, which is only watched.
+    /// Whether each element belongs to the guard: the layer that only shows when yielding reaches
+    /// it.
     pub guard: Vec<bool>,
 }
 

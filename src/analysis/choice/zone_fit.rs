@@ -10,7 +10,7 @@ use std::time::Instant;
 /// The current zone, and the data from which it is chosen.
 pub(in crate::analysis) struct ZoneFit {
     pub(in crate::analysis) choice: Choice,
-    /// Recovered stress over the zone, once it was asked for.
+    /// Recovered stress over the zone; `None` until it is first needed.
     recovery: Option<Recovery>,
     /// Ratio of elastic von Mises stress to yield stress of each element at the last search for
     /// first yield; empty if the zone holds all elements that may yield.

@@ -1,10 +1,10 @@
 //! The approach of the two bodies of each contact, taken as wholes.
 //!
-//! A body as a whole moves as its far boundary does. The motion of the far boundary is, in this
-//! order: the displacement prescribed on the body; zero if supports hold the body along the
-//! contact; the mean displacement of the surfaces through which it is loaded, weighted with the
-//! sizes of the loads; the mean over its volume. In a stack of bodies the approaches of the
-//! contacts add up to the approach of its ends.
+//! A body as a whole moves as its far boundary does. The motion of the far boundary is the first of
+//! these that exists: the displacement prescribed on the body; zero, if supports hold the body
+//! along the contact's normal; the mean displacement of the surfaces through which the body is
+//! loaded, weighted with the sizes of the loads; the mean over the volume of the body. In a stack
+//! of bodies the approaches of the contacts add up to the approach of the ends of the stack.
 
 use super::dent::body_of;
 use crate::model::{ContactSurface, LoadCase, Magnitude, Model, Slot, volumes_of_nodes};
@@ -13,8 +13,8 @@ use crate::space::{Vector, along, dot, length};
 /// Length of the mean normal below which a contact has no direction, like a pin in contact all
 /// round its hole.
 const NO_DIRECTION: f64 = 1e-6;
-/// Cosine of the angle to a contact's normal above which a direction counts as along the contact:
-/// the nearer of two axes.
+/// Cosine of the angle between a direction and a contact's normal above which the direction counts
+/// as along the normal. Of two perpendicular axes, at least the nearer one does.
 const ALONG: f64 = 0.7;
 
 /// The approach of the bodies of a contact as a function of displacements.

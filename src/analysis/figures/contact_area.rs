@@ -4,9 +4,9 @@
 //! of the last pairs in contact are not trusted: the share of the force that each of them carries
 //! depends on where in the face the contact ends. From these pairs up to the first open pairs, the
 //! square of the pressure is extrapolated from the pairs further inside, such that the pressure at
-//! the edge pairs has the total force of these pairs ([`edge`]). The patch is the region in which
-//! the square is positive, cut out of the faces by straight lines. Its half axes are those of the
-//! ellipse with the same moments of area
+//! the edge pairs adds up to the total force of these pairs ([`edge`]). The patch is the region in
+//! which the square is positive, cut out of the faces by straight lines. Its half axes are those of
+//! the ellipse with the same moments of area
 //!
 //! ```text
 //! A = int dA,   c = int x dA/A,   M = int (x - c)(x - c)' dA/A = Q diag(a^2, b^2)/4 Q'

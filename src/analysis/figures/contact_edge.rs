@@ -3,16 +3,13 @@
 //! Near the edge of a smooth contact the squared pressure is `(e^2 - s^2) (c0 + c1 s^2)`, with `s`
 //! the distance from the middle and `e` the distance of the edge. In Hertz's contact this is exact,
 //! with `c1 = 0`. The pressures of the last two pairs depend on where in its facet the contact
-//! ends: used alone on Hertz's line contact, they would put the edge off by -0.06 and 0.08
-//! elements, the pairs before them by 0.01. The total force of the last two does not, since
-//! equilibrium passes it on as a whole. For any `e` the constants follow by least squares from the
-//! pairs before the last two. The edge is the `e` for which the pressure over the last pairs has
-//! their force.
+//! ends, so they are not used one by one. The total force of the last two pairs does not depend on
+//! this place, since equilibrium passes it on as a whole. For any `e` the constants follow by least
+//! squares from the pairs before the last two. The edge is the `e` for which the pressure over the
+//! last two pairs adds up to their total force.
 //!
-//! Measured with 4 to 24 elements over the contact: off by 0.003 to 0.01 elements on Hertz's
-//! contact of a line and of a point, by 0.02 to 0.1 on the disc in a plate. A line through the
-//! squared pressures, extrapolated to zero without the force, is off by 0.015 to 0.4 and by 0.08 to
-//! 0.2.
+//! With 4 to 24 elements over the contact, the error is 0.003 to 0.01 elements in Hertz's line and
+//! point contact, and 0.02 to 0.1 elements for the disc in a plate.
 
 use crate::root;
 
@@ -26,7 +23,7 @@ const GAUSS: [(f64, f64); 4] = [
 /// A determinant is round-off if it is below this fraction of the product of its factors.
 const SINGULAR: f64 = 1e-12;
 
-/// A pair inside the last ones of a contact.
+/// A pair that lies further inside a contact than its last pairs.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct EdgePoint {
     /// Squared distance from the centre of the contact.

@@ -20,7 +20,7 @@ const PARALLEL: f64 = 1e-2;
 pub(super) struct LineEdge {
     /// Arc length along the surface.
     pub arc: f64,
-    /// Measured error of the edge's position.
+    /// Estimated error of the edge's position.
     pub reading: f64,
 }
 
@@ -141,9 +141,10 @@ impl ClosedRun<'_> {
             .point(self.model.pairs[self.line[k].pair].slave)
     }
 
-    /// Number of half widths of the whole patch, images included, in one width of the modelled run
-    /// of pairs: 1/2 away from planes of symmetry, 1 on one plane, and between two planes the
-    /// number of images that close the turn.
+    /// Half width of the whole patch, images included, divided by the width of the modelled run of
+    /// pairs: 1/2 away from planes of symmetry; 1 if the run ends on one plane, or on two parallel
+    /// planes; otherwise, between two planes, half the number of images (with the model itself)
+    /// that close the turn.
     pub(super) fn half_widths(&self) -> f64 {
         match [self.begin, self.end - 1].map(|k| (self.is_symmetric(k), self.mirror(k))) {
             [(false, _), (false, _)] => 0.5,
@@ -203,7 +204,7 @@ impl ClosedRun<'_> {
     /// Finds the edge of the contact beyond the place `last`, along the surface in direction `way`,
     /// from the force of the last [`EDGE_SKIP`] pairs: see [`Tail`]. The error of the reading is
     /// its difference from a second reading with one more pair. If there are too few pairs for
-    /// that, or a reading leaves its bracket, the error is half a spacing.
+    /// that, or if the reading lies at an end of its bracket, the error is half a spacing.
     pub(in crate::analysis) fn edge(&self, last: usize, way: isize, middle: f64) -> LineEdge {
         let arc = |k: usize| self.line[k].arc;
         let Some(beyond) = self.neighbour(last, way) else {

@@ -27,8 +27,8 @@ const LARGE: f64 = 0.1;
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct Deformation {
     largest: f64,
-    /// Largest strain (component or shear strain of the tensor) and rotation, in radians, of the
-    /// mean gradient of an element.
+    /// Largest component of the strain tensor of the mean gradient of an element; `rotation` is the
+    /// largest rotation of such a gradient, in radians.
     strain: f64,
     rotation: f64,
     /// Name of the state in which the gradient occurs; `body` is the body in which it occurs.
@@ -118,7 +118,8 @@ impl Deformation {
 }
 
 /// Largest component of the strain of an element, and its rotation. Both are parts of the gradient
-/// `H` for which `u - H x` is least at the corners (least squares, both from their means).
+/// `H` for which `u - H x` is least at the corners (least squares, with `u` and `x` measured from
+/// their means).
 fn strain_and_rotation(mesh: &Mesh, element: usize, displacements: &[Vector]) -> [f64; 2] {
     let corners = &mesh.nodes(element)[..mesh.shapes[element].n_corners()];
     let share = 1.0 / corners.len() as f64;
@@ -150,9 +151,9 @@ fn strain_and_rotation(mesh: &Mesh, element: usize, displacements: &[Vector]) ->
 }
 
 /// Warning for a deck that asks for large displacements when material flows at a stress that is not
-/// small compared with the slope of its curve. If flow spreads through a body, the change of its
-/// sections then matters as much as hardening does (A. Considere, *Annales des ponts et chaussees*,
-/// 1885), however small the strains are.
+/// small compared with the slope of its hardening curve. If flow spreads through a body, the change
+/// of the body's cross sections then matters as much as hardening does (A. Considere, *Annales des
+/// ponts et chaussees*, 1885), however small the strains are.
 pub(in crate::analysis) fn softened(
     model: &Model,
     results: &Results,

@@ -276,9 +276,10 @@ fn sum(forces: &[f64]) -> f64 {
 
 /// The total load of the current state. It is the size of the leading load times its factor,
 /// without sign (a force is given for the whole model with its mirror images). If the leading load
-/// prescribes displacements, it is the force that moves its nodes; if it changes gaps, the force of
-/// the contacts with these gaps. Without a leading load, it is the force of all contacts with
-/// interference, or of all contacts if there is no interference.
+/// prescribes displacements, the total load is the force that moves the nodes of the leading load.
+/// If the leading load changes gaps, the total load is the force of the contacts with these gaps.
+/// Without a leading load, it is the force of all contacts with interference, or of all contacts if
+/// there is no interference.
 pub(in crate::analysis) fn total_load_size(solver: &Solver) -> f64 {
     let model = solver.structure.model;
     let through = |acts: &dyn Fn(&Pair) -> bool| {

@@ -143,7 +143,7 @@ impl Reading<'_, '_> {
         scales.force = scales.force.max(applied).max(largest(reactions));
         scales.displacement = scales.displacement.max(largest(&u.total));
         scales.deformation = scales.deformation.max(largest(u.deformation()));
-        // Without loads, displacements within the round-off of the mesh are none.
+        // Without loads, displacements within the round-off of the mesh count as zero.
         let round_off_of_mesh = f64::EPSILON * self.solver.structure.model.mesh.diagonal();
         if applied == 0.0 && self.solver.scales.displacement <= round_off_of_mesh {
             return Quality {
@@ -199,9 +199,9 @@ impl Reading<'_, '_> {
         quality
     }
 
-    /// Largest `|K| |u|` of the current state. If plastic strains remain, it is scaled to the
-    /// largest deformation of the run: they were balanced to the round-off of displacements that
-    /// may have vanished.
+    /// Largest `|K| |u|` of the current state. If plastic strains remain, the value is scaled to
+    /// the largest deformation of the run: the plastic strains were balanced to the round-off of
+    /// displacements that may have vanished since.
     fn terms_of_run(&self, u: &Displacements) -> f64 {
         let here = largest(u.deformation());
         if here > 0.0 && self.solver.now.initial.load.largest() > 0.0 {

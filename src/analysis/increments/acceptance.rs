@@ -29,7 +29,7 @@ pub(super) fn contact_step(
     accepted(solver, from, report, arrival)
 }
 
-/// Covers the last bit of the way to `end` with the current statuses and plastic strains.
+/// Covers the small rest of the way to `end` with the current statuses and plastic strains.
 pub(in crate::analysis) fn arrive(solver: &mut Solver, end: &LoadPoint) {
     let initial = solver.now.initial.clone();
     solver.now = solver.respond(end, initial);
@@ -60,7 +60,8 @@ pub(super) fn accept(
         })
         .collect();
     let way = increment.t * start.distance(end);
-    // The change of state over a far shorter increment is mostly round-off.
+    // Over an increment shorter than `1 / STRETCH` of its piece, the change of state is mostly
+    // round-off.
     let is_known = way > 0.0 && increment.t > 1.0 / STRETCH && !solver.zone.is_idle();
     solver.predictor.pace = is_known.then(|| {
         let mut pace = increment.state.initial.clone();
@@ -91,8 +92,8 @@ pub(super) fn accept(
 }
 
 /// Whether the current state is the state at `end`, so that another solve would change only
-/// round-off. A state in which nothing has moved yet was not solved for: it counts if no gap is
-/// negative.
+/// round-off. A state without displacements and forces need not have been solved for: it counts
+/// only if no gap is negative and the gaps are those before anything moves.
 pub(super) fn rests_at(solver: &Solver, end: &LoadPoint) -> bool {
     let moved = solver.now.u.largest() != 0.0 || solver.now.force.iter().any(|r| *r != 0.0);
     let apart = solver.now.gap.iter().all(|g| *g >= 0.0);

@@ -13,8 +13,8 @@
 //! ```
 //!
 //! at the state reached in the smallest increment, with `d` the direction in which the structure
-//! moved. The current stiffness is an upper bound of the smallest eigenvalue: if it shows that
-//! stiffness is lost, it is lost.
+//! moved. The current stiffness is an upper bound of the smallest eigenvalue: if the current
+//! stiffness is lost, the structure has lost its stiffness in at least one direction.
 //!
 //! Increments beyond a limit load are given up as soon as the structure flows away along a Newton
 //! direction. It flows away if the direction has no stiffness, and if the same force still drives
@@ -42,12 +42,13 @@ use crate::substructure::Trailing;
 /// whole piece of the load path.
 pub(super) const LOST: f64 = SMALLEST_CUT;
 
-/// Most responses of the structure to a direction whose stiffness decides; each costs one trailing
-/// solve. Each response reduces motions with a tenth of the elastic stiffness by a tenth compared
-/// with a mechanism.
+/// Largest number of power iterations for the direction whose stiffness decides; each costs one
+/// trailing solve. Compared with a mechanism, each iteration reduces motions that have a tenth of
+/// the elastic stiffness by a tenth.
 const MOST_ANSWERS: usize = 8;
 
-/// Fraction of the driving force that must still be out of balance for the structure to flow away.
+/// Fraction of the driving force that must still be out of balance if the structure is to count as
+/// flowing away.
 const DRIVEN: f64 = 0.5;
 
 /// Bound on the accuracy of any iteration: the round-off of the zone elements' forces that follow
@@ -162,9 +163,9 @@ pub(super) fn not_found(
 
 /// Fraction of the elastic stiffness that the tangent at a state has, in the direction in which the
 /// structure moves from its last state in equilibrium to this state; NaN if the iterate has
-/// overflowed. The response to the forces that softening takes off the direction is found `answers`
-/// times. Each time, the parts of the direction that still have stiffness weigh less (power
-/// iteration).
+/// overflowed. The direction is improved by up to `answers` power iterations: each is the elastic
+/// response to the softening forces of the direction before. In each iteration, the parts of the
+/// direction that still have stiffness weigh less.
 fn stiffness_left(solver: &mut Solver, state: &Equilibrium, answers: usize) -> f64 {
     let mut load = solver.structure.sub.zeros();
     solver.out_of_balance_at(state, &mut load);

@@ -1,4 +1,5 @@
-//! Elastic drives: contact alone changes, from event to event, and only the dense matrix is needed.
+//! Elastic drives: contact alone changes, from event to event, and only the dense contact matrix is
+//! needed.
 
 use super::acceptance::{contact_step, rests_at};
 use super::step::{Arrival, MONITOR_ACCURACY, Monitor, Step, crosses, describe, is_hit};
@@ -62,14 +63,14 @@ impl ElasticPath {
         outcome
     }
 
-    /// Goes to share `t` of the piece with the current statuses, which must hold there.
+    /// Goes to share `t` of the piece with the current statuses, which must be right there.
     pub fn go_back(&mut self, solver: &mut Solver, t: f64) {
         self.path.state_at(&mut solver.tableau, t);
         self.write(solver);
     }
 
-    /// Sets the statuses that hold beyond an event. If the last contact of a body was lost, a new
-    /// piece begins after the body has moved across its gaps.
+    /// Sets the statuses that are right beyond an event. If a body has lost its last contact or
+    /// moves far against its springs, the body moves across its gaps, and a new piece begins.
     ///
     /// # Errors
     /// A load that drives a body away from every contact.
@@ -84,7 +85,7 @@ impl ElasticPath {
     }
 
     /// Goes back to the share of the piece at which the monitored quantity is zero within
-    /// `accuracy`. Its value is `was` at share `from`, and `is` at the current share.
+    /// `accuracy`. The quantity is `was` at share `from`, and `is` at the current share.
     ///
     /// # Errors
     /// Errors of the monitor.

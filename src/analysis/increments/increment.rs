@@ -23,8 +23,8 @@ use crate::scene::PlasticIteration;
 use crate::substructure::Trailing;
 
 /// Accuracy (energy norm) of every Newton direction. When points begin or cease to yield,
-/// convergence is linear, however exact the directions are: forcing terms that follow the residual
-/// cost a tenth more trailing solves for 4 % fewer material evaluations.
+/// convergence is linear, however exact the directions are. An accuracy that becomes tighter as the
+/// residual falls (a forcing term) therefore does not pay.
 const FORCING: f64 = 0.05;
 /// The plain and the Anderson iteration may take this many times Newton's limit of iterations.
 const CHEAP_ITERATIONS: usize = 100;
@@ -34,8 +34,8 @@ const BORDER: f64 = 1e-8;
 /// at the start.
 const AT_START: f64 = 1e-9;
 /// Largest factor by which a change of state may be stretched over a run of increments that end at
-/// the end of their piece. If they are of equal length in the root of the load, the last is some
-/// thirty times as long as the first.
+/// the end of their piece. If these increments are of equal length in the root of the load, the
+/// last is some thirty times as long as the first.
 const STRETCH_OF_LONG: f64 = 1e2;
 
 /// Searches for the increment from the current state towards `end`, at most to share `most` of the
@@ -100,7 +100,8 @@ struct Look {
     /// Out-of-balance force divided by the force scale.
     residual: f64,
     limit: StepLimit,
-    /// Whether the length is right: at the next change of contact, or at the end of the piece.
+    /// Whether the length is right: the iterate ends at the next change of contact, or at the
+    /// largest share allowed.
     has_arrived: bool,
     /// Whether the residual is hardly less than the best so far.
     has_stalled: bool,
@@ -125,8 +126,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
             None => RatePrediction::of_rates(solver, (end, most), newton, !follows),
         };
         let base = positive_values(solver.tableau.open(), &before.gap, &before.force);
-        // A pair whose opening would set a body free cannot open: its force may fall to the
-        // round-off of zero.
+        // A pair whose opening would set a body free cannot open. Its force may fall to zero within
+        // round-off.
         let mut exempt = solver.border.clone();
         exempt.extend((0..base.len()).filter(|&k| solver.tableau.would_free(k)));
         let t = match follows {
@@ -257,7 +258,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
     }
 
     /// Whether the forces of the iterate balance, to the tolerance or to their round-off. Also
-    /// returns the round-off, if it was needed.
+    /// returns this round-off; zero if only the tolerance was considered.
     fn judge(&mut self, look: &Look) -> Result<(bool, f64), NoIncrement> {
         let is_balanced = look.residual <= self.rules.settings.tolerance;
         if is_balanced || !look.has_stalled || !self.may_settle {
@@ -300,7 +301,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
         self.state = self.solver.respond(&point, initial);
     }
 
-    /// Returns the increment that the converged iterate is.
+    /// Returns the converged iterate as an increment; an error if a pair that began at the border
+    /// has become negative.
     fn found(self, look: Look, floor: f64) -> Result<Increment, NoIncrement> {
         let gamma = self.gamma();
         if self.follows() {
@@ -328,7 +330,7 @@ impl<'i, 'm> Iteration<'i, 'm> {
         })
     }
 
-    /// Returns an error if the iteration makes no progress, or was asked to stop.
+    /// Returns an error if the iteration makes no progress, or if the caller asks to stop.
     fn give_up(&mut self, look: &Look) -> Result<(), NoIncrement> {
         if !look.has_stalled {
             self.best = (look.residual, self.iterations);
@@ -339,8 +341,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
         let settings = self.rules.settings;
         let newton = settings.plastic_iteration == PlasticIteration::Newton;
         let is_stuck = newton && self.iterations - self.best.1 >= self.search.patience;
-        // The change of contact moves ever nearer to the start, to within the accuracy of states:
-        // it happens at once.
+        // If the change of contact has moved nearer to the start than the accuracy of states, it
+        // happens at once.
         let is_at_start = self.follows() && self.t <= settings.tolerance;
         if is_stuck && is_at_start && look.limit.share <= 1.0 + self.gamma() {
             return Err(NoIncrement::WrongStatus(look.limit.pairs.clone()));
@@ -467,8 +469,8 @@ impl<'i, 'm> Iteration<'i, 'm> {
     }
 
     /// Pairs that began at the border, with a gap or force of zero, and end with a negative one.
-    /// Their rate was right at the start and turned within the increment; no step limit watches
-    /// them.
+    /// The rate of such a value was right at the start and changed its sign within the increment;
+    /// the step limit leaves these pairs out.
     fn crosses_border(&self, tolerance: f64, force_scale: f64) -> Vec<usize> {
         let state = &self.state;
         let largest_gap = state.gap.iter().fold(0.0f64, |m, g| m.max(*g));

@@ -24,7 +24,7 @@ impl Stepper<'_, '_> {
     ) -> Result<()> {
         let reached = from.at.share_of(&self.solver.at, end);
         let last = Cell::new(-1.0);
-        // Trial increments end close together: each is predicted from those before.
+        // Trial increments end close together: each is predicted from the ones before.
         let mut known = vec![(0.0, from.equilibrium.clone())];
         if self.kept_statuses(from) {
             known.push((reached, self.solver.now.clone()));
@@ -70,8 +70,8 @@ impl Stepper<'_, '_> {
     }
 }
 
-/// The state at `t` on the parabola through the three nearest known states. With equal statuses,
-/// linear combinations of states are states.
+/// The state at `t` on the parabola through the three nearest known states. Because their statuses
+/// are equal, such a combination is again in equilibrium.
 fn between(known: &mut [(f64, Equilibrium)], t: f64) -> Equilibrium {
     known.sort_by(|a, b| (a.0 - t).abs().total_cmp(&(b.0 - t).abs()));
     let nearest = &known[..known.len().min(3)];

@@ -5,7 +5,7 @@ use crate::analysis::structure::solver::Solver;
 use crate::analysis::zone::points::Evaluation;
 use crate::substructure::Trailing;
 
-/// Most cuts of the length in a line search.
+/// Largest number of trial lengths in a line search.
 const BACKTRACKS: usize = 12;
 /// Fraction of the slope at the start that the slope beyond a minimum may have, so that the minimum
 /// is nearly reached.
@@ -34,7 +34,7 @@ pub(super) fn line_search(
         if there >= -OVERSHOOT * slope {
             return Some((length, evaluation));
         }
-        // The slope is NaN: the step is far too long.
+        // If the slope there is NaN, the step is far too long.
         let share = slope / (slope - there);
         length *= if share.is_finite() {
             share.clamp(0.01, 0.9)

@@ -4,8 +4,9 @@ use crate::analysis::structure::equilibrium::Equilibrium;
 use crate::error::Error;
 
 /// Largest factor by which a change of state may be stretched before its loads are eliminated
-/// again. Load and eliminated load are rounded separately, by `eps` of the whole, and the
-/// difference grows with the change. It stays below 1e-12, a hundredth of the tightest tolerance.
+/// again. Load and eliminated load are rounded separately, by `eps` of the whole. The difference
+/// between them grows as the change is stretched, but stays below 1e-12, a hundredth of the
+/// tightest tolerance.
 pub(super) const STRETCH: f64 = 1e4;
 
 /// The ways in which an increment may end.
@@ -46,10 +47,11 @@ pub struct Increment {
 /// The reason why no increment was found.
 #[derive(Debug)]
 pub enum NoIncrement {
-    /// No set of statuses at the end of a fixed increment is right to round-off: the same sets come
-    /// back.
+    /// No set of statuses at the end of a fixed increment is right to round-off: the same sets
+    /// recur, or the changes do not end.
     Undecided,
-    /// The given pairs violate their condition at once: their statuses are wrong.
+    /// The given pairs violate their contact condition from the start of the increment on: their
+    /// statuses are wrong.
     WrongStatus(Vec<usize>),
     /// The start is not in balance: points there are beyond yield, and as they yield a pair changes
     /// its status, however short the increment is.

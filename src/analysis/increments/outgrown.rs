@@ -35,7 +35,8 @@ pub(in crate::analysis) fn accepted(
     }
 }
 
-/// The first pair at an open end of a contact that carries force.
+/// The first pair that carries force and lies at an end of a contact beyond which the bodies
+/// extend.
 fn outgrown_at(solver: &Solver) -> Option<usize> {
     let force = &solver.now.force;
     let carries = |k: usize| {

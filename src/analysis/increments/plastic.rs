@@ -15,7 +15,7 @@ use std::ops::ControlFlow;
 
 /// Fraction of a piece of the load path below which the rest of the piece is round-off. When a body
 /// is unloaded to zero, the last pair's force consists of the load and of the imbalance of the
-/// iteration; the place where it vanishes then has no meaning.
+/// iteration. The load at which this force vanishes then has no meaning.
 const ARRIVED: f64 = 1e-9;
 
 /// An elastoplastic drive between two increments.
@@ -64,8 +64,8 @@ impl PlasticDrive {
         }
         if turns_back(solver, end) {
             solver.assume_elastic();
-            // This is the first elastoplastic increment after elastic increments that watched for
-            // first yield.
+            // If there was no step before, this is the first elastoplastic increment after elastic
+            // increments that watched for first yield.
             let begins = solver.predictor.last_step.iter().all(|step| *step == 0.0);
             if begins {
                 solver.predictor.flow.begins(&solver.at);

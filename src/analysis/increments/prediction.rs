@@ -27,10 +27,10 @@ pub(super) struct RatePrediction {
 }
 
 impl RatePrediction {
-    /// Predicts the rates: elastic ones (4.5), plus a plastic part if points yield. The plastic
-    /// part continues as in the last increment; if there was none, it is that of the `tangent`, if
-    /// asked for. For an increment that `is_long`, over the share `most` of the piece, the plastic
-    /// part is stretched.
+    /// Predicts the rates: elastic ones (4.5), plus a plastic part if points yield and `tangent` is
+    /// set. The plastic part continues as in the last increment; if its rate is not known, it
+    /// follows from the tangent. `is_long` means that the increment covers the share `most` of the
+    /// piece: the rate of the last increment then counts as stretched to this length.
     pub(super) fn of_rates(
         solver: &mut Solver,
         (end, most): (&LoadPoint, f64),
@@ -49,8 +49,8 @@ impl RatePrediction {
         if let Some(pace) = pace {
             initial.add(solver.at.distance(end), &pace.initial);
         }
-        // The current state may have been in equilibrium with other statuses, or be off by gamma;
-        // its present statuses decide.
+        // The current state may have been in equilibrium with other statuses, or be off by gamma.
+        // The prediction uses the present statuses.
         let mut rates = solver.respond(end, initial);
         rates.add(-1.0, &solver.now);
         if needs_tangent {

@@ -9,9 +9,9 @@ pub const PROGRESS: f64 = 0.7;
 pub struct Search {
     /// Whether equilibrium and length are searched together: each iterate is scaled to the change
     /// of contact (4.17, 4.22). An iterate far out of balance shows the change too early and,
-    /// scaled to it, may do so again and again. Otherwise one follows the other: equilibrium at a
-    /// length, then the next length, between lengths that were too short and lengths that were too
-    /// long.
+    /// scaled to it, may do so again and again. If false, equilibrium is found at a fixed length,
+    /// and then the next length is chosen between lengths that were too short and lengths that were
+    /// too long.
     pub together: bool,
     /// Newton's iteration is given up after this many iterations in which the residual has not
     /// fallen below the share [`PROGRESS`] of the best one.

@@ -46,23 +46,24 @@ impl Rounds {
         if self.patience > 0 { wrong } else { 1 }
     }
 
-    /// Whether the rounds exceed ten times the number of pairs. Statuses of forces and gaps that
-    /// are round-off may change without end while plastic flow changes with them.
+    /// Whether the rounds exceed a hundred plus ten times the number of pairs. Statuses of pairs
+    /// whose force or gap is mere round-off may change without end while plastic flow changes with
+    /// them.
     fn are_endless(&self, n_pairs: usize) -> bool {
         self.taken > 10 * (n_pairs + 10)
     }
 }
 
 /// Changes the statuses that an iterate shows to be wrong, and gives the iterate the gaps and
-/// forces of the new statuses. Returns whether any were wrong; if so, it costs half a trailing
+/// forces of the new statuses. Returns whether any were wrong. A change costs half a trailing
 /// solve.
 ///
 /// Each Newton iterate, with the gaps and forces of the tangent, is treated once: the primal-dual
 /// active set method (M. Hintermüller, K. Ito, K. Kunisch 2002, doi:10.1137/S1052623401383558). If
 /// contact were solved to the end each time, with the present plastic flow as a load, the response
 /// would be that of the elastic body; near a limit load this would not converge. Contact is solved
-/// to the end only if every change would set a body free. Only the least index changes if changing
-/// all at once does not reduce their number.
+/// to the end only if every change would set a body free. If changing all wrong statuses at once
+/// does not reduce their number, only the least index changes.
 pub(super) fn settle_contact(
     solver: &mut Solver,
     point: &LoadPoint,
@@ -123,7 +124,7 @@ mod tests {
             rounds.take(4);
         }
         assert_eq!(rounds.taken, 131);
-        // Progress gives all of them another try.
+        // After progress, all wrong pairs change at once again.
         assert_eq!(rounds.take(3), 3);
     }
 }

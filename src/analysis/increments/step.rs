@@ -75,8 +75,9 @@ pub struct Rules<'a> {
 /// Accuracy to which a monitored quantity (of order 1) is brought to its zero, and relative
 /// accuracy of the place of the zero.
 pub(in crate::analysis) const MONITOR_ACCURACY: f64 = 1e-10;
-/// Fraction of a piece of the load path below which increments are not cut. If one this short is
-/// not found, the load has passed the limit load, which is then known to this share.
+/// Fraction of a piece of the load path below which increments are not cut. If not even such a
+/// short increment is found because the load has passed the limit load, the limit load is known to
+/// this share of the piece.
 pub(super) const SMALLEST_CUT: f64 = 1e-6;
 
 /// Whether the monitored quantity is zero at the start of a drive. Along the drive it would then

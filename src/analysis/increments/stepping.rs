@@ -25,8 +25,8 @@ const CUT_TOGETHER: f64 = 0.02;
 /// Number of status corrections at one point of the path after which statuses count as cycling.
 const MOST_CORRECTIONS: usize = 60;
 
-/// Most cuts of an increment at whose start a pair has a gap or force of zero that becomes
-/// negative.
+/// Largest number of cuts of an increment because a pair starts with a gap or force of zero that
+/// becomes negative.
 const MOST_CROSSINGS: usize = 2;
 
 /// Record of the attempts at one increment, and settings of the next attempt.
@@ -150,8 +150,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         why: NoIncrement,
     ) -> Result<()> {
         match why {
-            // The rate of a pair with a gap or force of zero turned within the increment. A shorter
-            // increment shows where, unless it turned at the very start.
+            // The gap or force of a pair that started at zero changed the sign of its rate within
+            // the increment. A shorter increment shows where, unless that was at the very start.
             NoIncrement::Crossed(_) if tries.crossings < MOST_CROSSINGS => {
                 tries.crossings += 1;
                 tries.most *= CUT;
@@ -171,8 +171,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
             }
             NoIncrement::Undecided => return Err(self.not_settled(end, tries.most)),
             NoIncrement::NotConverged(attempt) => {
-                // The points yield as in the state that failed. The tangent of that state is often
-                // singular and must not predict the next increment.
+                // The points that count as yielding are still those of the state that failed. The
+                // tangent of that state is often singular and must not predict the next increment.
                 self.solver.assume_elastic();
                 self.after_no_convergence(tries, end, &attempt)?;
             }
@@ -208,8 +208,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         end: &LoadPoint,
         attempt: &Attempt,
     ) -> Result<()> {
-        // This comparison is written so that a way of length zero, whose shares are NaN, also ends
-        // here.
+        // This comparison is written so that a way of length zero, whose shares are NaN, is not
+        // cut.
         let worth_cutting = CUT * tries.most >= tries.smallest;
         let cut_enough = !worth_cutting || tries.most < CUT_TOGETHER * tries.left;
         // If the structure flows away, no other search at this length helps.
@@ -237,7 +237,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         } else {
             let goal = self.solver.at.towards(end, tries.most);
             let error = not_found(self.solver, self.rules.settings, &goal, attempt);
-            // Close to a limit load no length may be right; a fixed length needs no search.
+            // Close to a limit load, the search may find no length that ends at a change of
+            // contact. An increment of fixed length needs no such search.
             let undecided = error.kind() == ErrorKind::Analysis;
             if !(undecided && events && tries.usual != Stepping::Steps) {
                 return Err(error);
@@ -268,8 +269,8 @@ impl<'s, 'm> Stepper<'s, 'm> {
         search: Search,
         ahead: Option<(LoadPoint, Equilibrium)>,
     ) -> std::result::Result<Increment, NoIncrement> {
-        // The end of the increment is made the end of a piece of its own: a pair that closes has no
-        // gap there, whatever gap it had.
+        // The increment is made a piece of its own, which it covers wholly: a pair that closes has
+        // no gap at its end, whatever gap the pair had at the start.
         let goal = self.solver.at.towards(end, most);
         let increment = self.increment(&goal, 1.0, (EndsAt::EndOfPiece, search), ahead)?;
         self.solver.border.clear();

@@ -61,7 +61,8 @@ impl EliminatedPath {
 }
 
 impl ElasticStretch {
-    /// Begins a stretch on the way to `end`; `None` if there cannot be one.
+    /// Begins a stretch on the way to `end`; `None` if no contact force acts, or if the contact
+    /// path cannot begin.
     pub fn begin(solver: &mut Solver, end: &LoadPoint) -> Option<Self> {
         if solver.now.force.iter().all(|r| *r == 0.0) {
             return None;

@@ -15,10 +15,10 @@
 //! programming problems arising in optimization* (2001), section 6 (the growth of the part of the
 //! residual that the constraints carry, and its removal), doi:10.1137/S1064827598345667.
 //!
-//! Fading back stresses make the tangent unsymmetric if flow turns. It is then solved by conjugate
-//! residuals that keep the last few directions (Orthomin), with the same preconditioner and the
-//! same work per direction: S. C. Eisenstat, H. C. Elman, M. H. Schultz (1983),
-//! doi:10.1137/0720023.
+//! Fading back stresses make the tangent unsymmetric if the direction of flow turns. The system is
+//! then solved by conjugate residuals that keep the last few directions (Orthomin), with the same
+//! preconditioner and the same work per direction: S. C. Eisenstat, H. C. Elman, M. H. Schultz
+//! (1983), doi:10.1137/0720023.
 
 use super::tangent_by_factor::{DIRECT, MOST, SINGULAR, TangentSystem};
 use crate::analysis::structure::equilibrium::Equilibrium;
@@ -52,8 +52,8 @@ impl Answered {
 }
 
 /// Newton's direction: solves `(S - keep K_p) du = residual` to `tolerance` (energy norm,
-/// relative). The initial loads of the direction are `S du`: the change of initial loads that
-/// the direction asks for. `keep = 1` is the tangent, 0 the plain iteration. In between, the
+/// relative). The initial loads of the direction are `S du`: the change of initial loads for which
+/// `du` is the elastic response. `keep = 1` is the tangent, 0 the plain iteration. In between, the
 /// condition number is at most `1/(1 - keep)`, even if the material has no stiffness left.
 ///
 /// The search directions carry their gaps, forces and eliminated loads along, and the last
@@ -76,8 +76,8 @@ pub(in crate::analysis) fn solve_tangent(
     system.solve(residual)
 }
 
-/// The part of the zone whose displacements count in a tangent solve: where the material
-/// yields, and where the residual acts.
+/// The part of the zone whose displacements count in a tangent solve: where the material yields,
+/// where it yielded when the tangent was factored, and where the residual acts.
 fn part_that_counts(solver: &Solver, residual: &Trailing) -> ZonePart {
     let mut marks: Vec<bool> = residual.zone.iter().map(|r| *r != 0.0).collect();
     solver.zone.mark_active(&mut marks);
@@ -86,7 +86,8 @@ fn part_that_counts(solver: &Solver, residual: &Trailing) -> ZonePart {
 }
 
 impl TangentSystem<'_, '_> {
-    /// Solves the system with the factor that there is, or with one that is made once it pays.
+    /// Solves the system with the factored tangent, if there is one. Otherwise takes conjugate
+    /// gradient steps on the elastic factor, and factors the tangent once that pays.
     fn solve(&mut self, residual: &Trailing) -> Equilibrium {
         let at_rest = (residual.clone(), self.solver.structure.sub.zeros());
         if let Some(u) = self.solve_by_factor(at_rest) {
@@ -149,7 +150,7 @@ impl TangentSystem<'_, '_> {
     }
 
     /// Conjugate residuals on the elastic factor, for an unsymmetric tangent, starting from the
-    /// residual, until the rest of it is below `size`.
+    /// residual `z`, until what is left of it is below `size`.
     fn conjugate_residuals(&mut self, mut z: Answered, size: f64) -> Equilibrium {
         let mut softened = self.solver.structure.sub.zeros();
         let mut total = Equilibrium::none(&softened, z.carried.len());

@@ -6,9 +6,10 @@
 //! ```
 //!
 //! is factored in the pattern of the zone's own factor ([`FactoredTangent`]); the rest of the model
-//! stays condensed as it is. The factor is the preconditioner for the tangents of later iterates,
-//! which differ from `M` in the points that yield and in their normals. In perfectly plastic
-//! material near its limit load `S - K_p` is singular; `M >= LEFT S` is not.
+//! stays condensed as it is. If the tangent is damped, its factor `keep` also multiplies `K_p` in
+//! `M`. The factor is the preconditioner for the tangents of later iterates, which differ from `M`
+//! in the points that yield and in the normals of the yield surface. In perfectly plastic material
+//! near its limit load `S - K_p` is singular; `M >= LEFT S` is not.
 //!
 //! Operations, not times, decide when a factor pays. Conjugate gradient steps are taken one by one
 //! until they have cost as much as a factor; the total is at most twice the cost of the better
@@ -27,8 +28,8 @@ use crate::contact::springs::with_springs;
 use crate::linalg::ZonePart;
 use crate::substructure::Trailing;
 
-/// Most iterations of a solve: enough for perfect plasticity near collapse. A solve that needs more
-/// has no useful direction.
+/// Largest number of iterations of a solve: enough for perfect plasticity near collapse. A solve
+/// that needs more has no useful direction.
 pub(super) const MOST: usize = 400;
 /// Fraction of a direction's elastic stiffness that is round-off.
 pub(super) const SINGULAR: f64 = 1e-14;

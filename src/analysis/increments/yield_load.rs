@@ -43,8 +43,8 @@ pub fn yield_share(
     let mut found = None;
     let mut beyond = |s: f64| {
         let peak = at(s);
-        // On a coarse mesh the recovered maximum may jump if another place is searched: the point
-        // that yields is the maximum beyond the jump.
+        // On a coarse mesh the recovered maximum may jump when the search moves to another place.
+        // The point that yields is the maximum beyond the jump.
         if peak.is_some_and(|p| p.ratio >= 1.0 - BEFORE) {
             found = peak;
         }

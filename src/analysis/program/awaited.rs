@@ -58,7 +58,7 @@ impl<'m> Awaited<'m> {
     }
 
     /// Value of the figure in the current state; for a dent, the dent of the present plastic
-    /// strains. Costs a full solve for the approach, half a trailing solve for a dent.
+    /// strains. Costs half a full solve for the approach, half a trailing solve for a dent.
     ///
     /// # Errors
     /// Failure of the backend's solve.
@@ -86,9 +86,9 @@ impl<'m> Awaited<'m> {
         })
     }
 
-    /// Value of the figure in the current state in the sense of the target: for a dent, the dent
-    /// that is left after the load factor has returned to zero. Sets `unloads_outside` if yielding
-    /// on unloading leaves the zone.
+    /// Value of the figure in the current state in the sense of the target: for a dent near the
+    /// target value, the dent that is left after the load factor has returned to zero. Sets
+    /// `unloads_outside` if yielding on unloading leaves the zone.
     fn as_meant(&self, solver: &mut Solver, unloads_outside: &Cell<bool>) -> Result<f64> {
         let here = self.here(solver)?;
         let is_near = (here - self.value).abs() <= NEAR * self.value;

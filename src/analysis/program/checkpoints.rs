@@ -83,7 +83,8 @@ impl CheckpointWriter {
     }
 
     /// A warning if a checkpoint could not be written. A failure to write does not end the run,
-    /// whose results are worth more; it is reported once.
+    /// because the results matter more. Of several failures in succession, only the first is
+    /// reported.
     pub(super) fn note(&mut self, outcome: Result<()>) -> Option<String> {
         let had_failed = std::mem::replace(&mut self.failed, outcome.is_err());
         let error = outcome.err().filter(|_| !had_failed)?;

@@ -1,14 +1,14 @@
-//! Programs of cycles: the plastic flow of each cycle, and whether the next one would leave the
-//! same.
+//! Programs of cycles: the plastic flow of each cycle, and whether the next cycle would be like the
+//! last.
 //!
 //! The change of the plastic strains over a cycle is compared, point by point, with the change over
 //! the previous cycle. If the differences `r_k` fall like a geometric series, the cycles to come
 //! alter the change by `r_k q/(1 - q)`, `q = r_k/r_(k-1)`. A cycle is steady once both values are a
 //! small fraction of the flow of the first cycle. The flow that remains in the end is that of the
 //! last cycle minus the alteration by the cycles to come. If none remains, plastic flow dies out,
-//! however slowly; otherwise it goes on in every cycle, however small it is. The same holds for
-//! growth. A cycle in which nothing flows is steady at once. The states reported for a program come
-//! from one more cycle.
+//! however slowly; otherwise it goes on in every cycle, however small it is. Growth, the net change
+//! of the plastic strains over a cycle, is judged in the same way. A cycle in which nothing flows
+//! is steady at once. The states reported for a program come from one more cycle.
 
 use crate::analysis::zone::history::PointHistory;
 use crate::analysis::zone::packed;
@@ -47,7 +47,7 @@ pub(super) struct CycleRecord {
 }
 
 impl CycleRecord {
-    /// Whether the states of the current cycle are taken, in a program of at most `most` cycles.
+    /// Whether the states of the current cycle are reported, in a program of at most `most` cycles.
     pub(super) fn is_last(&self, most: usize) -> bool {
         self.is_over || self.outcome.is_some() || self.rows.len() + 1 >= most
     }

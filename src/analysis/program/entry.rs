@@ -60,8 +60,8 @@ impl Analysis {
     ///
     /// # Errors
     /// As [`Analysis::run`]; `Input` if another run is writing to the same directory; `Io` if the
-    /// first checkpoint cannot be written (a later one that cannot be written ends the run like any
-    /// other failure).
+    /// directory cannot be created, locked or read. A checkpoint that cannot be written later does
+    /// not end the run: it gives a warning.
     pub fn run_with_checkpoints(
         &mut self,
         checkpoints: &Checkpoints,

@@ -20,7 +20,8 @@ enum SearchEnd {
     Yield(f64, RecoveredPeak),
     /// Nothing yields up to the program's largest load factor.
     Nothing,
-    /// Yielding begins outside the zone that was searched; the choice holds the place.
+    /// Yielding begins outside the zone that was searched; the choice is a zone that includes the
+    /// place.
     Outside(Choice),
 }
 

@@ -3,7 +3,7 @@
 use crate::model::Model;
 use crate::scene::Target;
 
-/// The targets of the program, and the number of those in legs up to the leg of the model.
+/// The targets of the program, and the number of targets up to the end of the model's leg.
 pub(super) struct LegTargets<'m> {
     model: &'m Model,
     /// Names of the program's targets.
@@ -45,14 +45,15 @@ impl<'m> LegTargets<'m> {
         ahead.iter().filter_map(|target| target.load_factor)
     }
 
-    /// The largest absolute load factor among the targets, if there is one.
+    /// The largest absolute load factor among the targets up to the end of the leg; `None` if no
+    /// target states a load factor.
     pub(super) fn largest_factor(&self) -> Option<f64> {
         self.factors_from(0).map(f64::abs).reduce(f64::max)
     }
 
-    /// The largest and smallest load factor of the program, and the factors in between at which a
-    /// load has a kink. A target half width of m times that at yield counts as m^2 times the yield
-    /// load.
+    /// The largest load factor up to the end of the leg, the smallest if it is negative, and the
+    /// factors in between at which a load has a kink. A target half width of m times that at yield
+    /// counts as m^2 times the yield load.
     pub(super) fn extreme_factors(&self, at_yield: f64) -> Vec<f64> {
         let mut all: Vec<f64> = Vec::new();
         for target in self.up_to_end() {

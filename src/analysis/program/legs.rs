@@ -1,9 +1,10 @@
-//! A program in legs: other supports hold the model in each of them.
+//! A program in legs: in each leg, other supports hold the model.
 //!
 //! Each leg has a model and a factorisation of its own. Displacements are counted from the start of
 //! the program, so the next leg needs the plastic history, the displacements of nodes that are held
-//! from now on, and the forces of supports that have ended ([`Model::next_leg`]). It begins with
-//! the loads at which the last leg ended; it is checked that the equilibrium is the same.
+//! from now on, and the forces of supports that have ended ([`Model::next_leg`]). The next leg
+//! begins with the loads at which the last leg ended. A check compares its first equilibrium with
+//! the last equilibrium of the leg before.
 
 use super::assembled::Analysis;
 use super::finish;
@@ -25,8 +26,8 @@ use crate::space::{Vector, along, length};
 
 /// Largest difference between the displacements at the end of a leg and at the beginning of the
 /// next, relative to the largest displacement. Both equilibria are accurate to
-/// `analysis.tolerance`, 1e-10 of the forces; at a condition number of 1e10 round-off is as large
-/// as this bound.
+/// `analysis.tolerance`, by default 1e-10 of the forces; at a condition number of 1e10 round-off is
+/// as large as this bound.
 const SAME_STATE: f64 = 1e-6;
 
 /// What a run hands over to the run of the next leg.
@@ -76,7 +77,7 @@ pub(super) fn run(
 }
 
 impl HandedOver {
-    /// Ends the run of a leg.
+    /// Ends the run of a leg, and keeps what the next leg needs.
     fn of(mut run: Run, displacements: Vec<Vector>) -> Self {
         run.position.seconds.switch(TimeRow::Condensation);
         let solver = run.solver;
@@ -95,7 +96,7 @@ impl HandedOver {
     /// Sets up the run of the next leg at its beginning.
     ///
     /// # Errors
-    /// Errors of [`Solver::new`]; a state that is not that at the end of the last leg.
+    /// Errors of [`Solver::new`]; a state that differs from the state at the end of the last leg.
     fn go_on<'m, 'o>(
         self,
         analysis: &'m Analysis,

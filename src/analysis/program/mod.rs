@@ -3,7 +3,7 @@
 //! | file | what | paper |
 //! |---|---|---|
 //! | `stopwatch` | how the time of a run was spent | |
-//! | `cycles` | the flow of each cycle, and whether the next cycle would leave the same | |
+//! | `cycles` | the flow of each cycle, and whether the next cycle would be like the last | |
 //! | `position` | the position of the program between two steps | |
 //! | `path` | the path between increments | |
 //! | `checkpoints` | the contents of a checkpoint | |

@@ -1,4 +1,4 @@
-//! The path between two rows of the history, in places where its figures bend.
+//! Points of the path between two rows of the history, where the curves of its figures bend.
 //!
 //! From one change of contact to the next, forces change linearly if nothing yields, and nearly so
 //! otherwise. Maximum pressure and half width follow from the forces, but not linearly: the largest

@@ -11,7 +11,7 @@ use crate::analysis::structure::state::State;
 use crate::results::YieldPoint;
 use serde::{Deserialize, Serialize};
 
-/// Most doublings of the load in the search for first yield or for a target.
+/// Largest number of doublings of the load in the search for first yield or for a target.
 pub(super) const DOUBLINGS: usize = 60;
 
 /// The position of the load program between two steps. The rest of the program depends only on this
@@ -42,7 +42,8 @@ pub(super) struct Position {
     pub(super) fraction: f64,
     /// Time spent so far, by row of the time table.
     pub(super) seconds: Stopwatch,
-    /// Largest deformation of the states, to be compared with small deformations.
+    /// Largest deformation of the states, by which it is judged whether strains and rotations are
+    /// small.
     pub(super) deformation: Deformation,
 }
 
@@ -107,8 +108,8 @@ impl TargetSearch {
         }
     }
 
-    /// Goes on to the next load factor, the first of which is at least `begun`. Returns false if
-    /// there is none.
+    /// Goes on to the next load factor: twice the current one, and at least twice `begun`, if the
+    /// load factor grows; otherwise zero. Returns false if there is no further load factor.
     pub(super) fn widen(&mut self, begun: f64) -> bool {
         let next = match (self.upward, self.end > 0.0) {
             _ if self.rounds == DOUBLINGS => return false,
@@ -175,8 +176,8 @@ pub(super) struct Start {
     pub(super) rows: usize,
 }
 
-/// Share of the way between two load factors that has been covered. Changes of contact are spread
-/// evenly over the factor to the power `power`.
+/// Share of the way between two load factors that has been covered. Changes of contact are assumed
+/// to be spread evenly over the factor to the power `power`.
 pub(super) fn share_of_way(alpha: f64, from: f64, to: f64, power: f64) -> f64 {
     if from == to {
         return 1.0;

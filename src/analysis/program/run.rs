@@ -18,8 +18,8 @@ use crate::results::{Quality, Results};
 use std::cell::Cell;
 use std::rc::Rc;
 
-/// Most choices of the zone that are tried for a target, or in the search for the place of first
-/// yield.
+/// Largest number of choices of the zone that are tried for a target, or in the search for the
+/// place of first yield.
 pub(super) const ZONE_ATTEMPTS: usize = 8;
 
 /// A structure on its way through the load program.

@@ -100,9 +100,10 @@ impl Run<'_, '_> {
 
     /// Takes the state at a target that was reached. The guard layer sees only yielding that grows
     /// out of the zone. If the state shows stress beyond yield elsewhere, the zone is widened to
-    /// include it, and the way to the target is repeated. The way is also repeated if the state is
-    /// elastic by the recovered stress and a Gauss point is beyond yield: from then on, the Gauss
-    /// points are watched.
+    /// include it, and the way to the target is repeated. The way is also repeated, with a larger
+    /// zone, if unloading yields outside the zone. It is repeated, too, if the state is elastic by
+    /// the recovered stress and a Gauss point is beyond yield: from then on, the Gauss points are
+    /// watched.
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
         let goal = self.goal();
         let (target, label) = (goal.target, &goal.label);
@@ -165,7 +166,8 @@ impl Run<'_, '_> {
     }
 
     /// Ends of the straight pieces from the current load factor to `alpha`: the kinks of the loads'
-    /// histories in between.
+    /// histories in between, the load factor at first yield if it lies ahead on the way, and
+    /// `alpha`.
     pub(super) fn stops(&self, alpha: f64) -> Vec<f64> {
         let from = self.solver.at.alpha;
         let first_yield = &self.position.first_yield;

@@ -34,8 +34,10 @@ impl ZoneFit {
         let choice = zone_choice::predict(model, &ratios);
         if is_proportional(model) {
             let highest = extremes.iter().fold(0.0f64, |m, a| m.max(a.abs()));
-            // The place of first yield has less stress than this law predicts if the contact has
-            // grown far beyond it: near a surface, von Mises stress falls as pressure evens out.
+            // Stress at the place of first yield is extrapolated in proportion to contact pressure.
+            // If the contact has grown far beyond this place, the elastic stress there is less:
+            // near a surface, von Mises stress falls as pressure evens out. The larger of the two
+            // values is kept.
             let growth = 1.0 / zone_choice::decline(model, at_yield.abs() / highest);
             for (ratio, before) in ratios.iter_mut().zip(&self.ratios_before_yield) {
                 *ratio = ratio.max(before * growth);
@@ -70,8 +72,8 @@ impl ZoneFit {
     }
 
     /// The zone that follows the load: it stays small as long as the load is far below the
-    /// program's largest load. `None` if the load factor is below `until`, for which the zone was
-    /// chosen; otherwise `until` is raised.
+    /// program's largest load. `None` if there is no predicted spread of yielding, or if the load
+    /// factor is below `until`, up to which the zone was chosen; otherwise `until` is raised.
     pub(super) fn for_load(&self, solver: &Solver, until: &mut f64) -> Option<Choice> {
         let (reached, before) = (solver.at.alpha.abs(), *until);
         let spread = self.spread.as_ref().filter(|_| reached >= before)?;

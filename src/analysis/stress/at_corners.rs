@@ -4,8 +4,8 @@ use crate::shape::{Rule, Shape};
 use nalgebra::{Matrix3, Vector3};
 
 /// The largest corner value of the linear function that fits the values at the points of a rule
-/// best (least squares in the coordinates of the reference element). If the points determine no
-/// slope, or the value at a point is larger, the largest value at a point.
+/// best (least squares in the coordinates of the reference element). Returns the largest value at a
+/// point instead if that is larger, or if the points determine no slope.
 pub(super) fn largest_at_corners(shape: Shape, rule: &Rule, values: &[f64]) -> f64 {
     let reference = shape.reference();
     let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -55,7 +55,7 @@ mod tests {
         }
     }
 
-    /// The result is never below the largest value at a point, and an even field is kept.
+    /// The result is never below the largest value at a point, and a uniform field keeps its value.
     #[test]
     fn a_peak_inside_keeps_its_value() {
         let values = [1.0, 0.0, 1.0, 0.0];

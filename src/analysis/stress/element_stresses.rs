@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 /// Number of elements that are evaluated before their forces are summed: few enough to stay in the
 /// processor's cache.
 const BLOCK: usize = 2048;
-/// Number of elements that a thread takes at a time.
+/// Least number of elements that a thread takes at a time.
 const GRAIN: usize = 128;
 /// Share by which a stress must exceed the yield stress to count as beyond yield: the accuracy of
 /// the equilibrium iteration.

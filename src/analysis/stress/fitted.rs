@@ -1,12 +1,12 @@
 //! The strain of linear triangles and tetrahedra, from displacements fitted over the surrounding
 //! nodes.
 //!
-//! The strain of a linear triangle is constant. It is of first order at best, at the centroid, and
-//! its error depends on the arrangement of the neighbours; a fit over such strains does not remove
-//! this error. Instead, a quadratic polynomial is fitted by least squares to the displacements of
-//! all surrounding nodes. Its gradient is exact for a quadratic field on any mesh, and of second
-//! order otherwise. Yield loads are of second order too, on meshes cut in a pattern and on
-//! irregular ones.
+//! The strain of a linear triangle is constant. Even at the centroid it is accurate to first order
+//! at best. Its error depends on the arrangement of the neighbours; a fit over such strains does
+//! not remove this error. Instead, a quadratic polynomial is fitted by least squares to the
+//! displacements of all surrounding nodes. The gradient of this polynomial is exact for a quadratic
+//! field on any mesh, and of second order otherwise. Yield loads then converge with second order
+//! too, on regular and on irregular meshes.
 //!
 //! # Source
 //! Z. Zhang, A. Naga, A new finite element gradient recovery method: superconvergence property,
@@ -25,7 +25,7 @@ const LEAST_PIVOT: f64 = 1e-2;
 /// Largest number of layers of elements around a triangle from which nodes are taken. A layer is
 /// added as long as the nodes do not determine a quadratic polynomial.
 const MOST_LAYERS: usize = 3;
-/// Number of triangles that a thread takes at a time.
+/// Least number of elements that a thread takes at a time.
 const GRAIN: usize = 64;
 
 /// The strains of the linear triangles and tetrahedra in a list of elements, as sums over nodes.

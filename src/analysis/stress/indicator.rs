@@ -107,14 +107,16 @@ impl RecoveredStresses {
     }
 
     /// Estimated energy norm of the error divided by that of the solution, over the elements that
-    /// `counts` selects, if all elements are held; `None` if no energy is selected.
+    /// `counts` selects; `None` if these elements have no energy. `self` must hold all elements of
+    /// the mesh.
     pub(in crate::analysis) fn error_of(&self, counts: impl Fn(usize) -> bool) -> Option<f64> {
         let ours = self.energies.iter().enumerate().filter(|(e, _)| counts(*e));
         let [error, whole] = ours.fold([0.0; 2], |sum, (_, e)| [sum[0] + e[0], sum[1] + e[1]]);
         (error + whole > 0.0).then(|| (error / (error + whole)).sqrt())
     }
 
-    /// The indicator of the whole mesh, with `components` of stress, if all elements are held.
+    /// The indicator of the whole mesh, with the given number of stress components. `self` must
+    /// hold all elements of the mesh.
     pub(in crate::analysis) fn indicator(self, components: usize) -> Indicator {
         let mut nodal_stress = self.at_nodes;
         let nodes = nodal_stress.chunks_exact_mut(components);

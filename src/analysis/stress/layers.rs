@@ -21,7 +21,8 @@ pub struct Layers {
 
 impl Layers {
     /// The layers of an element of a list; `points` returns the positions of its Gauss points.
-    /// `None` if the body is more than one element thick here in every direction.
+    /// `None` if the body is more than one element thick here in every direction, or if the element
+    /// has several superconvergent points.
     pub fn of(
         (mesh, list, neighbours): (&Mesh, &[usize], &Neighbours),
         element: usize,

@@ -9,7 +9,7 @@
 /// Spacings of successive searches on a square of side 2; the first stencil covers the whole
 /// square.
 pub const SPACINGS: [f64; 4] = [1.0, 1.0 / 4.0, 1.0 / 16.0, 1.0 / 256.0];
-/// Most stencils of one spacing that may follow one another uphill.
+/// Largest number of stencils of one spacing that may follow one another uphill.
 const MOST_MOVES: usize = 50;
 /// Distance from the edge of a stencil, in spacings, below which a position counts as on it.
 const ON_EDGE: f64 = 1e-9;

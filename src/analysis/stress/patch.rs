@@ -26,7 +26,7 @@ pub fn reach(dimension: usize, n: usize) -> f64 {
     }
 }
 
-/// Most points whose fits a patch keeps: the points of one search and some more.
+/// Largest number of points whose fits a patch keeps: the points of one search and some more.
 const MOST_KEPT: usize = 300;
 
 /// Samples around an element, in coordinates relative to it and scaled by its size.

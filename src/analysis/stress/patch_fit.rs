@@ -60,7 +60,7 @@ impl<const D: usize> ScaledCoordinates<D> {
     }
 }
 
-/// A polynomial of a degree in `D` variables, with its normal equations factored.
+/// A polynomial of degree `DEGREE` in `D` variables, with its normal equations factored.
 pub struct PatchFit<const D: usize, const DEGREE: usize> {
     /// Cholesky factor of `G` after scaling to a unit diagonal.
     factor: [Terms; N],

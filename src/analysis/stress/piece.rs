@@ -2,9 +2,10 @@
 //! space.
 //!
 //! A rank gets complete data: its elements with their mesh, displacements, plastic history and free
-//! strains, and the surrounding elements if stresses are recovered. It keeps none of them. The
-//! stress of an element is the same, to the bit, as if all elements were evaluated together. Forces
-//! and recovered stresses of a node that several ranks hold are added rank by rank.
+//! strains, and the surrounding elements if stresses are recovered. The rank keeps none of these
+//! data. The stress of an element is the same, to the bit, as if all elements were evaluated
+//! together. Forces and recovered stresses of a node that several ranks hold are added rank by
+//! rank.
 
 use super::element_stresses::ElementStresses;
 use super::stress_field::{Strained, StressField};

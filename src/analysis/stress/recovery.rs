@@ -61,10 +61,11 @@ pub fn left_of_search(gamma: f64) -> f64 {
     left_after(*last.unwrap_or(&SPACINGS[SPACINGS.len() - 1]))
 }
 
-/// Most elements for which the fits of one search are kept for the next, at a load near by: at most
-/// a quarter of a megabyte for each element.
+/// Largest number of elements for which the fits of one search are kept for the next search, at a
+/// load near by: at most a quarter of a megabyte for each element.
 const FEW: usize = 100;
-/// Number of elements that a thread takes at a time; fewer cost less than waking a thread.
+/// Least number of elements that a thread takes at a time: the work on fewer elements costs less
+/// than waking a thread.
 const GRAIN: usize = 256;
 /// Layers of elements around an element that belong to its patch.
 const LAYERS: usize = 3;
@@ -285,9 +286,9 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
     }
 
     /// The recovered maximum of von Mises stress over yield stress, never below the largest sample;
-    /// `None` if there is no stress, and so no place of the largest. If the largest sample is far
-    /// below yield, it is returned with its own place, since neither needs to be more exact. Of
-    /// equal maxima, the first in the order of the elements is returned.
+    /// `None` if there is no stress at all. If the largest sample is far below yield, or if Gauss
+    /// points are watched, this sample is returned with its own place. Of equal maxima, the first
+    /// in the order of the elements is returned.
     fn peak(&mut self, model: &Model, samples: &Samples) -> Option<RecoveredPeak> {
         let (samples, _) = samples.as_chunks::<S>();
         let raw: Vec<f64> = (0..self.elements.list.len())
@@ -359,8 +360,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
     }
 
     /// The recovered maximum over some elements. The recovered field is smooth within an element
-    /// but not across elements. All elements that may hold the maximum are searched on: if only the
-    /// best element of the first search were followed, round-off would choose it.
+    /// but not across elements. All elements that may hold the maximum stay in the search: if only
+    /// the best element of the first search were followed, round-off would choose it.
     fn climb(
         &mut self,
         model: &Model,

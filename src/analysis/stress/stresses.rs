@@ -44,7 +44,7 @@ pub(in crate::analysis) struct Stresses {
 
 impl Stresses {
     /// Sums over the stresses of all elements, at the given load factors. The figures of yielding
-    /// are zero until [`Stresses::add_yielded`].
+    /// are zero until [`Stresses::add_yielded`] is called.
     pub(in crate::analysis) fn new(
         model: &Model,
         of_elements: ElementStresses,

@@ -5,7 +5,8 @@
 //! work on the displacements of the second as the forces of the second on the displacements of the
 //! first. The first state is the current one. The second is the structure with all pairs tied,
 //! whose driven nodes move by 1: its prescribed displacements are `v`, its free displacements `w`,
-//! the forces of its pairs `t`. Solved for the force `R` that drives the first state:
+//! the forces of its pairs `t`. The theorem, solved for the force `R` that drives the first state,
+//! reads:
 //!
 //! ```text
 //! R = sum_k h_k (v'(K_pp u_k - f_k) - w' P_k) - t'(delta - g) - w' J - v' J_p
@@ -43,8 +44,9 @@ pub(super) struct DrivingForce {
 }
 
 impl DrivingForce {
-    /// Driving force of the leading load of a structure whose loads are condensed; `None` if the
-    /// leading load prescribes no displacement. Costs about half a full solve.
+    /// Driving force of the leading load of a structure whose loads are condensed. `None` if the
+    /// leading load prescribes no displacement, or if other loads change alike with it and it moves
+    /// no rigid surface. Costs about half a full solve.
     ///
     /// # Errors
     /// Failure of the backend's solve.

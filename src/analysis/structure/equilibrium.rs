@@ -1,7 +1,7 @@
 //! Displacements, gaps and contact forces in equilibrium, and the loads that they balance.
 //!
-//! For given contact statuses all of them are linear: states and changes of states are added part
-//! by part.
+//! For given contact statuses these quantities are linear in the loads: states and changes of
+//! states are added part by part.
 
 use crate::analysis::zone::packed;
 use crate::substructure::Trailing;

@@ -13,7 +13,7 @@ use crate::substructure::{Substructure, Trailing};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Number of freedoms that a thread takes at a time.
+/// Least number of freedoms that a thread takes at a time.
 const GRAIN: usize = 1 << 14;
 
 /// The factored structure with its zone and its loads. It changes only when another zone is chosen.
@@ -43,7 +43,7 @@ pub struct Structure<'m> {
     pub(in crate::analysis) loads: Loads,
     /// Gaps of the pairs without load.
     pub(in crate::analysis) gaps: Gaps,
-    /// Factor on proportional loads that `alpha = 1` stands for.
+    /// Factor on proportional loads at `alpha = 1`.
     pub unit: f64,
 }
 
@@ -54,7 +54,7 @@ pub(in crate::analysis) struct Loads {
     pub(in crate::analysis) reduced: Vec<Vec<f64>>,
     /// Load vectors condensed on zone and contact freedoms.
     pub(in crate::analysis) condensed: Vec<EliminatedLoad>,
-    /// Forces `t` of the tied pairs, including the forces of gaps that loads change.
+    /// Forces `t` of the tied pairs, including the forces from the gaps that loads add.
     pub(in crate::analysis) forces: Vec<Vec<f64>>,
     /// Weights of each rigid body motion in the far boundary
     /// ([`crate::model::RigidMotion::in_far_boundary`]), reduced as loads are.
@@ -66,7 +66,7 @@ pub(in crate::analysis) struct Loads {
     pub(super) driving: Option<DrivingForce>,
 }
 
-/// Gaps of the pairs without load.
+/// Gaps of the pairs without load, and the forces that these gaps and the interference cause.
 pub(in crate::analysis) struct Gaps {
     pub(in crate::analysis) initial: Vec<f64>,
     /// The products of `T` with the initial gaps and with the whole interference.
@@ -125,8 +125,8 @@ impl<'m> Structure<'m> {
         Ok(structure)
     }
 
-    /// Changes the zone to the given elements and factors the structure again only if it must.
-    /// Returns whether it did.
+    /// Changes the zone to the given elements. Factors the structure again only if necessary, and
+    /// returns whether that was done.
     ///
     /// # Errors
     /// Errors of [`Substructure::new`].
@@ -179,8 +179,8 @@ impl<'m> Structure<'m> {
 
     /// Reduces the weights of rigid body motions in the far boundary as loads are reduced. If
     /// forces act on zone and contact freedoms alone, `w.u` over all freedoms equals the product of
-    /// the condensed weights with the condensed structure's `u` (Betti). Only the figures of dents
-    /// need it.
+    /// the condensed weights with the condensed structure's `u` (Betti). Only the dent figures need
+    /// the weights.
     fn reduce_far_boundary(&mut self, cost: &mut Cost) -> Result<()> {
         let (floating, n) = (&self.model.floating, self.model.freedoms.n);
         if self.n_pairs() == 0 || !self.model.may_yield.contains(&true) {
@@ -256,8 +256,8 @@ impl<'m> Structure<'m> {
         self.gaps.initial.len()
     }
 
-    /// The load point at a load factor, with preloads fully applied and the interference as far as
-    /// the program has it there.
+    /// The load point at a load factor, with preloads fully applied and the share of the
+    /// interference that the program applies at this factor.
     pub fn point(&self, alpha: f64) -> LoadPoint {
         let loads = self.model.loads.iter();
         LoadPoint {
@@ -312,8 +312,8 @@ impl<'m> Structure<'m> {
         loads.map(move |(t, factor)| factor * t[k]).chain(of_gaps)
     }
 
-    /// The forces `q = t - T delta` of the contact problem at a load point without initial loads;
-    /// with them: [`super::solver::Solver::forces_if_tied`].
+    /// The forces `q = t - T delta` of the contact problem at a load point without initial loads.
+    /// For the forces with initial loads, see [`super::solver::Solver::forces_if_tied`].
     pub fn closed_forces(&self, point: &LoadPoint) -> Vec<f64> {
         (0..self.n_pairs())
             .map(|k| self.closed_force_terms(point, k).sum())

@@ -46,8 +46,8 @@ impl FactoredTangent {
         })
     }
 
-    /// Computes `out = M^-1 load`, closed pairs staying closed, on a part of the zone if only a
-    /// part is asked for.
+    /// Computes `out = M^-1 load` with the factored tangent stiffness `M`, closed pairs staying
+    /// closed. `out` is found on `part` of the zone, by default the whole zone.
     pub(in crate::analysis) fn solve(
         &mut self,
         load: &Trailing,
@@ -63,8 +63,8 @@ impl FactoredTangent {
         self.softened.recover_part(part, out, &self.gap);
     }
 
-    /// Gives the pairs the statuses `open`. Returns false if there is no factor, or if a pair to be
-    /// opened holds a body with this stiffness.
+    /// Gives the pairs the statuses `open`. Returns false if there is no factor, or if opening a
+    /// pair would free a rigid motion with this stiffness.
     pub(in crate::analysis) fn set_statuses(&mut self, open: &[bool]) -> bool {
         let Some(tableau) = &mut self.tableau else {
             return false;

@@ -12,8 +12,9 @@ use super::load_point::LoadPoint;
 use serde::{Deserialize, Serialize};
 
 /// Length of an increment in the root of the load since flow began, divided by this root at the end
-/// of a leg, for the path error [`AT_STEP`]; the error falls with its square. Found on the ball of
-/// `data/speed.md` at ten times its load at first yield; the other scenes of that page judge it.
+/// of a leg, for the path error [`AT_STEP`]. The error is proportional to the square of this
+/// length. The value is calibrated on the ball of `data/speed.md` at ten times its load at first
+/// yield; the other scenes of that page check it.
 const STEP: f64 = 0.07;
 const AT_STEP: f64 = 1e-3;
 /// Root of the load since flow began, divided by the root of the preceding elastic range, for the
@@ -24,8 +25,9 @@ const MODERATE: f64 = 3.0;
 /// at first yield; the mean pressure grows from 1.1 Y to nearly 3 Y, so the load is some 400 times
 /// as large (after Johnson, *Contact Mechanics*, 1985, chapter 6).
 const DEEP: f64 = 20.0;
-/// Ratio of the load to the load at first yield beyond which only the leg counts. By the figures
-/// for [`DEEP`], a contact is then so wide, `a/R = 1500 Y/E*`, that strains are small in no metal.
+/// Ratio of the load to the load at first yield beyond which only the leg sets the length of
+/// increments. By the figures for [`DEEP`], a contact is then so wide, `a/R = 1500 Y/E*`, that
+/// strains are no longer small in any metal.
 const FAR: f64 = 1e6;
 
 /// Load point at which flow began, and the loads before it.
@@ -105,15 +107,16 @@ fn share_of(gone: f64, left: f64, range: f64, path_error: f64) -> f64 {
     ((way_of(from + (to - from) / n) * range - gone) / left).min(1.0)
 }
 
-/// Number of increments between two lengths ([`length`]) of the leg since flow began, for a path
-/// error.
+/// Number of increments between two lengths, as [`length`] measures the way since flow began, for a
+/// given path error.
 pub(in crate::analysis) fn increments(from: f64, to: f64, path_error: f64) -> f64 {
     let each = STEP * to.min(MODERATE) * (path_error / AT_STEP).sqrt();
     if to > from { (to - from) / each } else { 0.0 }
 }
 
-/// Measure of the length of increments: the root of the way since flow began over the elastic
-/// range, and its logarithm beyond [`DEEP`].
+/// Measure of the length of increments. `way` is the way since flow began, divided by the elastic
+/// range. The measure is the root of `way`; beyond [`DEEP`] it grows with the logarithm of the
+/// root.
 pub(in crate::analysis) fn length(way: f64) -> f64 {
     let root = way.sqrt();
     if root > DEEP {

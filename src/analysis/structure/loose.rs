@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 /// Springs that bear more than this fraction of the largest force are released along the load path.
 const MOVES: f64 = 1e-9;
-/// Springs that bear more than this fraction of the largest force are released in a state to be
-/// read: round-off.
+/// Springs that bear more than this fraction of the largest force are released in a state from
+/// which results are read. The fraction is of the order of round-off.
 const NOTHING: f64 = 1e-14;
 /// Fraction of the largest force that springs may bear in a state at rest.
 const SETTLED: f64 = 1e-11;
@@ -19,13 +19,13 @@ const SETTLED: f64 = 1e-11;
 /// the body has then moved by a hundred times the deformation.
 const DRIVEN: f64 = 1e-6;
 
-/// Most times that springs are released: where contact holds a motion with a hundredth of its
-/// stiffness, the force that springs bear falls by four orders of magnitude each time.
+/// Largest number of times that springs are released. If contact holds a motion with a hundredth of
+/// its stiffness, the force that springs bear falls by four orders of magnitude each time.
 const MOST_TIMES: usize = 8;
 
-/// Moves each body that no contact force holds rigidly until it touches, under the first bit of
-/// the load towards `end`; the load path goes on from there. Springs hold motions that the load
-/// does not drive.
+/// Moves each body that no contact force holds, as a rigid body, until it touches: under the first
+/// small part of the load towards `end`. The load path goes on from there. Springs hold the rigid
+/// motions that the load does not drive.
 ///
 /// # Errors
 /// A load that drives a body away from every contact.
@@ -105,15 +105,15 @@ pub(in crate::analysis) fn settle_springs(solver: &mut Solver) -> Result<()> {
     Ok(())
 }
 
-/// Whether a gap or a contact force is negative by more than round-off, with springs at work.
+/// Whether springs exist and a gap or a contact force is negative by more than round-off.
 fn is_beyond_contact(solver: &Solver) -> bool {
     let [gap, force] = [solver.scales.displacement, solver.scales.force].map(|s| -1e-10 * s);
     let least = |of: &[f64]| of.iter().copied().fold(0.0, f64::min);
     !solver.springs.is_empty() && (least(&solver.now.gap) < gap || least(&solver.now.force) < force)
 }
 
-/// Releases springs that bear more than a fraction of the largest force: makes them free of
-/// force at the current gaps, so that their bodies stay where they are. A body that contact
+/// Releases springs that bear more than a fraction of the largest force: makes them free of force
+/// at the current gaps, so that a body that nothing drives stays where it is. A body that contact
 /// holds weakly then moves on under the force that its spring has borne.
 fn let_springs_go(solver: &mut Solver, share: f64) {
     for _ in 0..MOST_TIMES {

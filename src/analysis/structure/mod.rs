@@ -7,11 +7,11 @@
 //! | `state` | a committed state, to be kept and restored | |
 //! | `record` | the structure under load in checkpoints | |
 //! | `response` | displacements, gaps and forces for loads and initial loads | 4.2, 4.6, 4.7 |
-//! | `equilibrium` | states, and changes of them, that add up | 4.2, 4.4 |
+//! | `equilibrium` | states of equilibrium and changes of state, which may be added | 4.2, 4.4 |
 //! | `load_point` | points of the load path | 4.3 |
-//! | `driving_force` | the force that moves what a load displaces | |
+//! | `driving_force` | the force that drives a prescribed displacement | |
 //! | `loose` | bodies that no contact force holds | |
-//! | `starting` | the state that an earlier run left in the material, and the one that this run leaves | |
+//! | `starting` | the state in the material that an earlier run left, or that this run leaves | |
 //! | `flow` | where flow began, and how long increments may be | |
 //! | `factored_tangent` | a factor of the tangent | |
 //! | `round_off` | bounds on the imbalance of a state | |

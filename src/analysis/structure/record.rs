@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::Xxh3;
 
 /// Record of a structure under load between two increments: its state, the data from which the next
-/// increment is predicted, and its history as far as numbers depend on it.
+/// increment is predicted, and as much of its history as later results depend on.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub(in crate::analysis) struct SolverRecord {
     factored: Ascending,
@@ -44,8 +44,8 @@ impl SolverRecord {
         (elements, guard)
     }
 
-    /// Records a structure; `guard` is as it was given with the zone, `fingerprint` as
-    /// [`fingerprint`] computed it.
+    /// Records a structure. `guard` is the list that was given with the zone, `fingerprint` the
+    /// result of [`fingerprint`].
     pub(in crate::analysis) fn of(solver: &Solver, guard: &[bool], fingerprint: u128) -> Self {
         SolverRecord {
             factored: Ascending::new(solver.structure.factored.iter().copied()),
@@ -63,8 +63,8 @@ impl SolverRecord {
         }
     }
 
-    /// Sets up the structure that was recorded. Returns whether its factor is equal to the recorded
-    /// one to the last bit.
+    /// Sets up the structure that was recorded. Also returns whether its factorisation equals the
+    /// recorded one to the last bit.
     ///
     /// # Errors
     /// Errors of [`Solver::new`]; `Input` if the record does not fit the model.

@@ -1,5 +1,6 @@
 //! The response of the structure to loads and initial loads with the current contact statuses, by
-//! trailing solves in two halves.
+//! trailing solves in two halves. A trailing solve is a solve on the zone and contact freedoms,
+//! which are eliminated last.
 //!
 //! The first half of a solve, elimination, is the same for all statuses and linear in the load. The
 //! second half gives the displacements.
@@ -66,7 +67,7 @@ impl Solver<'_> {
     }
 
     /// Completes a change of state that follows from its initial loads alone, closed pairs staying
-    /// closed. The displacements are found in a part of the zone if only a part is asked for. Costs
+    /// closed. The displacements are found in `part` of the zone, by default the whole zone. Costs
     /// one trailing solve.
     pub fn respond_homogeneous(&mut self, change: &mut Equilibrium, part: &ZonePart) {
         let initial = &mut change.initial;
@@ -104,7 +105,8 @@ impl Solver<'_> {
             let initial = self.now.initial.clone();
             self.now = self.respond(&point, initial);
             self.fresh = true;
-            // Negative values within round-off are set to zero; larger ones remain, to be noticed.
+            // Negative values within round-off are set to zero. Larger negative values remain, so
+            // that they are noticed.
             let gaps = self.structure.gaps.initial.iter();
             let gap = gaps.fold(0.0f64, |m, g| m.max(g.abs()));
             let force = (self.now.force.iter()).fold(self.scales.force, |m, r| m.max(*r));
@@ -184,8 +186,8 @@ impl Solver<'_> {
     }
 
     /// Computes the force by which the stresses at `state` are out of balance: the initial loads of
-    /// the plastic strains at its displacements, minus the initial loads that it is in equilibrium
-    /// with.
+    /// the plastic strains at the displacements of `state`, minus the initial loads with which
+    /// `state` is in equilibrium.
     pub(in crate::analysis) fn out_of_balance_at(
         &mut self,
         state: &Equilibrium,

@@ -51,11 +51,13 @@ pub struct Solver<'m> {
 /// last. The prediction decides how fast the increment converges.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Predictor {
-    /// Change of the load point over the piece of the last increment; tells loading from unloading.
+    /// Change of the load point from the start of the last increment to the end of its straight
+    /// piece of the load path. It tells loading from unloading.
     pub last_step: Vec<f64>,
     /// Load point at which flow began last, after a stretch without flow.
     pub flow: FlowOnset,
-    /// Rate at which initial loads changed over the last increment; much the same in the next one.
+    /// Rate at which initial loads changed over the last increment. The rate in the next increment
+    /// is nearly equal.
     pub pace: Option<InitialLoadRate>,
 }
 
@@ -87,8 +89,8 @@ pub struct Scales {
 
 impl<'m> Solver<'m> {
     /// Factors the structure so that zones may be chosen among the elements `within`, and chooses
-    /// the zone of the given `elements` (`guard` marks the elements that only watch whether
-    /// yielding reaches them).
+    /// the zone of the given `elements`. `guard` marks the elements that are in the zone only to
+    /// show when yielding reaches them.
     ///
     /// # Errors
     /// Errors of [`Structure::new`].
@@ -124,7 +126,8 @@ impl<'m> Solver<'m> {
         Ok(solver)
     }
 
-    /// Returns to the unloaded state, with the current zone and no history.
+    /// Returns to the unloaded state with the current zone. The plastic history of the zone is not
+    /// changed: it must be empty, or be replaced afterwards.
     pub(super) fn unload(&mut self) {
         let structure = &self.structure;
         self.at = LoadPoint::unloaded(structure.model.loads.len());
@@ -167,14 +170,14 @@ impl<'m> Solver<'m> {
         self.tableau.reset(&open);
     }
 
-    /// Adds the forces that springs exert on closed pairs to their forces `q`.
+    /// Adds the constant part of the spring forces to the forces `q` of the tied pairs.
     pub(in crate::analysis) fn add_springs(&self, q: &mut [f64]) {
         for springs in self.springs.iter() {
             springs.add_at_rest(q);
         }
     }
 
-    /// Whether nothing but springs holds a body.
+    /// Whether a body is held by springs alone.
     pub(in crate::analysis) fn springs_hold_a_body(&self) -> bool {
         let open = self.tableau.open();
         let mut springs = self.springs.iter();
@@ -217,8 +220,8 @@ impl<'m> Solver<'m> {
     }
 
     /// Bound on the round-off in the sum of the contact forces. The tied structure comes from a
-    /// factor whose error is `eps` times the condition number of the stiffness. Far from Poisson's
-    /// ratio 1/2 that is less than the tolerance of any iteration.
+    /// factor whose relative error is `eps` times the condition number of the stiffness. Unless
+    /// Poisson's ratio is close to 1/2, the bound is below the tolerance of any iteration.
     pub fn round_off_of_contact(&self) -> f64 {
         let initial = self.now.initial.forces.iter().map(|r| r.abs());
         let terms: f64 = (0..self.now.gap.len())

@@ -70,7 +70,7 @@ fn checked(model: &Model, state: EndState) -> Result<EndState> {
     Ok(state)
 }
 
-/// Describes the model as far as a state that it leaves depends on it.
+/// Describes the parts of the model on which the meaning of the state that it leaves depends.
 fn left_by(model: &Model) -> LeftBy {
     let names = model.mesh.bodies.iter();
     let body = |(name, material): (&String, &Material)| {
@@ -89,8 +89,8 @@ fn left_by(model: &Model) -> LeftBy {
     }
 }
 
-/// Checks that the model is of the kind that left the state, and that the rates of its back
-/// stresses and the stresses and strains that its bodies bring along are equal.
+/// Checks that the model agrees with the model that left the state: in its kind, in the rates of
+/// its back stresses, and in the stresses and strains that its bodies bring along.
 fn check_origin(model: &Model, state: &EndState) -> Result<()> {
     let here = left_by(model);
     let Some(there) = state.left_by.as_ref().filter(|_| !state.is_virgin()) else {

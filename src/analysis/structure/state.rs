@@ -36,8 +36,8 @@ pub(in crate::analysis) struct State {
 }
 
 impl State {
-    /// Whether the state is one of a structure with these numbers of pairs, contact freedoms and
-    /// loads, and its parts fit each other.
+    /// Whether the state is of a structure with these numbers of pairs, contact freedoms and loads,
+    /// and the sizes of its parts agree.
     pub(in crate::analysis) fn fits(
         &self,
         [n_pairs, n_contact]: [usize; 2],
@@ -92,15 +92,15 @@ impl Solver<'_> {
         self.restore_statuses(&state.open, &state.border);
     }
 
-    /// Restores an elastic state after other states were only looked at. The contact matrix is
-    /// swept again.
+    /// Restores an elastic state after trial states. The contact matrix is swept from scratch.
     pub(in crate::analysis) fn restore_elastic(&mut self, state: &State) {
         self.set_springs(&state.springs);
         self.tableau.reset(&state.open);
         self.restore(state);
     }
 
-    /// Gives the pairs the statuses of an earlier state.
+    /// Gives the pairs the statuses `open` of an earlier state, and replaces the pairs at the
+    /// border.
     pub(in crate::analysis) fn restore_statuses(&mut self, open: &[bool], border: &[usize]) {
         self.border = border.to_vec();
         // Pairs are closed first: a pair whose opening would free a motion can open once others are

@@ -68,9 +68,9 @@ pub(in crate::analysis) use of_zone;
 
 /// The methods of [`ZoneOf`], for a zone of either dimension.
 impl Zone {
-    /// Sets up the zone of the given elements (ascending); `guard` marks the elements that only
-    /// watch whether yielding reaches them. The free freedoms of the elements must be zone or
-    /// contact freedoms.
+    /// Sets up the zone of the given elements (ascending). `guard` marks the elements that are in
+    /// the zone only to show when yielding reaches them. The free freedoms of the elements must be
+    /// zone or contact freedoms.
     pub fn new(model: &Model, elements: &[usize], guard: &[bool], places: &Places) -> Self {
         with_kernel!(model.kind, model.formulation, model.mesh, kernel => {
             ZoneOf::new(&kernel, model, elements, guard, places).into()

@@ -4,7 +4,7 @@ use crate::model::{Model, Slot};
 use crate::space::Vector;
 use crate::substructure::Trailing;
 
-/// Position of every freedom of the model in a [`Nodal`] vector.
+/// Position of each zone and contact freedom in a [`Nodal`] vector.
 pub struct Places {
     of_freedom: Vec<u32>,
     n_zone: usize,
@@ -125,7 +125,7 @@ struct DisplacementPart {
     coefficient: f64,
 }
 
-/// Where the displacements of a node stand in a [`Nodal`] vector.
+/// Places of the displacements of a node in a [`Nodal`] vector.
 #[derive(Debug, Clone)]
 pub struct NodalPlaces {
     places: [u32; 3],

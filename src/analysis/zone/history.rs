@@ -39,8 +39,8 @@ impl From<&EndState> for PointHistory {
 }
 
 impl PointHistory {
-    /// Returns the plastic state of the given elements. The history must be that of their points,
-    /// element by element. Elements without plastic strain are left out.
+    /// Returns the plastic state of the given elements, whose points the history must hold element
+    /// by element. Elements without plastic strain are left out.
     pub fn end_state(&self, elements: &[usize]) -> EndState {
         let mut out = EndState::default();
         let stride = self.points.len() / elements.len().max(1);
@@ -122,7 +122,8 @@ impl<const S: usize> BackStrains<S> {
         self.lost_work.get(point).copied().unwrap_or(0.0)
     }
 
-    /// Takes over the back strains and the lost work of a point at the last evaluated state.
+    /// Takes over the back strains of a point at the last evaluated state, and adds the work that
+    /// was lost on the way there.
     pub fn take(&mut self, point: usize, trial: &PathEnds<S>) {
         if !self.is_none() {
             let own = &mut self.strains[self.each * point..][..self.each];

@@ -46,7 +46,8 @@ impl Ascending {
     }
 }
 
-/// Items at some places of a list. The owner of the list knows the value at all other places.
+/// Items at some places of a list. At all other places, the list has a default value, which is not
+/// stored.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 struct Sparse<T> {
     places: Ascending,

@@ -11,7 +11,7 @@ use crate::model::Model;
 use crate::substructure::Trailing;
 use rayon::prelude::*;
 
-/// Number of elements that a thread takes at a time.
+/// Least number of elements that a thread takes at a time.
 pub(in crate::analysis) const GRAIN: usize = 128;
 
 /// Counts from one evaluation of the material over the zone.
@@ -86,9 +86,9 @@ struct Begin {
 }
 
 impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S, P, N> {
-    /// Sets up the zone of the given elements (ascending); `guard` marks the elements that only
-    /// watch whether yielding reaches them. The free freedoms of the elements must be zone or
-    /// contact freedoms.
+    /// Sets up the zone of the given elements (ascending). `guard` marks the elements that are in
+    /// the zone only to show when yielding reaches them. The free freedoms of the elements must be
+    /// zone or contact freedoms.
     pub fn new(
         kernel: &Kernel<D, S, P, N>,
         model: &Model,

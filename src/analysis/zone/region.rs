@@ -14,9 +14,9 @@ pub(in crate::analysis) enum Reach {
 }
 
 impl Reach {
-    /// Multiple of the contact surface's extent in a plane model. Measured on the cylinder scene
-    /// loaded to 1.5 b*: a zone of 2.0 is too small, and the factorisation takes no more operations
-    /// with 5.0 than with 1.2.
+    /// Multiple of the contact surface's extent in a plane model. The value for the zone leaves
+    /// room for loads well beyond first yield; in a plane model a larger zone takes no more
+    /// operations to factor.
     fn in_plane(self) -> f64 {
         match self {
             Reach::OfFirstYield => 1.2,

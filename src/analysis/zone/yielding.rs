@@ -38,8 +38,8 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> ZoneOf<D, S
         }
     }
 
-    /// Takes over the record of another zone of the same elements; false if the record is of
-    /// others.
+    /// Takes over the record of another zone of the same elements; false if the record does not fit
+    /// this zone.
     pub(in crate::analysis) fn set_yielding(&mut self, record: &Yielding) -> bool {
         let fits = record.active.within(self.elements.list.len())
             && record.yielding.within(self.yields.len())

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-/// Radii in two planes at right angles: positive convex, negative hollow, infinite flat.
+/// Radii in two planes at right angles: positive if convex, negative if hollow, infinite if flat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Radii(pub [f64; 2]);
 

@@ -52,7 +52,8 @@ pub(super) struct Sheet {
     pub bodies: [BodySheet; 2],
 }
 
-/// Amplitude of the shear parallel to the surface, by the half axis along which the contact rolls.
+/// Amplitude of the shear parallel to the surface, for rolling along the smaller and along the
+/// larger half axis.
 #[derive(Debug, Serialize)]
 pub(super) struct OrthogonalShear {
     pub along_smaller: PeakSheet,
@@ -188,7 +189,7 @@ impl AskedContact {
     }
 
     /// Returns the compression from the contact to the axis of a cylinder, or to the reference
-    /// depth of a flat body; none for a hollow one.
+    /// depth of a flat body; `None` for a body with a hollow surface.
     fn compression(&self, line: &HertzLine, body: &ContactingBody) -> Option<f64> {
         let [young, poisson] = body.elastic();
         let curved = body.radii.into_iter().find(|radius| radius.is_finite());

@@ -20,7 +20,8 @@ const RADIUS: f64 = 50.0;
 pub(in crate::cli) struct Fit {
     #[command(flatten)]
     pub size: Size,
-    /// Outer radius of the ring [mm]; by default twice that of the bore, with clearance ten times
+    /// Outer radius of the ring [mm]; by default twice the radius of the bore, or ten times with
+    /// clearance
     #[arg(long, value_name = "B", value_parser = positive, allow_negative_numbers = true)]
     pub outer_radius: Option<f64>,
     /// Excess of the shaft's radius over the bore's [mm]; by default 0.05
@@ -40,8 +41,8 @@ pub(in crate::cli) struct Fit {
         conflicts_with = "interference"
     )]
     pub clearance: Option<f64>,
-    /// Load on the shaft, only with clearance [N/mm]; by default the load of a contact of 30
-    /// degrees to either side
+    /// Load on the shaft, only with clearance [N/mm]; by default the load at which the contact
+    /// reaches 30 degrees to either side
     #[arg(
         long,
         value_name = "P",
@@ -148,7 +149,7 @@ targets = [{{ name = \"fitted\", load_factor = 0.0 }}]
     ))
 }
 
-/// Half of the arc over which the default load presses the shaft.
+/// Half of the arc of contact under the default load [degrees].
 const ARC: f64 = 30.0;
 
 /// Supports of a half model of a shaft in a bore.

@@ -75,7 +75,7 @@ pub(super) fn scene(test: &Hardness) -> Result<String> {
     let hertz = HertzPoint::new(radius, contact)?;
     let first = weaker(&made, |nu, y| hertz.yield_load(nu, y));
     let depth = test.until.depth.map(|depth| depth * radius);
-    // At a given depth an elastic flat bears more than any yielding one.
+    // At a given depth the load on an elastic flat is larger than the load on any flat that yields.
     let load = match (test.until.load, depth) {
         (Some(load), _) => load,
         (None, depth) => hertz.load_for_approach(depth.unwrap_or(radius)),
@@ -92,7 +92,7 @@ pub(super) fn scene(test: &Hardness) -> Result<String> {
         }
         None => "",
     };
-    // An elastic contact is smaller than any elastic-plastic one.
+    // Under the same load an elastic contact is smaller than any elastic-plastic one.
     let far = match hertz.contact_radius(load) > SMALL * radius {
         true => {
             "# Even an elastic contact is wider than 0.2 of the ball's radius here: beyond what \

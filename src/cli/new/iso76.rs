@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::number::significant;
 use clap::Args;
 
-/// Diameter of the rolling element over the dent of both bodies together.
+/// Ratio of the rolling element's diameter to the depth of the dent, summed over both bodies.
 ///
 /// # Source
 /// ISO 76:2006, notes on the basic static load ratings in clause 3.
@@ -75,8 +75,8 @@ pub(in crate::cli) struct StaticLoad {
         conflicts_with_all = ["length", "profile", "design_load"]
     )]
     pub crown: Option<f64>,
-    /// Length of a roller [mm]; the scene then has its ends and its profile (three dimensions,
-    /// loads in N)
+    /// Length of a roller [mm]; the scene then models the ends and the profile of the roller (three
+    /// dimensions, loads in N)
     #[arg(
         long,
         value_name = "L",
@@ -88,7 +88,7 @@ pub(in crate::cli) struct StaticLoad {
     /// Profile of a roller of finite length
     #[arg(long, value_enum, requires = "length", default_value_t)]
     pub profile: Profile,
-    /// Load for which a logarithmic profile is made [N]; by default the load of 4000 MPa
+    /// Load for which a logarithmic profile is made [N]; by default the load at 4000 MPa
     #[arg(
         long,
         value_name = "P",
@@ -100,8 +100,8 @@ pub(in crate::cli) struct StaticLoad {
     /// Rate the bearing as a self-aligning ball bearing, for which ISO 76 has 4600 MPa
     #[arg(long)]
     pub self_aligning: bool,
-    /// Elements over the contact half width, in a groove over the smaller half axis, at first
-    /// yield; by default 16, in a groove 6
+    /// Elements over the contact half width at first yield (in a groove: over the smaller half
+    /// axis); by default 16, in a groove 6
     #[arg(long, value_name = "N")]
     pub resolution: Option<usize>,
     #[command(flatten)]

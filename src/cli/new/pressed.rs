@@ -22,8 +22,8 @@ pub(super) const RESOLUTION: usize = 16;
 /// A ball on a flat.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct Ball {
-    /// Make the scene in three dimensions: it shows what an axisymmetric model shows too, as a
-    /// start for other loads and shapes
+    /// Make the scene in three dimensions, as a start for other loads and shapes; the axisymmetric
+    /// scene shows the same
     #[arg(long)]
     pub three_dimensional: bool,
     #[command(flatten)]

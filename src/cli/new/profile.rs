@@ -19,7 +19,9 @@ const GROWTH: f64 = 1.15;
 /// which is at the end.
 const ALONG: usize = 16;
 const FIRST_OVER_LAST: f64 = 8.0;
-/// Factor of half width over half length in the share by which the drop at the end is reduced.
+/// Factor `c` of the correction for the end of the roller: the logarithm has the argument
+/// `1 - (1 - c b/(l/2)) (2 x/l)^2` with the half width `b` and the length `l`, so that the drop at
+/// the end is finite.
 ///
 /// # Source
 /// P. M. Johns and R. Gohar, *Roller bearings under radial and eccentric loads*, Tribology

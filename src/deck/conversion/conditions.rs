@@ -32,7 +32,8 @@ pub(super) struct DeckConditions<'c, 'd> {
     /// Displacements that are given in all steps.
     pub(super) boundary: Map,
     pub(super) forces: Map,
-    /// Sums of nodes without elements, by node number.
+    /// Displacements and forces of nodes without elements, as sums over other nodes, by node
+    /// number.
     pub(super) loose: BTreeMap<u64, LooseNode>,
 }
 
@@ -77,8 +78,8 @@ impl<'c, 'd> DeckConditions<'c, 'd> {
         of_kind.cloned().collect()
     }
 
-    /// Removes the conditions that hold for whole node sets, and returns the set, axis, history and
-    /// line of each.
+    /// Removes from the map the conditions that apply to whole node sets. Returns the set, axis,
+    /// history and line of each.
     fn of_node_sets(
         &self,
         kind: ConditionKind,

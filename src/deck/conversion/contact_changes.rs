@@ -1,8 +1,8 @@
 //! Contact pairs that are active in some steps only.
 //!
-//! The surfaces of an inactive pair are kept apart by more than the bodies may move: a load by a
-//! gap as long as the model. A step that switches the pair applies or removes this gap gradually
-//! over its time.
+//! The surfaces of an inactive pair are kept apart by a gap load as large as the diagonal of the
+//! mesh, which is more than the bodies can move. A step that switches the pair applies or removes
+//! this gap gradually over its time.
 
 use super::super::Deck;
 use super::super::bodies::unsupported;

@@ -12,7 +12,7 @@ use crate::scene::{Direction, Displacement, Equation, EquationTerm, Load, Relati
 use crate::space::{Components, Vector};
 use std::collections::BTreeMap;
 
-/// Fraction of its terms up to which a sum of displacements counts as zero.
+/// Size of a sum of displacements, relative to its terms, up to which the sum counts as zero.
 pub(super) const ROUND_OFF: f64 = 1e-9;
 
 /// The axes of a node that has none of its own.
@@ -56,7 +56,7 @@ impl<'d> Draft<'d> {
         }
     }
 
-    /// Remarks how a line of the deck is interpreted.
+    /// Records a remark on how a line of the deck is interpreted.
     pub(super) fn remark(&mut self, place: LinePlace, keyword: &str, text: &str) {
         self.account.take(&self.deck.files, place, keyword, text);
     }
@@ -133,7 +133,7 @@ impl<'d> Draft<'d> {
     }
 
     /// Adds the equation that a sum of terms and a value over time is zero; if the value itself is
-    /// not zero, the equation is a load.
+    /// not zero, the equation becomes a load.
     pub(super) fn relate(&mut self, terms: Vec<EquationTerm>, moved: Series, place: LinePlace) {
         if moved.is_zero() {
             return self.add_equation(terms, place);

@@ -16,7 +16,8 @@ pub(crate) struct Geometry {
     pub(crate) surfaces: BTreeMap<String, Vec<Face>>,
     /// Whether a node belongs to an element.
     pub(crate) is_used: Vec<bool>,
-    /// Surfaces that look both ways and are used for results only.
+    /// Surfaces that include both sides of a face between two elements and are used for results
+    /// only.
     pub(super) left_out: Vec<(String, LinePlace)>,
     /// Names of surfaces in the mesh, by their names in the deck in capitals.
     surface_names: BTreeMap<String, String>,

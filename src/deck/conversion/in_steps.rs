@@ -1,7 +1,8 @@
 //! Supports that begin or end in a later step: `*BOUNDARY` from a later step on, `FIXED`, and
 //! `OP=NEW`, which releases what it does not repeat.
 //!
-//! Conditions on reference nodes and along the axes of a `*TRANSFORM` are sums of displacements.
+//! Conditions on reference nodes and along the axes of a `*TRANSFORM` become conditions on sums of
+//! displacements.
 
 use super::super::Deck;
 use super::super::bodies::unsupported;
@@ -16,7 +17,7 @@ use crate::scene::span::Span;
 use crate::scene::{Direction, EquationTerm, Load, Relative, Support};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Largest coefficient that counts as zero, as a component of an axis.
+/// Largest coefficient, such as a component of an axis, that counts as zero.
 const ROUND_OFF: f64 = 1e-12;
 
 /// Bits of the load factors of a span, as a key.
@@ -50,7 +51,8 @@ impl InSteps {
     /// displacements along axes of nodes.
     ///
     /// # Errors
-    /// `Unsupported` for a displacement that is coupled to others without elements.
+    /// `Unsupported` for a displacement that follows nodes without elements, or that other
+    /// conditions determine already.
     pub(super) fn of(
         in_steps: Vec<(Key, KeyHistory)>,
         reduced: &Reduced,
@@ -77,7 +79,7 @@ impl InSteps {
                     entry.series = entry.series.multiplied(1.0 / share);
                     single.push((*to, entry));
                 }
-                // Nodes that stay where they are along their own axes have supports.
+                // A node that only keeps its position along its own axes gets supports.
                 Some((to, _)) if is_alone && *to == key && !moved.contains(&key.0) => {
                     single.push((key, entry));
                 }
@@ -101,7 +103,7 @@ impl InSteps {
         Ok(InSteps { single, sums })
     }
 
-    /// Nodes that occur in sums of displacements which are given.
+    /// Nodes that occur in the sums of displacements whose values are given.
     pub(super) fn nodes_of_sums(&self) -> impl Iterator<Item = u32> {
         let keys = self.sums.iter().flat_map(|sum| sum.terms.keys());
         keys.map(|key| key.0)

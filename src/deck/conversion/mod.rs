@@ -267,8 +267,9 @@ impl Deck {
         }
     }
 
-    /// Chooses equal increments if there is no contact, hence no event to step to: at least as many
-    /// per step as the deck's first increments suggest.
+    /// Chooses equal increments if there is no contact, and hence no event at which an increment
+    /// could end. Each step gets at least as many increments as its first increment in the deck
+    /// suggests.
     fn choose_stepping(&self, scene: &mut Scene) {
         if self.properties.contacts.is_empty() && scene.any_can_yield() {
             let steps = self.program.steps.iter().enumerate();

@@ -54,7 +54,8 @@ impl<'d> InForce<'d> {
                 let Some(time) = step.fixed else {
                     return vec![(1, step.period)];
                 };
-                // The tolerance allows for a rounded share of the time.
+                // The tolerance allows for an increment that is a rounded fraction of the step's
+                // time.
                 let n = (step.period / time - 1e-6).ceil().max(1.0) as usize;
                 let every = if *every == 0 { n } else { *every };
                 let within = (every..n).step_by(every).take(MOST_MOMENTS);

@@ -82,7 +82,7 @@ impl DeckConditions<'_, '_> {
             || followers.any(|node| self.boundary.contains_key(&(*node, axis)))
     }
 
-    /// Adds the rows of rigid bodies, of displacements along the axes of their nodes.
+    /// Adds the rows of rigid bodies, in displacements along each node's own axes.
     fn rows_of_bodies(&self, rows: &mut Vec<LinearRow>) -> Result<()> {
         let deck = self.draft.deck;
         for body in DeckRigidBody::all(&deck.properties.rigid, deck.lookup())? {
@@ -151,7 +151,8 @@ impl DeckConditions<'_, '_> {
         Ok(())
     }
 
-    /// Checks rows in which all displacements are prescribed: such rows must hold.
+    /// Checks rows in which all displacements are prescribed: the prescribed values must satisfy
+    /// them.
     fn check_known(&self, rows: &[LinearRow]) -> Result<()> {
         let boundary = &self.boundary;
         for row in rows {
@@ -171,7 +172,7 @@ impl DeckConditions<'_, '_> {
         Ok(())
     }
 
-    /// Prescribes the displacements that follow others, or makes them equations.
+    /// Prescribes the displacements that follow others, or turns them into equations.
     fn follow_all(&mut self, others: &[Follows]) {
         let known = self.boundary.clone();
         // A displacement along an axis of its node is combined with all others of the node.

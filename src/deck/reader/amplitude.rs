@@ -72,7 +72,7 @@ pub(super) fn amplitude(block: &mut BlockReader, amplitudes: &mut Named<Amplitud
     Ok(())
 }
 
-/// The first time and the interval of an amplitude whose values alone are given.
+/// The first time and the interval of an amplitude of which only the values are given.
 fn spacing(block: &BlockReader) -> Result<[f64; 2]> {
     block.require("FIXEDINTERVAL")?;
     let by = block.number("FIXEDINTERVAL")?.unwrap_or(0.0);

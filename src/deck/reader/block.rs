@@ -76,7 +76,7 @@ impl<'r> BlockReader<'r, '_> {
         Ok(line.map(text))
     }
 
-    /// Reads lines of a slave and a master surface, of which there must be one.
+    /// Reads lines that each name a slave and a master surface; at least one line is required.
     pub(super) fn pairs(&mut self) -> Result<Vec<(LinePlace, [String; 2])>> {
         let mut pairs = Vec::new();
         while let Some((place, mut row)) = self.row()? {

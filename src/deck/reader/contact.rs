@@ -41,7 +41,8 @@ impl InteractionReader {
         block.skip()
     }
 
-    /// Reads the law of contact: exact complementarity, for hard contact or on a linear spring.
+    /// Reads the law of contact, which is hard or linear: other laws of pressure over overlap are
+    /// taken as hard contact.
     pub(super) fn behavior(&mut self, block: &mut BlockReader) -> Result<()> {
         block.allow("PRESSURE-OVERCLOSURE DIRECT PENALTY AUGMENTEDLAGRANGE NOSEPARATION")?;
         let laws = [
@@ -210,7 +211,7 @@ pub(super) fn tie(block: &mut BlockReader, ties: &mut Vec<TiedPair>) -> Result<(
 }
 
 /// Reads pairs whose overlap Abaqus resolves over a step. Here every overlap is resolved evenly
-/// over the first step, which `SHRINK` asks for too. A given allowable interference that
+/// over the first step, which is also what `SHRINK` requests. A given allowable interference that
 /// decreases to zero leads to the same state at the end of the step.
 pub(super) fn contact_interference(
     block: &mut BlockReader,

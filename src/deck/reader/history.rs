@@ -110,7 +110,8 @@ impl StepReader {
                 return Err(row.place.error(message));
             }
             if first > 0.0 {
-                // The tolerance allows for a rounded share of the time.
+                // The tolerance allows for an increment that is a rounded fraction of the step's
+                // time.
                 increments = (period / first - 1e-6).ceil().clamp(1.0, MOST_INCREMENTS);
                 // Increments that may not grow are fixed too.
                 let largest = match row.is_at_end() {
@@ -250,7 +251,7 @@ impl StepReader {
         let common = self.conditions(block, ConditionKind::Pressure)?;
         while let Some((place, mut row)) = block.row()? {
             let mut ahead = row;
-            // Nothing in front of a load on volumes stands for all elements.
+            // An empty first value in front of a load on volumes stands for all elements.
             let on = match ahead.word().is_empty() && !ahead.is_at_end() {
                 true => {
                     row = ahead;

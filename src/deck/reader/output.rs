@@ -8,7 +8,7 @@ use crate::deck::source::Files;
 use crate::error::Result;
 use crate::scene::{ContactForce, ResultItem, Totals};
 
-/// Largest number of times of a keyword.
+/// Largest number of times that one `*TIME POINTS` may give.
 const MOST_TIMES: usize = 10_000;
 
 /// Reads requests for results.
@@ -29,7 +29,7 @@ impl RequestReader {
         block.skip()
     }
 
-    /// Reads the schedule of results: the last one in a step holds for all requests.
+    /// Reads the schedule of results: the last one in a step applies to all requests.
     fn schedule(&mut self, keyword: &Keyword, steps: &mut StepReader) {
         let every = || keyword.get("FREQUENCY")?.parse().ok().map(Schedule::Every);
         let points = keyword.get("TIMEPOINTS");
@@ -93,7 +93,7 @@ impl RequestReader {
             contact: (keyword.get("SLAVE").zip(keyword.get("MASTER")))
                 .map(|(slave, master)| [slave, master].map(str::to_string)),
             totals,
-            // Files are in global axes unless they say otherwise, tables in those of the nodes.
+            // Without `GLOBAL`, files are in global axes, tables in the axes of the nodes.
             is_global: match keyword.get("GLOBAL").map(plain).as_deref() {
                 Some("YES") => true,
                 Some("NO") => false,

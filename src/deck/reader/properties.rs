@@ -173,7 +173,7 @@ impl MaterialReader {
 /// Requires that a material's law does not depend on further variables.
 ///
 /// # Errors
-/// `Unsupported`, with their number.
+/// `Unsupported`, with the number of these variables.
 fn without_dependencies(block: &BlockReader) -> Result<()> {
     match block.number("DEPENDENCIES")? {
         Some(n) if n != 0.0 => {
@@ -327,7 +327,7 @@ fn ascending(place: &Where, last: Option<f64>, temperature: f64) -> Result<()> {
     }
 }
 
-/// Plastic strain up to which a curve is continued along its last slope.
+/// Plastic strain by which a curve is continued beyond its last row, along its last slope.
 const FAR: f64 = 1e3;
 
 /// Continues rows of plastic strain and yield stress along the slope between the last two.

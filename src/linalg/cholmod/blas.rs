@@ -11,11 +11,12 @@ use crate::error::{Error, Result};
 use crate::memory;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
-/// Address space of the work buffer of one thread: the largest of OpenBLAS' builds (32 << 22
-/// bytes).
+/// Address space of the work buffer of one thread: the largest value among the builds of OpenBLAS
+/// (32 << 22 bytes).
 const BUFFER: f64 = (32u64 << 22) as f64;
 
-/// Permission to call the BLAS; all threads have it at once if the address space has no limit.
+/// Permission to call the BLAS: a lock if the address space is limited; `None` if all threads may
+/// call the BLAS at the same time.
 pub(super) type Entered = Option<MutexGuard<'static, bool>>;
 
 /// Waits for the permission to call the BLAS.
@@ -76,7 +77,7 @@ mod openblas {
 /// Name, build options, processor kernels and threads of the BLAS in use, for instance
 /// `OpenBLAS 0.3.21 DYNAMIC_ARCH NO_AFFINITY Haswell MAX_THREADS=64 (kernels Haswell, 2 threads)`.
 pub fn blas_name() -> String {
-    // Without OpenBLAS at build time the BLAS cannot be asked for its name.
+    // The name can only be read from OpenBLAS, and only if it was found at build time.
     let (Some(configuration), Some(kernels)) = (configuration(), kernels()) else {
         return String::from("system BLAS, not known to be OpenBLAS");
     };
@@ -123,7 +124,7 @@ fn text(pointer: *mut std::ffi::c_char) -> Option<String> {
     Some(text.to_string_lossy().trim().to_owned())
 }
 
-/// Number of threads that the BLAS uses; `None` if the BLAS cannot be asked.
+/// Number of threads that the BLAS uses; `None` if the BLAS is not OpenBLAS.
 pub fn blas_threads() -> Option<usize> {
     #[cfg(openblas)]
     {

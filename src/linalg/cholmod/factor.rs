@@ -88,8 +88,8 @@ impl CholmodFactor {
         if !self.is_supernodal() {
             return Ok(());
         }
-        // SAFETY: the factor is valid and symbolic; on success `x` holds `xsize` doubles.
-        // What it holds is read anew below, after the check.
+        // SAFETY: the factor is valid and symbolic; on success `x` holds `xsize` doubles. The
+        // fields of the factor are read again after the check below.
         let raw = unsafe {
             sys::cholmod_l_change_factor(
                 sys::CHOLMOD_REAL as i32,
@@ -236,8 +236,9 @@ impl LowerFactor for CholmodFactor {
 
     fn columns(&self) -> FactorColumns<'_> {
         let raw = self.raw();
-        // SAFETY: after the numerical factorisation (the callers' order of calls, and empty slices
-        // otherwise) the arrays have the lengths that CHOLMOD documents for the kind at hand.
+        // SAFETY: callers read columns only after the numerical factorisation. The arrays then have
+        // the lengths that CHOLMOD documents for this kind of factor; a null pointer gives an empty
+        // slice.
         unsafe {
             if self.is_supernodal() {
                 FactorColumns::Supernodal(Supernodes {
@@ -259,7 +260,7 @@ impl LowerFactor for CholmodFactor {
     }
 
     fn bytes(&self, entries: usize) -> f64 {
-        // The shifted copy of the values adds to that.
+        // `bytes_within` does not include the shifted copy of the values.
         self.bytes_within(entries) + 8.0 * entries as f64
     }
 

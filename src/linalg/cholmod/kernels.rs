@@ -2,8 +2,8 @@
 //!
 //! OpenBLAS chooses its kernels by the processor model when it is loaded. A release that is older
 //! than the processor does not know the model and uses kernels for an old one, with a half or a
-//! quarter of the speed. The environment variable `OPENBLAS_CORETYPE`, read at the same moment,
-//! selects other kernels. A program can therefore restart with the variable set
+//! quarter of the speed. The environment variable `OPENBLAS_CORETYPE`, which OpenBLAS reads when it
+//! is loaded, selects other kernels. A program can therefore restart with the variable set
 //! ([`better_kernels`]); a library can only warn.
 
 use super::blas;
@@ -26,8 +26,8 @@ enum Vectors {
 }
 
 impl Vectors {
-    /// Vector instructions of the OpenBLAS kernels with a name (`driver/others/dynamic.c`); `None`
-    /// for a name that is not known here, such as one of a later release.
+    /// Vector instructions of the OpenBLAS kernels called `name` (`driver/others/dynamic.c`);
+    /// `None` for a name that is not known here, such as one of a later release.
     fn of_kernels(name: &str) -> Option<Self> {
         match name {
             "Katmai" | "Coppermine" | "Northwood" | "Prescott" | "Banias" | "Atom" | "Core2"
@@ -40,7 +40,8 @@ impl Vectors {
         }
     }
 
-    /// Vector instructions of this processor, as far as its system lets programs use them.
+    /// Vector instructions of this processor, as far as the operating system lets programs use
+    /// them.
     #[cfg(target_arch = "x86_64")]
     fn of_processor() -> Option<Self> {
         let has_512 = is_x86_feature_detected!("avx512f")
@@ -75,15 +76,15 @@ impl Vectors {
     }
 }
 
-/// Kernels to choose in place of the named ones, according to the processor; `None` if the named
-/// ones are as good.
+/// Kernels that use more instructions of the `processor` than the kernels in use; `None` if there
+/// are none, or if the name of the kernels in use is not known.
 fn better(kernels: &str, processor: Vectors) -> Option<&'static str> {
     (Vectors::of_kernels(kernels)? < processor).then(|| processor.kernels())
 }
 
 /// Value of `OPENBLAS_CORETYPE` ([`KERNEL_SETTING`]) with which this process would compute faster.
-/// `None` if OpenBLAS uses the full instructions of the processor, has no choice of kernels, or if
-/// the variable is already set.
+/// `None` if OpenBLAS uses the full instructions of the processor, if it has no choice of kernels,
+/// or if the variable is already set.
 pub fn better_kernels() -> Option<&'static str> {
     let is_told = std::env::var_os(KERNEL_SETTING).is_some();
     if is_told || !blas::has_choice() {
@@ -92,7 +93,7 @@ pub fn better_kernels() -> Option<&'static str> {
     better(&blas::kernels()?, Vectors::of_processor()?)
 }
 
-/// Logs once per process a warning that its kernels are slow.
+/// Logs a warning if OpenBLAS uses slow kernels; at most one warning per process.
 pub(super) fn warn_of_slow_kernels() {
     static SAID: Once = Once::new();
     SAID.call_once(|| {

@@ -1,6 +1,6 @@
-//! CHOLMOD backend: the sparse factor by SuiteSparse, supernodal, in the arithmetic of a BLAS.
+//! CHOLMOD backend: the sparse Cholesky factor of SuiteSparse, computed by a BLAS on supernodes.
 //!
-//! The use of the factor is in `linalg::sparse`. Only `common`, `matrix`, `ordering`, `factor`,
+//! The code that uses the factor is in `linalg::sparse`. Only `common`, `ordering`, `factor`,
 //! `blas` and `openmp` call C.
 //!
 //! The same BLAS with the same number of threads gives the same bits in every run. With another
@@ -130,9 +130,10 @@ pub(super) fn enter_blas() -> Result<impl Sized> {
     blas::enter()
 }
 
-/// Finds an elimination ordering that ends with the supervariables that stay, and its name. The
-/// supervariables are given by their first freedoms and the number of freedoms, whether they stay,
-/// and which are coupled.
+/// Finds an elimination ordering that ends with the supervariables that stay; returns its name and
+/// its permutation. `first` holds the first freedom of each supervariable, followed by the number
+/// of freedoms; `stays` marks the supervariables that are not eliminated; `coupled` holds the pairs
+/// of coupled supervariables.
 ///
 /// # Errors
 /// Errors of [`super::predict`].

@@ -49,7 +49,7 @@ pub(super) struct CholmodOrdering {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Method {
     /// The candidate with the fewest floating point operations; the expensive candidate is only
-    /// tried if it may pay.
+    /// tried if it may save more time than it takes.
     #[default]
     Automatic,
     /// Constrained approximate minimum degree.
@@ -69,7 +69,8 @@ pub(super) fn choose(
     choose_for(common, &compressed, matrix.rows().len() as f64, method)
 }
 
-/// Finds the ordering for supervariables and the number of entries of the whole matrix.
+/// Finds the ordering of a matrix with known supervariables; `entries` is the number of entries of
+/// the whole matrix.
 pub(super) fn choose_for(
     common: &mut Common,
     compressed: &Supervariables,

@@ -2,16 +2,18 @@
 //!
 //! # Source
 //! T. A. Davis, *Direct Methods for Sparse Linear Systems*, SIAM 2006, sections 4.1 and 4.5:
-//! row `j` of `L` is what is found on the ways up the tree from the entries of row `j` of the
+//! the nonzeros of row `j` of `L` lie on the paths up the tree from the entries of row `j` of the
 //! matrix.
 
 use crate::linalg::sparse::Pattern;
 
-/// Elimination of a pattern, whose columns may stand for several freedoms each, in an ordering.
+/// Symbolic elimination of a pattern in a given ordering. A column of the pattern may stand for
+/// several freedoms.
 pub(super) struct Elimination {
     /// Parent of each column in the ordering, -1 for a root.
     pub(super) parent: Vec<i64>,
-    /// Number of freedoms in each column of `L`, for the first freedom of the column.
+    /// For each column of the pattern, the number of nonzeros in the column of `L` that belongs to
+    /// its first freedom.
     pub(super) counts: Vec<i64>,
 }
 

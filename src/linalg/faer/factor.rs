@@ -73,7 +73,7 @@ impl FaerFactor {
         let factor = FaerFactor {
             nonzeros: order.counts.iter().sum::<i64>() as f64,
             flops: order.flops,
-            // The row lists of the supernodes, by column and by row.
+            // faer's own row lists of the supernodes, stored once by columns and once by rows.
             workspace: scratch.size_bytes() as f64 + 16.0 * below as f64,
             starts: numbers(symbolic.supernode_begin().iter().chain([&n])),
             row_starts: Vec::new(),
@@ -223,8 +223,8 @@ enum StoredTriangle {
 }
 
 /// Returns a triangle of the permuted matrix, compressed by column with unsorted rows: column
-/// pointers, rows, and values. The values are empty without `values`, which come with a diagonal
-/// that replaces theirs.
+/// pointers, rows, and values. `values` gives the value of each entry and a diagonal that replaces
+/// the diagonal entries. Without `values`, the returned values are empty.
 fn permuted(
     pattern: &Pattern,
     place: &[u32],

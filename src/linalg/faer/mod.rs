@@ -1,8 +1,8 @@
 //! faer backend: the sparse factor in pure Rust, without system libraries and under permissive
 //! licences.
 //!
-//! The use of the factor is in `linalg::sparse`. The factor is computed on one thread, so all
-//! results have the same bits for any number of threads; the solves are shared among threads as
+//! The code that uses the factor is in `linalg::sparse`. The factor is computed on one thread, so
+//! all results have the same bits for any number of threads; the solves are shared among threads as
 //! with CHOLMOD.
 //!
 //! # Source

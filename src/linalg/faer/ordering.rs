@@ -31,7 +31,7 @@ const TRY_DISSECTION_ABOVE: f64 = 20_000.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum FillReduction {
     /// The candidate with the fewest floating point operations; the expensive candidate is only
-    /// tried if it may pay.
+    /// tried if it may save more time than it takes.
     #[default]
     Automatic,
     /// Approximate minimum degree alone.
@@ -83,7 +83,8 @@ fn dissection(compressed: &Supervariables) -> Result<FaerOrdering> {
     by_groups(compressed, "nested dissection", feral_metis::metis_order)
 }
 
-/// Orders each group by `order`, postorders the result, and counts its operations.
+/// Orders interior and zone by `order`, appends border and contact freedoms, postorders the result,
+/// and counts its operations.
 fn by_groups(
     compressed: &Supervariables,
     name: &'static str,
@@ -120,7 +121,7 @@ fn by_groups(
     })
 }
 
-/// Orders the vertices for which `is_in` holds among themselves by `order`.
+/// Orders by `order` the vertices for which `is_in` is true; edges to other vertices do not count.
 fn part(pattern: &Pattern, order: Order, is_in: impl Fn(usize) -> bool) -> Result<Vec<i64>> {
     let (local, columns, rows) = pattern.block(is_in);
     let vertices = (0..).zip(&local).filter(|(_, number)| **number >= 0);
@@ -129,7 +130,7 @@ fn part(pattern: &Pattern, order: Order, is_in: impl Fn(usize) -> bool) -> Resul
     let graph = CscPattern::new(vertices.len(), &starts, &neighbours);
     let found = order(&graph.ok_or_else(|| failed(OrderingError::MalformedInput))?);
     let found = found.map_err(failed)?;
-    // Anything but a permutation would be an index out of range later on.
+    // Anything but a permutation would lead to an index out of range later on.
     let mut is_new = vec![true; vertices.len()];
     let mut take = |place: i32| {
         let place = usize::try_from(place).ok()?;

@@ -12,12 +12,12 @@ use std::ffi::c_int;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Largest error of a solution of size 1. The error is about the condition times the unit
-/// round-off: a matrix for which no digit is right is singular.
+/// Largest error of a known solution of size 1 that is accepted. The error is about the condition
+/// number times the unit round-off. If not even one digit is right, the matrix counts as singular.
 const LOST: f64 = 0.1;
 
-/// Number of known solutions that are tested. For a twentieth of 240 small bodies that nothing
-/// holds, a single solution was right by chance.
+/// Number of known solutions that are tested. A single solution may be right by chance although
+/// nothing holds the body.
 const KNOWN: usize = 3;
 
 /// Value of INFOG(7) if the given ordering was used.
@@ -40,7 +40,8 @@ pub(super) struct SymbolicFactor {
     coupling: Vec<Entry>,
 }
 
-/// Freedoms of the interior and the freedoms that it touches, with numbers of their own.
+/// Variables of the factor: the interior freedoms and the freedoms that the interior touches,
+/// numbered anew.
 struct Variables {
     freedoms: Vec<usize>,
     /// Trailing number of each freedom that stays; `None` for interior freedoms.
@@ -164,7 +165,7 @@ impl Variables {
 
 impl SymbolicFactor {
     /// Orders the interior, which consists of the freedoms without a number in `trailing`. The
-    /// trailing freedoms that it has `touched` come last.
+    /// trailing freedoms that the interior touches (`touched`) come last.
     pub(super) fn new(
         matrix: &Shared,
         trailing: &[Option<usize>],
@@ -185,7 +186,7 @@ impl SymbolicFactor {
         let mut kept: Vec<usize> = (0..n_variables)
             .filter(|&k| variables.trailing[k].is_some())
             .collect();
-        // MUMPS requires them to be listed in the sequence of the ordering.
+        // MUMPS requires the variables that stay to be listed in the sequence of the ordering.
         kept.sort_by_key(|&k| order[k]);
         let mut host = Host {
             n: n_variables,
@@ -362,10 +363,10 @@ impl Exterior {
         Ok((exterior, schur))
     }
 
-    /// Checks that the interior is held. MUMPS goes on over pivots that are negative or only
-    /// round-off. It counts the negative ones; for a matrix that is singular up to round-off, known
-    /// solutions are not reproduced. Several solutions are reproduced by chance less often than
-    /// one.
+    /// Checks that the interior is held. MUMPS does not stop at pivots that are negative or only
+    /// round-off. It counts the negative pivots. A matrix that is singular up to round-off is
+    /// detected because it does not reproduce known solutions; several are tested, since one alone
+    /// may be reproduced by chance.
     ///
     /// # Errors
     /// [`NotDefinite`] with the freedom whose error is largest.
@@ -394,8 +395,8 @@ impl Exterior {
         }
     }
 
-    /// Solves `K_II^-1` for the interior part of `load`, minus the coupling times the trailing
-    /// displacements if given; the result is by variable.
+    /// Computes `K_II^-1 (f_I - K_It u_t)`, where `f_I` is the interior part of `load` and `u_t` is
+    /// `u_trailing` (zero if `None`). The result has a value for each variable.
     pub(super) fn solve(&self, load: &[f64], u_trailing: Option<&[f64]>) -> Result<Vec<f64>> {
         let mut of_variables = vec![0.0; self.n_variables];
         for &(freedom, k) in &self.interior {
@@ -449,8 +450,8 @@ mod tests {
         }
     }
 
-    /// Each rank is compared with its own limits, and ranks of one machine together with the
-    /// machine's.
+    /// The memory that each rank needs is compared with the limits of that rank, and the sum over
+    /// the ranks of a machine with the memory of that machine.
     #[test]
     fn memory_is_compared_rank_by_rank_and_machine_by_machine() {
         let ranks = [

@@ -8,9 +8,9 @@
 //!     S   = K_tt + S_G               condensed by CHOLMOD on the first rank
 //! ```
 //!
-//! The interior is needed once for each load vector and once for each state that is written, whose
-//! stresses the ranks evaluate too ([`World::serve`]); zone, contact and events need the first rank
-//! alone.
+//! The interior is needed once for each load vector and once for each state that is written. The
+//! ranks also evaluate the stresses of that state ([`World::serve`]). Zone, contact and events need
+//! the first rank alone.
 //!
 //! The first rank runs the program; each rank holds some columns of the matrix ([`Shared`]) and
 //! carries out requests ([`World::serve`]). No rank holds the whole matrix; MUMPS gathers its
@@ -24,12 +24,13 @@
 //! | `task`, `rank` | requests and answers; data and work of a rank |
 //! | `shared` | the matrix as the first rank sees it |
 //! | `exterior` | ordering, analysis and factor of the interior |
+//! | `meaning` | error numbers of MUMPS in words |
 //! | `shim.c` | MPI and MUMPS themselves |
 //!
 //! # Source
 //! P. R. Amestoy, I. S. Duff, J. Koster, J.-Y. L'Excellent, *A fully asynchronous multifrontal
 //! solver using distributed dynamic scheduling*, SIAM J. Matrix Anal. Appl. 23 (2001) 15,
-//! doi:10.1137/S0895479899358194; the users' guide of MUMPS 5.5, sections 3.18 (Schur complement).
+//! doi:10.1137/S0895479899358194; the users' guide of MUMPS 5.5, section 3.18 (Schur complement).
 
 mod exterior;
 mod meaning;
@@ -215,8 +216,9 @@ impl RemainingMatrix {
         })
     }
 
-    /// Pivot that lost most digits to cancellation: on the way from `K` to `S` (`condensed`), or,
-    /// for the freedom of the `inner` pivot, on the whole way from `K` through `S`.
+    /// Pivot that lost the most digits to cancellation. The loss counts from `K` to `S`
+    /// (`condensed`); for the freedom of the `inner` pivot, the loss in the factorisation of `S` is
+    /// included.
     fn weakest(
         &self,
         inner: Pivot,

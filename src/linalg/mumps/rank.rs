@@ -23,7 +23,8 @@ pub type Assemble = fn(&[u8]) -> Result<Columns>;
 pub struct Columns {
     /// Matrix of the rank; columns of other ranks are empty.
     pub matrix: SymmetricCsc,
-    /// Whether each freedom couples to the previous one and to the same freedoms as it does.
+    /// Whether each freedom is coupled with the previous freedom and with the same freedoms as the
+    /// previous one.
     pub continued: Vec<bool>,
 }
 
@@ -39,7 +40,7 @@ impl Default for Columns {
 /// Function that answers a request of the program.
 pub type Evaluate = fn(&[u8]) -> Result<Vec<u8>>;
 
-/// Functions and data that a rank supplies in addition to a request.
+/// Functions and data of this rank that a request needs but does not contain.
 #[derive(Default)]
 pub(super) struct Host {
     /// Function that makes the rank's columns of a matrix.
@@ -162,8 +163,8 @@ pub(super) fn perform(task: Task, host: &mut Host) -> Vec<u8> {
         }
         Task::Solve(factor) => {
             let mut state = [0; 2];
-            // SAFETY: the factor exists until it is forgotten. On the first rank the load is as
-            // long as the matrix is large; on other ranks the load is not read.
+            // SAFETY: the factor exists until it is forgotten. On the first rank the load has a
+            // value for each variable; on other ranks the load is not read.
             unsafe {
                 brinell_mumps_solve(factor as c_int, host.load.as_mut_ptr(), state.as_mut_ptr());
             }
@@ -192,8 +193,9 @@ fn answer<T: Serialize>(value: &T) -> Vec<u8> {
     postcard::to_stdvec(value).unwrap_or_default()
 }
 
-/// Bytes that the limits of this process leave to this rank, and that its machine leaves to all
-/// ranks, without the work buffer of the BLAS: MUMPS's calls would request the buffer endlessly.
+/// Bytes that the limits of this process leave to this rank, and bytes that its machine leaves to
+/// all ranks. The work buffer of the BLAS is allocated first, because calls from MUMPS would
+/// request it endlessly if memory is short.
 fn left() -> [Option<f64>; 2] {
     let _entered = cholmod::enter_blas().ok();
     [memory::limits(), memory::of_machine()]

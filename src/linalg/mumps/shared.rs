@@ -14,8 +14,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// Matrix entry as row, column and value.
 pub(super) type Entry = (usize, usize, f64);
 
-/// Part of a matrix for one rank: its freedoms, ascending, in the numbering of the whole, and the
-/// message from which the rank makes its columns ([`Assemble`]).
+/// Part of a matrix for one rank: its freedoms, ascending, in the numbering of the whole matrix,
+/// and the message from which the rank makes its columns ([`Assemble`]).
 #[derive(Default)]
 pub struct Part {
     /// Number in the whole matrix of each freedom of the part.
@@ -32,14 +32,15 @@ pub struct Shared(Arc<Inner>);
 struct Inner {
     world: World,
     index: usize,
-    /// Traffic between the ranks before this matrix.
+    /// Traffic between the ranks before this matrix was distributed.
     before: Traffic,
     /// Number of entries of each part.
     n_entries: Vec<usize>,
     /// Freedoms of each part, in the numbering of the whole.
     numbers: Vec<Vec<u32>>,
     diagonal: Vec<f64>,
-    /// Whether each freedom couples to the previous one and to the same freedoms as it does.
+    /// Whether each freedom is coupled with the previous freedom and with the same freedoms as the
+    /// previous one.
     continued: Vec<bool>,
 }
 
@@ -163,7 +164,7 @@ impl Shared {
         self.0.n_entries.iter().map(bytes).collect()
     }
 
-    /// Work of the ranks so far; `None` if they cannot be asked.
+    /// Work of the ranks since the matrix was distributed; `None` if a rank does not answer.
     pub(in crate::linalg) fn ranks(&self) -> Option<Ranks> {
         let world = self.0.world;
         let traffic = world.traffic();
@@ -181,8 +182,8 @@ impl Shared {
         self.0.world.size
     }
 
-    /// Asks each rank for the answer of `evaluate` to its message; ranks other than the first use
-    /// the function passed to [`World::serve`].
+    /// Sends each rank its message and returns the answers that `evaluate` computes on the ranks.
+    /// Ranks other than the first use the function passed to [`World::serve`] instead.
     ///
     /// # Errors
     /// Errors of the ranks.
@@ -208,7 +209,8 @@ impl Shared {
         &self.0.diagonal
     }
 
-    /// Whether a freedom couples to the previous one and to the same freedoms as it does.
+    /// Whether a freedom is coupled with the previous freedom and with the same freedoms as the
+    /// previous one.
     pub(super) fn is_continued(&self, freedom: usize) -> bool {
         self.0.continued[freedom]
     }
@@ -234,7 +236,7 @@ impl Shared {
         Ok(rows)
     }
 
-    /// Entries with an end among the trailing freedoms, and for each freedom whether the interior
+    /// Entries whose row or column is a trailing freedom, and for each freedom whether the interior
     /// touches it.
     pub(super) fn near(&self, trailing: &[bool]) -> Result<(Vec<Entry>, Vec<bool>)> {
         let task = |rank| Task::Near(self.index(), self.own(rank, |freedom| trailing[freedom]));
@@ -272,7 +274,8 @@ impl Shared {
         self.0.index
     }
 
-    /// Sends each rank a request, by rank number; `host` is added on the first rank.
+    /// Sends each rank the request that `task` returns for its number, and collects the answers.
+    /// `host` is used on the first rank only.
     pub(super) fn ask<T: DeserializeOwned>(
         &self,
         task: impl FnMut(usize) -> Task,

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) enum Task {
-    /// Assembles and keeps the columns of a matrix with a number; empty bytes mean no columns.
-    /// Answer: [`Result<MadeOnRank, String>`].
+    /// Assembles the columns of a matrix and keeps them under the given number; empty bytes mean no
+    /// columns. Answer: [`Result<MadeOnRank, String>`].
     Matrix(usize, Vec<u8>),
     /// Drops the columns of a matrix. No answer.
     ForgetMatrix(usize),
@@ -21,11 +21,11 @@ pub(super) enum Task {
     /// Sets up a factor of the interior, given its number, the number of the matrix, and the
     /// variable of each freedom, from 1. Answer: [`Analysed`].
     Analyse(usize, usize, Vec<i32>),
-    /// Computes the factor with a number. Answer: [`Factored`].
+    /// Computes the factor with the given number. Answer: [`Factored`].
     Factor(usize),
-    /// Solves with the factor with a number. Answer: INFOG(1) and INFOG(2).
+    /// Solves with the factor that has the given number. Answer: INFOG(1) and INFOG(2).
     Solve(usize),
-    /// Drops the factor with a number. No answer.
+    /// Drops the factor with the given number. No answer.
     ForgetFactor(usize),
     /// Measures the memory that a rank has taken. Answer: bytes.
     Memory,
@@ -33,12 +33,13 @@ pub(super) enum Task {
     Evaluate(Vec<u8>),
 }
 
-/// Columns of a matrix that a rank holds.
+/// Properties of the columns of a matrix that a rank holds.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct MadeOnRank {
     /// Diagonal entries; 0 if another rank holds the column.
     pub(super) diagonal: Vec<f64>,
-    /// Whether each freedom couples to the previous one and to the same freedoms as it does.
+    /// Whether each freedom is coupled with the previous freedom and with the same freedoms as the
+    /// previous one.
     pub(super) continued: Vec<bool>,
     pub(super) n_entries: usize,
     /// Whether any entry is NaN or infinite.
@@ -56,7 +57,8 @@ pub(super) struct Product {
     pub(super) sizes: Vec<f64>,
 }
 
-/// Entries with a trailing end, and the trailing freedoms that the interior touches.
+/// Entries whose row or column is a trailing freedom, and for each freedom whether the interior
+/// touches it.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Near {
     pub(super) touched: Vec<bool>,
@@ -77,7 +79,7 @@ pub(super) struct Analysed {
     /// Bytes that the factorisation will take on this rank: the factor and the data held at the
     /// same time.
     pub(super) needed: f64,
-    /// Bytes that the limits of this rank leave, measured before it had its entries.
+    /// Bytes that the limits of this rank leave, measured before the rank had its entries.
     pub(super) left_by_limits: Option<f64>,
     /// Bytes that the rank's machine leaves to all processes.
     pub(super) left_by_machine: Option<f64>,

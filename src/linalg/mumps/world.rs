@@ -49,7 +49,8 @@ fn calls() -> MutexGuard<'static, ()> {
 }
 
 impl World {
-    /// Joins the ranks with which the process was started, once; without `mpirun` it is alone.
+    /// Joins the ranks with which this process was started; later calls return the same result.
+    /// Without `mpirun` this process is the only rank.
     ///
     /// # Errors
     /// `Analysis` if MPI does not start.
@@ -72,7 +73,8 @@ impl World {
     /// Checks, on the first rank, that all other ranks run the same version of the program.
     ///
     /// # Errors
-    /// `Input` naming the rank with another version; the other ranks are released.
+    /// `Input` if a rank has another version; the message names the rank, and all other ranks are
+    /// released.
     pub fn meet(self) -> Result<()> {
         let versions: Vec<String> = {
             let _turn = calls();
@@ -84,14 +86,14 @@ impl World {
     }
 
     /// Serves on a rank other than the first: takes part in the computations of the first rank
-    /// until that ends.
+    /// until that rank releases this one.
     pub fn serve(self, assemble: Assemble, evaluate: Evaluate) {
         let _turn = calls();
         send(0, rank::VERSION.as_bytes());
         loop {
             let bytes = receive(0);
-            // An empty message means the end in all versions; an unreadable one comes from another
-            // version.
+            // An empty message means the end in all versions; an unreadable message comes from
+            // another version of the program.
             if bytes.is_empty() {
                 return;
             }
@@ -132,8 +134,8 @@ impl World {
         }
     }
 
-    /// Sends a request to each rank, this one last, and collects the answers by rank. `host` holds
-    /// what the first rank adds.
+    /// Sends a request to each rank, this one last, and collects the answers by rank. `host` is
+    /// used on this rank, the first.
     pub(super) fn ask<T: DeserializeOwned>(
         self,
         mut task: impl FnMut(usize) -> Task,

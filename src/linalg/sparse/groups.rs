@@ -105,8 +105,9 @@ impl Groups {
         let starts = self.starts();
         let group_end =
             |column: usize| starts[usize::from(self.member[permutation[column] as usize]) + 1];
-        // Children are inserted before their siblings, so each list is finally the reverse of this
-        // one. The sort is stable: equal counts keep the sequence of the given ordering.
+        // Children are inserted before their siblings, so each list of children ends up in the
+        // reverse order of `by_count`. The sort is stable: equal counts keep the sequence of the
+        // given ordering.
         let mut by_count: Vec<u32> = (0..n as u32).rev().collect();
         by_count.sort_by_key(|&column| std::cmp::Reverse(counts[column as usize]));
         let mut first_child = vec![NONE; n];

@@ -135,7 +135,8 @@ impl<F: LowerFactor> Condensed for SparseCondensed<F> {
     // y = L^-1 P load has y_i = L_ii^-1 load_i and y_t = L_tt^-1 (load_t - L_ti y_i). Since L_ti
     // L_ii' = K_ti and L_ii L_ii' = K_ii,
     //     L_tt y_t = load_t - L_ti L_ii^-1 load_i = load_t - K_ti K_ii^-1 load_i = f_t:
-    // the shift is in L_tt alone, which is divided by and multiplied back.
+    // the shift enters L_tt alone. This method divides by L_tt; `condense_load` multiplies by L_tt
+    // again.
     fn reduce_load(&self, load: &[f64]) -> Result<Vec<f64>> {
         check::length("load", load.len(), self.partition.n)?;
         let mut solver = self.solver();

@@ -6,11 +6,11 @@
 
 use std::ffi::c_void;
 
-/// Alignment of the advice to the system. No large page is smaller, and a piece left out at an end
-/// costs nothing.
+/// Alignment of the range for which large pages are requested. No large page is smaller, and a
+/// piece left out at either end does no harm.
 const ALIGNMENT: usize = 1 << 21;
 
-/// Asks for large pages for `bytes` of memory that was allocated but not touched yet. This is
+/// Requests large pages for `bytes` of memory that was allocated but not touched yet. This is
 /// advice only: a system without large pages goes on without them.
 #[cfg(target_os = "linux")]
 pub(crate) fn prefer_large(start: *mut c_void, bytes: usize) {

@@ -19,7 +19,8 @@ use std::ops::Range;
 /// Number of columns of a strip; the last strip of a panel may have fewer.
 const STRIP: usize = 4;
 
-/// Number of rows of a tile, a cache line; the last tile of a strip may have fewer.
+/// Number of rows of a tile, of which a column fills a cache line; the last tile of a strip may
+/// have fewer.
 const TILE: usize = 8;
 
 /// Number of partial sums of one dot product.

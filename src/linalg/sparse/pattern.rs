@@ -47,8 +47,9 @@ impl<'a> Pattern<'a> {
         &self.rows[self.columns[j] as usize..self.columns[j + 1] as usize]
     }
 
-    /// Extracts the block of the rows and columns for which `is_in` holds: the number of each
-    /// column in the block (-1 outside), the column pointers and the rows of the block.
+    /// Extracts the block of the rows and columns for which `is_in` is true. Returns the number
+    /// that each column has in the block (-1 if it is not in the block), the column pointers and
+    /// the rows of the block.
     pub(crate) fn block(&self, is_in: impl Fn(usize) -> bool) -> (Vec<i64>, Vec<i64>, Vec<i64>) {
         let mut local = vec![-1i64; self.n()];
         let mut next = 0;

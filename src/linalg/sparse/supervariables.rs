@@ -51,8 +51,9 @@ impl Supervariables {
         }
     }
 
-    /// Makes known supervariables, given the first freedom of each and the number of freedoms,
-    /// their groups, and the coupled ones, in any order.
+    /// Makes supervariables that are known already. `first` holds the first freedom of each,
+    /// followed by the number of freedoms; `member` holds their groups; `coupled` holds the coupled
+    /// pairs, in any order.
     #[cfg(feature = "mumps")]
     pub(crate) fn known(first: Vec<usize>, member: Vec<u8>, coupled: &[[i32; 2]]) -> Self {
         let n = member.len();
@@ -130,8 +131,8 @@ impl Supervariables {
     }
 }
 
-/// For each freedom, whether it has the group and the neighbours of the one before, and is coupled
-/// with it.
+/// For each freedom, whether it has the group and the neighbours of the previous freedom and is
+/// coupled with it.
 fn continued(matrix: &Pattern, groups: &Groups) -> Vec<bool> {
     let n = matrix.n();
     // Above the diagonal: the column holds the rows of the previous column, and the diagonal.

@@ -435,7 +435,8 @@ fn kernels_of_every_width_do_what_they_say() {
     }
 }
 
-/// Number of widths tried by the test of the kernels: all remainders of four, more than two lanes.
+/// Largest panel width in the test of the kernels: all remainders modulo four occur, with several
+/// strips.
 const PANEL: usize = 19;
 
 /// For any graph an ordering lists each freedom once and the groups one after the other.

@@ -195,7 +195,8 @@ impl TrailingFactor {
                 own_rows.extend(self.rows[p.rows.clone()].iter().map(|&row| {
                     match columns.contains(&(row as usize)) {
                         true => row - first as u32,
-                        // Rows of a descendant outside the subtree are also rows of the root.
+                        // A row outside the subtree that a panel of the subtree has is also a row
+                        // of the root.
                         false => (columns.len() + outer.partition_point(|o| *o < row)) as u32,
                     }
                 }));
@@ -235,7 +236,8 @@ impl TrailingFactor {
         range: Range<usize>,
     ) {
         let mut j = range.start;
-        // Rows (factor numbering, from a column's diagonal down) that end with `self.rows[listed]`.
+        // Rows below the previous panel, in factor numbering; `self.rows[listed]` lists them in the
+        // numbering of the kept columns.
         let mut previous: &[i64] = &[];
         let mut listed = 0..0;
         while j < range.end {

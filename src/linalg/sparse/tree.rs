@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-/// Largest fraction of all work that a subtree may have: with 16 pieces two to eight threads are
-/// kept busy, whatever the distribution.
+/// Largest fraction of all work that a subtree may have: 16 pieces keep two to eight threads busy,
+/// however the work is distributed over the tree.
 const LARGEST_SHARE: f64 = 1.0 / 16.0;
 /// Work (nonzeros) below which a subtree is not worth giving to a thread.
 const SMALLEST: u64 = 20_000;

@@ -129,8 +129,8 @@ impl Triangular {
         }
     }
 
-    /// Solves `L^T x = y` in place: on entry `x` holds `y`, except that it holds the solution where
-    /// `known`. All rows of a known column are known. `above` is workspace of the same length.
+    /// Solves `L^T x = y` in place: on entry `x` holds the solution in `known` columns, and `y` in
+    /// all others. All rows of a known column are known. `above` is workspace of the length of `x`.
     pub(crate) fn backward(
         &self,
         columns: &FactorColumns,
@@ -245,8 +245,8 @@ fn eliminate(
     }
 }
 
-/// Dot product that reads from the end, the sequence in which columns are taken: memory delivers
-/// one stream.
+/// Dot product that reads from the end. The columns are also taken from the last to the first, so
+/// the memory is read in one stream.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let (a_lanes, b_lanes) = (a.rchunks_exact(LANES), b.rchunks_exact(LANES));

@@ -185,8 +185,8 @@ fn the_end_of_a_path_moves_smoothly() {
                 .map(|pair| distance(&pair[0], &pair[1]))
                 .collect();
             let largest = steps.iter().fold(0.0f64, |m, s| m.max(*s));
-            // The change is E times the change of strain; the path's error, 1e-3, makes it jump
-            // nowhere.
+            // The stress changes by about E times the change of the strain. The error of the path,
+            // 1e-3, causes no jump.
             assert!(largest < 1e-5, "{steps:?}");
         }
     }
@@ -221,8 +221,9 @@ fn the_stress_does_not_jump_where_flow_begins_to_turn() {
     }
 }
 
-/// Mean errors, relative to the elastic stiffness, of the path's tangent against differences of its
-/// end, and of the one-step tangent. Paths go on in the former direction except for a random part.
+/// Mean errors, relative to the elastic stiffness, of the path's tangent and of the one-step
+/// tangent, both compared with central differences of the stress at the end of the path. Paths go
+/// on in the former direction except for a random part.
 fn tangent_errors(size: f64, randomness: f64) -> [f64; 2] {
     let (mut seed, mut errors, mut count) = (7, [0.0; 2], 0.0);
     for curve in curves() {

@@ -1,7 +1,7 @@
 //! Structured bodies in space, made of `nx x ny x nz` hexahedral cells.
 //!
 //! Points are addressed by half steps, as in the plane (`grid`): three even indices address a
-//! corner, one odd index among them the middle of an edge.
+//! corner, and two even indices with an odd one address the middle of an edge.
 
 use crate::mesh::{Facet, Mesh, Shape, Surface};
 use crate::{Error, Result};
@@ -139,8 +139,8 @@ impl Brick {
         self.nodes[self.index(at)] as usize
     }
 
-    /// Names a part of a side: the cells within `ranges`, along the other two axes in ascending
-    /// order, that `takes` accepts.
+    /// Names a part of a side as a surface: the cells within `ranges` that `takes` accepts. The
+    /// ranges are given along the two axes in the side, in ascending order of the axes.
     pub(super) fn surface(
         &self,
         mesh: &mut Mesh,

@@ -31,10 +31,12 @@ pub struct EllipseSize {
 ///
 /// Before loading, the upper surface is at the height `z = x^2/(2 R_x) + y^2/(2 R_y)` above the
 /// lower surface, which is flat: only the sum of the two bodies' curvatures matters. Beyond the
-/// candidates the upper surface levels off. Elements have an even size of the half axis over
-/// `resolution` out to `fine_width` half axes, and down to `fine_depth` of the smaller half axis.
-/// If the contact may reach further, elements grow by `1 + 1/resolution` up to its reach, and from
-/// there on by `growth`. Both surfaces have nodes at the same x and y.
+/// candidates the upper surface levels off. Elements have a uniform size out to `fine_width` half
+/// axes, and down to `fine_depth` times the smaller half axis. Their size in depth is the smaller
+/// half axis divided by `resolution`; along x and y it is the half axis divided by `resolution`,
+/// but at most four times the size in depth. If the contact may reach further, elements grow by
+/// `1 + 1/resolution` up to its reach, and from there on by `growth`. Both surfaces have nodes at
+/// the same x and y.
 ///
 /// # Errors
 /// `Input`, naming the key, its value and what to give instead.
@@ -101,8 +103,9 @@ fn check_parameters(p: &CurvedBodies, semi_axes: [f64; 2]) -> Result<()> {
     limits::at_least(&key("resolution"), p.resolution, 1)
 }
 
-/// Size of the even elements along x, y or the depth, their number, and the place that the contact
-/// may reach.
+/// Size of the even elements along x, y or the depth (`d` = 0, 1 or 2), their number, and the
+/// distance from the first contact to which elements stay small because the contact may reach so
+/// far.
 fn plan_of_line(p: &CurvedBodies, contact: EllipseSize, d: usize) -> (f64, f64, f64) {
     let EllipseSize { semi_axes, reach } = contact;
     let small = semi_axes[0].min(semi_axes[1]);

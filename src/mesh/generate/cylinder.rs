@@ -11,8 +11,8 @@ const KEY: &str = "mesh.cylinder_on_half_plane";
 /// Largest ratio of the candidates' reach to the radius: further out the circle is nearly vertical.
 pub const WIDEST: f64 = 0.9;
 /// Default size of each body in half widths b, for a cylinder and a ball. A size W changes the
-/// stress under a cylinder by order b/W; under a ball the stress by order (b/W)^2, the approach by
-/// b/W.
+/// stress under a cylinder by order b/W. Under a ball it changes the stress by order (b/W)^2 and
+/// the approach by order b/W.
 pub(super) const PLANE_FAR_SIZE: f64 = 20_000.0;
 pub(super) const ROUND_FAR_SIZE: f64 = 2_000.0;
 

@@ -1,9 +1,9 @@
 //! Families of meshes: the same source with larger or smaller elements.
 //!
 //! Within a family every element size is multiplied by one ratio, even where elements grow with the
-//! distance. Only then does the error of a value follow one power of the element size and can be
-//! extrapolated. A growth `g` from element to element becomes `g^ratio`. A bias `B` of `n`
-//! elements, which is a growth of `B^(1/(n-1))`, becomes the bias of `m` elements with the same
+//! distance. Only then does the error of a value follow a single power of the element size, so that
+//! it can be extrapolated. A growth `g` from element to element becomes `g^ratio`. A bias `B` of
+//! `n` elements, which is a growth of `B^(1/(n-1))`, becomes the bias of `m` elements with the same
 //! sizes along the line, `B^(n (m-1) / (m (n-1)))`. The parts of a mesh are scaled together, so
 //! surfaces that face each other node by node continue to do so. The members of a mesh from a file
 //! are its subdivisions.
@@ -24,8 +24,8 @@ const NEAR: f64 = 1.2;
 const MOST_GROWTH: f64 = 100.0;
 /// Distance, in elements, up to which the end of a piece and a node count as coinciding.
 const ON_NODE: f64 = 1e-6;
-/// Largest step of which element counts are made multiples; only the scene's own count may be
-/// larger.
+/// Largest step to whose multiples an element count is rounded. If no step below it fits, the step
+/// is the count of the scene itself.
 const LARGEST_STEP: usize = 1000;
 /// Largest number of elements along a line of a member: more than any machine can hold.
 const MOST_ELEMENTS: f64 = 1e9;

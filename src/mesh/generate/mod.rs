@@ -1,4 +1,5 @@
-//! Mesh generators for the few lines of a scene: structured, graded, exact on circles.
+//! Mesh generators that a scene calls in a few lines. Their meshes are structured, graded and exact
+//! on circles.
 //!
 //! Every generator builds its bodies from structured patches (`grid`), so all four plane element
 //! shapes are made from one set of corner and mid-side positions. Mid-side nodes lie on their grid

@@ -61,7 +61,7 @@ impl Raceways {
     /// of each body.
     ///
     /// # Errors
-    /// `Input` if the radii do not go together, or if elements are too small to be told apart.
+    /// `Input` if the radii contradict each other, or if elements are too small to be told apart.
     pub fn mesh(&self, shape: Shape) -> Result<Mesh> {
         let wrong = |text: &str| Err(Error::input(format!("{KEY}: {text}")));
         if self.outer <= self.roller {
@@ -185,7 +185,7 @@ impl Raceways {
         angles.extend(&even(KEY, from, end, more as usize)?[1..]);
         let depths = self.graded(DEPTH * self.reach, self.thickness)?;
         let last = depths.len() - 1;
-        // The second index runs upwards, so away from the centre.
+        // The second index increases with the distance from the raceway's centre, for both rings.
         let depth = |j: usize| match ring.out > 0.0 {
             true => depths[j],
             false => -depths[last - j],

@@ -303,9 +303,9 @@ fn add_surfaces(content: &Content, cursor: &Cursor, kept: &[u32], mesh: &mut Mes
     Ok(())
 }
 
-/// Chooses among facets with the same corners. Preferred is the facet of the body whose name begins
-/// the surface's name; otherwise the facet of the element to the left of a line, or of the element
-/// from which a face points outward.
+/// Chooses among facets with the same corners. The facet of the body whose name begins the
+/// surface's name is preferred. Otherwise the facet of the element to the left of a line, or of the
+/// element from which a face points outward, is taken.
 fn choose(mesh: &Mesh, facets: &[Facet], corners: &[u32], name: &str) -> Option<Facet> {
     if facets.len() < 2 {
         return facets.first().copied();

@@ -162,7 +162,7 @@ enum Version {
     V4,
 }
 
-/// Whether the text begins a Gmsh file: only a comment may precede the format.
+/// Whether the text is the beginning of a Gmsh file: only a comment may precede the format.
 fn is_beginning(text: &[u8]) -> bool {
     text.starts_with(b"$MeshFormat") || text.starts_with(b"$Comments")
 }

@@ -185,8 +185,8 @@ impl ModelBuilder {
         self.keep_surface(name, out)
     }
 
-    /// Adds a named surface by its nodes, mid-side nodes included: it consists of the boundary
-    /// facets whose nodes are all among them.
+    /// Adds a named surface by its nodes, mid-side nodes included. The surface consists of all
+    /// boundary facets that have no other nodes than the given ones.
     ///
     /// # Errors
     /// A node that belongs to no such facet, an index of no node, a name that is already taken.

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 pub(super) struct Beside {
     /// Facets of the surfaces of all contacts and ties.
     pub(super) facets: BTreeSet<Facet>,
-    /// Nodes of pairs and of ties, and nodes whose supports bear the contact force.
+    /// Nodes of pairs and of ties, and nodes at which supports bear the contact force.
     pub(super) nodes: BTreeSet<usize>,
 }
 

@@ -94,7 +94,8 @@ fn turn(mesh: &Mesh, surface: &Surface, pairs: &[Pair]) -> Option<f64> {
     closed.then(|| last.arc - first.arc + length(way))
 }
 
-/// Removes the pair on the axis that can carry no force from the pairs from `start` on.
+/// Removes the pair on the axis of revolution if this pair can carry no force. Only the first and
+/// the last of the pairs from number `start` on are considered.
 fn take_axis_pair(
     entries: &ContactInput,
     pairs: &mut Vec<Pair>,

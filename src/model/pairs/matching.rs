@@ -35,7 +35,8 @@ fn faced(
     slaves.iter().zip(normals).map(partner).collect()
 }
 
-/// Refuses pairs of a node with itself, and pairs that overlap though the contact does not say so.
+/// Refuses pairs of a node with itself, and pairs that overlap although the contact does not allow
+/// for an overlap.
 fn check(mesh: &Mesh, contact: &Contact, pairs: &[Pair], facet_length: f64) -> Result<()> {
     let may_overlap = contact.overlap || contact.gap.is_some();
     for pair in pairs {
@@ -134,7 +135,7 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
 }
 
 /// The pair of a slave node and the master node that it faces, with the area of the slave and its
-/// place along the surface.
+/// arc length along the surface.
 fn pair_of(
     entries: &ContactInput,
     [slave, faced]: [usize; 2],

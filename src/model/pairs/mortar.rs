@@ -107,7 +107,8 @@ pub(super) fn pairs(entries: &ContactInput, notes: &mut Vec<String>) -> Result<F
 /// Finds the rows of two tied surfaces, and the slaves that stay free.
 ///
 /// # Errors
-/// Errors of [`pairs`], except that surfaces may overlap, by `distance` at most.
+/// Errors of [`pairs`], except that surfaces may overlap; nodes whose gap or overlap is larger than
+/// `distance`, or than a fraction of a facet by default.
 pub(super) fn tied(entries: &ContactInput, distance: Option<f64>) -> Result<(Found, Vec<usize>)> {
     let found = coupled(entries, entries.contact.slave)?;
     found.sides.check_apart(&found.pairs)?;
@@ -248,9 +249,10 @@ const LONGER: f64 = 2.0;
 /// master's.
 const LONGER_KINKED: f64 = 1.0;
 
-/// Chooses the slave: the surface with the smaller facets where the two may face each other, the
-/// second if equal; but the surface with the larger facets if these are linear and longer by more
-/// than [`LONGER`], or [`LONGER_KINKED`].
+/// Chooses the slave: the surface with the smaller facets in the part where the two surfaces may
+/// face each other, or the second surface if the facets are equal. The surface with the larger
+/// facets is the slave instead if its facets are linear and longer by a factor of more than
+/// [`LONGER`] or [`LONGER_KINKED`].
 fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
     let faces = surfaces.map(|surface| -> Vec<MortarFace> {
         surface

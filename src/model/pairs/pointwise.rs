@@ -22,8 +22,9 @@ use std::collections::BTreeMap;
 
 /// Number of Newton steps to the nearest point of a facet; flat facets need one.
 const STEPS: usize = 20;
-/// Sine of the largest angle, 30 degrees, between the normal at the nearest point and the vector to
-/// it from a node that faces the surface: the node may stand over an edge between two facets.
+/// Sine of the largest angle (30 degrees) between the normal at the nearest point and the line from
+/// this point to the node at which the node still faces the surface. The angle is not zero if the
+/// node stands over an edge between two facets.
 const FACING: f64 = 0.5;
 /// Weight below which a master is dropped as round-off.
 const NOTHING: f64 = 1e-13;
@@ -44,7 +45,8 @@ struct NearestPoint {
 /// Finds the pairs of the chosen nodes.
 ///
 /// # Errors
-/// `Input` if no node faces the other surface, or if one lies behind it or on it as its own node.
+/// `Input` if no node faces the other surface, or if a node lies behind the other surface or
+/// belongs to both surfaces.
 pub(super) fn pairs(input: &ContactInput, only: &Only) -> Result<Found> {
     let mesh = input.mesh;
     let slave = match only.side {
@@ -146,8 +148,8 @@ fn ball(x: &[Vector]) -> (Vector, f64) {
     (center, 2.0 * radius.fold(0.0, f64::max))
 }
 
-/// Finds the nearest point of a facet by Newton's method without the curvature (Gauss and Newton),
-/// held within the facet.
+/// Finds the nearest point of a facet by the Gauss-Newton method (Newton's method without the
+/// curvature), with each step restricted to the facet.
 fn nearest(mesh: &Mesh, facet: Facet, nodes: &[Vector], x: Vector) -> NearestPoint {
     let reference = mesh.facet_reference(facet);
     let is_triangle = reference.n_corners == 3;

@@ -1,5 +1,5 @@
-//! Pairs of nodes that an earlier contact already has: on an edge that two contacts share, or if a
-//! contact is named both ways.
+//! Pairs of nodes that an earlier contact already has: on an edge that two contacts share, or if
+//! two contacts name the same surfaces in opposite order.
 
 use super::found::Found;
 use super::{Pair, held};

@@ -12,7 +12,7 @@ pub(in crate::model) struct ResolvedTie {
     /// Rows by which each slave node follows others; the area of a row is the integral of the dual
     /// function.
     pub rows: Vec<Pair>,
-    /// Rows of nodes that follow in an earlier tie, around a corner: their part of this tie is
-    /// handed on to their neighbours.
+    /// Rows of slave nodes that already follow others in an earlier tie, where the two ties meet at
+    /// a corner. These rows are added to the rows of the neighbouring slaves.
     pub elsewhere: Vec<Pair>,
 }

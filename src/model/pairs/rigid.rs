@@ -1,7 +1,8 @@
-//! Pairs of nodes with a rigid surface, whose exact gap and normal they take.
+//! Pairs of nodes with a rigid surface; gaps and normals are those of its exact form.
 //!
-//! The gap of a node is its distance from the surface, the normal is that at the closest point.
-//! Sliding is small: both keep their values when the bodies move.
+//! The gap of a node is its distance from the surface; the normal is the normal of the surface at
+//! the closest point. Sliding is assumed to be small, so the normal and the initial gap stay the
+//! same when the bodies move.
 
 use super::Pair;
 use super::contact_input::ContactInput;

@@ -12,8 +12,9 @@ use crate::scene::{Contact, Scene, Tie};
 use crate::space::dot;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Resolves the ties of a scene. A node of two ties has one row: the sum of both rows if the ties
-/// share a facet of the slave surface, but the row of the first tie around a corner.
+/// Resolves the ties of a scene. A node of two ties has one row: the sum of both rows if the slave
+/// surfaces form one smooth face at the node, or the row of the first tie if they meet there at a
+/// corner.
 ///
 /// # Errors
 /// Input errors: surfaces that do not exist or do not lie on one another, a surface tied to a

@@ -21,7 +21,8 @@ use crate::space::{Vector, difference, direction, dot, length};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Largest number of steps to the closest point; Newton's need a handful, others some dozens.
+/// Largest number of steps to the closest point. Newton steps need a handful, steps without the
+/// curvature some dozens.
 const STEPS: usize = 100;
 /// Largest number of halvings of a step that leads away.
 const HALVINGS: usize = 40;
@@ -44,7 +45,8 @@ pub(in crate::model) struct Heights {
 }
 
 impl Heights {
-    /// Reads a file of `x,y` (plane) or `x,y,z` in any order, below a line of names.
+    /// Reads a file with a line of column names and then one point per line, in any order: `x,y` in
+    /// plane models, `x,y,z` in solids.
     ///
     /// # Errors
     /// `Io`; `Input`, naming line or point: no number, a point with two heights or none, a grid of
@@ -68,8 +70,8 @@ impl Heights {
         let flat = self.up == 1;
         let scale = x.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let scale = self.values.iter().fold(scale, |most, h| most.max(h.abs()));
-        // The search starts on the grid; if a step at the border leads beyond it, nothing is
-        // closest.
+        // The search starts on the grid. If a step at the border leads beyond the grid, there is no
+        // closest point.
         let mut place = self.within([x[0], if flat { 0.0 } else { x[1] }]);
         for _ in 0..STEPS {
             let [h, of_u, of_v, uu, uv, vv] = self.at(place)?;

@@ -47,9 +47,9 @@ impl<'a> NodeVectors<'a> {
         })
     }
 
-    /// Returns the vector of the node with a label; for a node of the mesh it is multiplied by a
-    /// factor. Other nodes have the components `along_own` their axes, or zero if no equation has
-    /// the node.
+    /// Returns the vector of the node with the given label. For a node of the mesh, this is its
+    /// part of `values` times `factor`. For another node, `along_own` gives the component along
+    /// each of its axes; the vector is zero if no equation contains the node.
     fn of_label(
         &self,
         label: u64,

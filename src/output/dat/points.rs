@@ -1,7 +1,8 @@
 //! The order in which CalculiX lists the integration points of an element.
 //!
 //! Elements of the plane are solids of one layer in CalculiX, so their points repeat over the
-//! thickness. Points of full integration are in the order of CalculiX from the first point on.
+//! thickness. Only the rules with two points in each direction and the six points of a linear prism
+//! differ from the order of CalculiX.
 
 use crate::mesh::Shape;
 #[cfg(test)]
@@ -10,7 +11,8 @@ use crate::shape::Integration;
 /// Indices of points whose mean is listed as one point.
 pub(super) type Mean = &'static [usize];
 
-/// Returns the points of an element in the order of CalculiX; the shape has `n_points` points here.
+/// Returns the points of an element in the order of CalculiX. `n_points` is the number of
+/// integration points that the element has in brinell.
 pub(super) fn order(shape: Shape, n_points: usize) -> Vec<Mean> {
     // The first coordinate varies fastest, then the second, then the third.
     const SQUARE: [Mean; 4] = [&[0], &[1], &[3], &[2]];

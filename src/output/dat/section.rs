@@ -14,15 +14,16 @@ use std::io::{self, Write};
 const HALF_SLICE: f64 = std::f64::consts::PI / 180.0;
 
 impl Tables<'_> {
-    /// Writes force and moment about the origin of the stresses on a surface, the force along the
-    /// outward normal, and the surface's centre of gravity, mean normal and area.
+    /// Writes the resultant of the stresses on a surface: the force, the moment about the origin
+    /// and about the centre of gravity, and the parts of force and moment along and across the mean
+    /// normal. Also writes the centre of gravity, mean normal and area of the surface.
     ///
     /// The integrals are computed as in CalculiX: the stresses at nodes (extrapolated from the
     /// integration points of each element, then averaged over the elements) are interpolated over
-    /// each face and integrated by the rule of the element. They are in equilibrium with the loads
-    /// only as far as the mesh resolves the stresses, whereas the forces at nodes are exactly in
-    /// equilibrium. In a plane model the whole thickness counts, in an axisymmetric one a slice of
-    /// 2 degrees with z along the hoop direction.
+    /// each face and integrated by the rule of the element. These integrals are in equilibrium with
+    /// the loads only as far as the mesh resolves the stresses, whereas the forces at nodes are
+    /// exactly in equilibrium. In a plane model the whole thickness counts, in an axisymmetric one
+    /// a slice of 2 degrees with z along the hoop direction.
     pub(super) fn section(
         &self,
         out: &mut impl Write,

@@ -15,7 +15,7 @@ use std::io::{self, Write};
 /// Fraction of the circle that CalculiX computes of an axisymmetric model: 2 degrees.
 const SLICE: f64 = 1.0 / 180.0;
 
-/// Writes tables of a model.
+/// Writer of the tables of a model.
 pub(super) struct Tables<'a> {
     pub(super) model: &'a Model,
     pub(super) slaves: Slaves<'a>,
@@ -26,8 +26,8 @@ pub(super) struct Tables<'a> {
 }
 
 impl<'a> Tables<'a> {
-    /// Tables with forces on the whole circle of an axisymmetric model, or on the slice of 2
-    /// degrees that CalculiX computes.
+    /// Makes a writer. In an axisymmetric model, forces act on the slice of 2 degrees that CalculiX
+    /// computes if `is_slice`, otherwise on the whole circle.
     pub(super) fn new(model: &'a Model, is_slice: bool) -> Self {
         let mesh = &model.mesh;
         let thickness = model.scene.requests.thickness.unwrap_or(1.0);
@@ -90,7 +90,7 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// Returns the indices of the elements of a set.
+    /// Returns label and index of each element of a set.
     fn elements(&self, print: &Print) -> impl Iterator<Item = (u64, usize)> {
         let labels = print.set.labels.iter();
         labels.filter_map(|&label| Some((label, self.elements.get(label)? as usize)))
@@ -131,7 +131,7 @@ impl<'a> Tables<'a> {
         })
     }
 
-    /// Writes gap and pressure of the pairs that press.
+    /// Writes gap and pressure of the pairs with a positive pressure.
     fn of_contact(&self, out: &mut impl Write, state: &State, time: f64) -> io::Result<()> {
         let (time, slaves) = (fortran(time), &self.slaves);
         for (what, normal) in [

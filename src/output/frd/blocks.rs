@@ -9,7 +9,7 @@ use crate::results::{Fields, State};
 use crate::scene::{FileRequest, ResultItem};
 use std::io::{self, Write};
 
-/// Values at the nodes of a state.
+/// Values at the nodes in one state.
 pub(super) struct NodalValues<'a> {
     model: &'a Model,
     state: &'a State,

@@ -6,9 +6,9 @@ use crate::shape::{Integration, NodalExtrapolation};
 
 /// Extrapolated values at the nodes, averaged over the elements of each node.
 pub(in crate::output) struct Extrapolated {
-    /// `n_nodes x n_components`.
+    /// Stress, `n_nodes x n_components`.
     pub(in crate::output) stress: Vec<f64>,
-    /// `n_nodes x n_components`.
+    /// Strain, `n_nodes x n_components`.
     pub(in crate::output) strain: Vec<f64>,
     /// Equivalent plastic strain, `n_nodes`.
     pub(in crate::output) plastic_strain: Vec<f64>,

@@ -1,18 +1,18 @@
 //! Results in the `.frd` format of CalculiX, as text: the mesh, and values at the nodes state by
 //! state.
 //!
-//! [`crate::scene::Requests`] says which states and values are written. The mesh is written with
-//! the numbers of the deck, in ascending order. Each state of a scene is a separate step whose time
-//! is the load factor.
+//! [`crate::scene::Requests`] lists the states and values that are written. The mesh is written
+//! with the numbers of the deck, in ascending order. Each state of a scene is a separate step whose
+//! time is the load factor.
 //!
 //! | block | values at a node |
 //! |---|---|
 //! | `DISP` | displacements |
-//! | `STRESS`, `TOSTRAIN`, `PE` | mean over the elements of a node of what the integration points of each give there ([`crate::shape::NodalExtrapolation`]) |
+//! | `STRESS`, `TOSTRAIN`, `PE` | values extrapolated from the integration points of each element ([`crate::shape::NodalExtrapolation`]), averaged over the elements of the node |
 //! | `FORC` | forces that act from outside: loads and reactions |
 //! | `CONTACT` | at slave nodes gap (negative where surfaces overlap) and pressure, compressive positive |
 //! | `ZZSTR` | stresses of the polynomials fitted around a node ([`crate::results::Fields::nodal_stress`]) |
-//! | `ERROR` | by how much the stresses of the elements of a node jump, in percent of the largest von Mises stress; CalculiX has another measure |
+//! | `ERROR` | jump of the stresses between the elements of the node, in percent of the largest von Mises stress; CalculiX defines this measure differently |
 //!
 //! Strains are those of the tensor: shear strains are half the engineering strains. The axes of an
 //! axisymmetric model are r, z and the hoop direction.

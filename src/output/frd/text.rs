@@ -14,8 +14,8 @@ pub(super) fn number(value: f64, out: &mut String) {
     out.push_str(&format!("{written:>12}"));
 }
 
-/// Formats a time in eleven columns: with ten digits from 1 on, below 1 with six digits and an
-/// exponent.
+/// Formats a time in at most eleven characters: from 1 to below 1e9 with ten digits, otherwise with
+/// six digits and an exponent.
 pub(super) fn time(value: f64) -> String {
     let before_point = value.max(1.0).log10().floor() as usize;
     if value >= 1.0 && before_point < 9 {

@@ -116,8 +116,8 @@ pub(super) fn pressure_profiles(
             curve(&state.name, i, pen, points)
         })
         .collect();
-    // Stretches on which no pair presses in any state are left out, except for one point on each
-    // side.
+    // The chart shows the range in which pairs press in any state, with a margin on either side;
+    // the rest is left out.
     let pressed: Vec<f64> = curves
         .iter()
         .flat_map(|c| &c.points)

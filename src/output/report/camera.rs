@@ -10,7 +10,8 @@ pub(super) const DISTANCE: f64 = 5.0;
 /// Direction of the eye: degrees round from the first axis, and degrees up.
 const ROUND: f64 = 36.0;
 const UP: f64 = 24.0;
-/// Fraction of the lower body's height by which a body that lies on it may reach down into it.
+/// Overlap in height up to which a body counts as lying on another one, as a fraction of the
+/// smaller height of the two.
 const OVERLAP: f64 = 0.1;
 
 /// A viewpoint with the axes of the picture.
@@ -22,8 +23,8 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// Looks at `center` from `distance`, with `up` upwards, from a direction between the two axes
-    /// `across`.
+    /// Makes a camera that looks at `center` from `distance`, with `up` upwards, from a direction
+    /// between the two axes `across`.
     pub(super) fn new(center: Vector, distance: f64, up: Vector, across: [Vector; 2]) -> Self {
         let [round, high] = [ROUND, UP].map(f64::to_radians);
         let level = along(across[0].map(|x| x * round.cos()), round.sin(), across[1]);
@@ -35,7 +36,8 @@ impl Camera {
         }
     }
 
-    /// Projects a point: right and up over the distance along the line of sight, and that distance.
+    /// Projects a point. Returns its offsets to the right and up, divided by its distance along the
+    /// line of sight, and that distance.
     pub(super) fn project(&self, x: Vector) -> ([f64; 2], f64) {
         let way = difference(x, self.eye);
         let depth = -dot(way, self.axes[2]);

@@ -178,7 +178,8 @@ fn told(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     out
 }
 
-/// Returns the strokes beside a curve's name in the legend, from and to.
+/// Returns the strokes beside a curve's name in the legend, each as its start and its end in
+/// pixels.
 fn strokes(pen: Pen) -> [[f64; 2]; 2] {
     match pen {
         Pen::Line | Pen::Dotted => [[0.0, 24.0], [24.0, 24.0]],

@@ -22,7 +22,7 @@ pub(super) struct ContactFrame {
     pub reach: [f64; 2],
 }
 
-/// Relative difference of the half axes from which on their directions are meaningful.
+/// Relative difference of the half axes above which their directions are meaningful.
 const ROUND: f64 = 0.05;
 /// Ratio of length to width that is assumed for a patch without end.
 const ENDLESS: f64 = 2.0;
@@ -99,8 +99,8 @@ pub(super) fn global(axis: Vector) -> Option<usize> {
     (0..3).find(|&d| dot(axis, unit(d)).abs() > 1.0 - 1e-9)
 }
 
-/// Returns the direction or its opposite, whichever has a positive largest component, rounded to an
-/// axis if along one.
+/// Returns the direction or its opposite, whichever has a positive largest component, rounded to a
+/// coordinate axis if it points along one.
 fn positive(axis: Vector) -> Vector {
     if let Some(d) = global(axis) {
         return unit(d);

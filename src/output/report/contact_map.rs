@@ -16,7 +16,7 @@ use crate::output::Labels;
 use crate::results::{ContactPatch, State};
 use crate::space::{Vector, along, cross, dot};
 
-/// Extent of the map, in half axes of the largest patch of all states.
+/// Half width and half height of the map, in half axes of the largest patch of all states.
 const REACH: f64 = 1.3;
 /// Number of straight segments in a patch's outline.
 const PIECES: usize = 180;
@@ -64,7 +64,7 @@ impl<'m> ContactMap<'m> {
             mirror,
             negligible(model),
         );
-        // The window ends with the pairs.
+        // The window does not extend beyond the pairs.
         let all = Window::round(patchwork.places(&model.mesh, None).into_iter())?;
         let center = frame.axes.map(|axis| dot(axis, frame.center));
         let mut window = all;

@@ -181,7 +181,7 @@ fn against_load(
     })
 }
 
-/// Draws the dent over the load at which it was made.
+/// Draws the depth of the dent over the load that made it.
 fn residual_depth(results: &Results, labels: &Labels) -> Option<Titled> {
     let deepest = results
         .states

@@ -101,8 +101,8 @@ impl Drawing {
     }
 }
 
-/// Removes from the library's text what it repeats: the font, which is set for the whole drawing,
-/// full opacity, empty lines.
+/// Removes from the library's text the font, which is set for the whole drawing, and attributes
+/// with their default values.
 fn compact(text: &str) -> String {
     text.replace(&font(), "")
         .replace(" opacity=\"1\"", "")

@@ -48,7 +48,7 @@ pub(super) fn draw(mesh: &Mesh, view: &View, fields: &Fields) -> Result<Option<(
     Ok(Some((picture.finish(labels, None, |_| Ok(()))?, times)))
 }
 
-/// Returns the magnification, a round number.
+/// Returns the magnification, a round number; `None` if it is below [`LEAST`] or nothing moves.
 fn magnification(largest: f64, width: f64) -> Option<f64> {
     let most = SHARE * width / largest;
     // The next nice number above half of `most` is at most `most`.

@@ -5,12 +5,16 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `page`, `tables`, `trust` | the page |
-//! | `curves`, `along_contact`, `chart` | charts: which, and how they are drawn |
-//! | `profile`, `hertz` | stresses below the contact; Hertz's pressure compared with the computed one |
-//! | `scenery`, `sketch`, `perspective`, `camera`, `outer` | the scene drawn: plane, solid; what bounds bodies |
-//! | `states`, `fields`, `magnified`, `contact_map` | pictures of states: fields, deformed contours; pressure over a contact of solids |
-//! | `patchwork`, `section`, `contact_frame`, `window` | a mesh as triangles of a plane, cuts through solids, where; what is shown |
+//! | `page`, `tables`, `cycles`, `trust`, `load_factor` | the page: sections, tables, words |
+//! | `figure`, `captioned`, `titled`, `film` | figures with captions; films of the states |
+//! | `curves`, `along_contact`, `followed`, `chart` | charts: which, and how they are drawn |
+//! | `profile` | chart of the stresses below the contact |
+//! | `scenery`, `sketch`, `perspective`, `camera` | drawings of the scene: plane, solid |
+//! | `outer` | boundary of the bodies |
+//! | `states`, `fields`, `magnified` | pictures of states: fields, deformed contours |
+//! | `contact_map` | pressure over a contact of solids |
+//! | `patchwork`, `section` | a mesh as triangles of a plane; cuts through solids |
+//! | `contact_frame`, `window` | where solids are cut; the part of a plane that is shown |
 //! | `contours`, `path` | lines of equal value over triangles; lines as SVG |
 //! | `picture`, `bands` | areas and lines under axes; scales of colours |
 //! | `drawing`, `theme` | SVG text, colours for light and dark |

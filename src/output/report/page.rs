@@ -1,4 +1,4 @@
-//! The page: its sections are in the order in which a reader asks.
+//! The page, with its sections in the order in which a reader needs them.
 
 use super::cycles;
 use super::figure::{Figure, figures};

@@ -7,8 +7,8 @@ use crate::mesh::{Facet, Mesh};
 use crate::space::{Vector, along, dot, unit};
 use std::collections::BTreeMap;
 
-/// Sources of a point, which is their weighted mean: nodes, and elements numbered after the nodes,
-/// each with its weight.
+/// Sources of a point: nodes, and elements numbered after the nodes, each with its weight. The
+/// point is the weighted mean of its sources.
 pub(super) type Mix = Vec<(usize, f64)>;
 
 /// A point of a patchwork.
@@ -184,7 +184,7 @@ impl Patchwork {
         out
     }
 
-    /// Returns values of nodes at the points; only points that are nodes have them.
+    /// Returns values at the points from values at nodes. No point may have an element as a source.
     pub(super) fn of_nodes(&self, value: impl Fn(usize) -> f64) -> Vec<f64> {
         let mixed = |point: &PatchworkPoint| {
             point

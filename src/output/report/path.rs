@@ -104,8 +104,8 @@ fn inside(line: &[Spot], within: Window) -> Vec<Vec<Spot>> {
             let way = to[d] - from[d];
             let bounds = [within.low[d] - from[d], within.high[d] - from[d]];
             if way == 0.0 || !way.is_finite() {
-                // The stretch is parallel to the bound: it is entirely inside or outside; a value
-                // that is not a number is outside.
+                // The segment is parallel to the bounds, so it lies entirely inside or outside; a
+                // value that is not a number is outside.
                 if bounds[0] > 0.0 || bounds[1] < 0.0 || !way.is_finite() {
                     shares = [1.0, 0.0];
                 }
@@ -162,7 +162,7 @@ fn simplified(line: &[Spot]) -> Vec<Spot> {
     kept.map(|(point, _)| *point).collect()
 }
 
-/// Returns the distance of a point from the stretch between two others.
+/// Returns the distance of a point from the segment between two others.
 fn distance(p: Spot, a: Spot, b: Spot) -> f64 {
     let way = [b[0] - a[0], b[1] - a[1]];
     let square = way[0] * way[0] + way[1] * way[1];

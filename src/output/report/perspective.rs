@@ -53,7 +53,7 @@ struct FaceGroup<'f> {
     body: usize,
     is_contact: bool,
     shade: u8,
-    /// Mean distance of the faces from the eye.
+    /// Mean distance of the faces from the eye, along the line of sight.
     depth: f64,
     faces: Vec<&'f SeenFace>,
 }
@@ -78,7 +78,7 @@ pub(super) struct Perspective<'m> {
 }
 
 impl<'m> Perspective<'m> {
-    /// Shows the elements for whose middle `is_shown` is true.
+    /// Makes a view of the elements for whose middle `is_shown` is true; `None` if there are none.
     pub(super) fn new(
         model: &'m Model,
         stand: &Stand,
@@ -214,8 +214,8 @@ impl<'m> Perspective<'m> {
         }
     }
 
-    /// Returns the drawing, with the sides of the faces that are large enough if they are asked
-    /// for, and the share of the visible area whose sides are drawn.
+    /// Returns the drawing, and the share of the visible area in which the sides of faces are
+    /// drawn. These are drawn only if `meshed`, for the faces that are large enough.
     ///
     /// # Errors
     /// `Internal` if it cannot be drawn.
@@ -283,7 +283,8 @@ impl<'m> Perspective<'m> {
         large
     }
 
-    /// Returns the faces as paths.
+    /// Returns the faces as SVG paths, and the share of the visible area in which their sides are
+    /// drawn.
     fn painted(&self, meshed: bool) -> (String, f64) {
         let fine = f64::from(FINE);
         let mut out = format!(

@@ -131,8 +131,9 @@ fn below_patch(model: &Model, frame: &ContactFrame, reach: f64) -> Option<Below>
     Some((frame.contact, [from, way], patchwork))
 }
 
-/// Returns the plane round the middle of the closed pairs in the contact that carries the largest
-/// force; if a plane of symmetry cuts the contact, the middle lies on it.
+/// Returns the contact that carries the largest force, the line along the normal at the middle of
+/// its closed pairs, and the elements round that place. If a plane of symmetry cuts the contact,
+/// the middle lies on that plane.
 fn below_line(model: &Model, state: &State, reach: f64) -> Option<Below> {
     let force = |contact: usize| -> f64 {
         let pairs = state.pairs.iter().filter(|p| p.contact == contact);

@@ -15,10 +15,10 @@ use crate::space::{Vector, difference, dot, unit};
 
 /// Smallest share of the area with visible elements for which the mesh gets a drawing.
 const LEAST_MESH: f64 = 0.2;
-/// Width of the surroundings of the contact over the width of the model from which on the
+/// Ratio of the width of the surroundings of the contact to the width of the model from which the
 /// surroundings get no separate drawing.
 const MOST_NEAR: f64 = 0.6;
-/// Extent of the surroundings of a contact of solids, in half axes of the contact.
+/// Half width of the surroundings of a contact of solids, in half axes of the contact.
 const REACH: f64 = 2.6;
 
 /// A function that draws one view without or with the mesh, and returns the share of its area whose

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 pub(super) struct SectionPlane {
     /// A point of the plane.
     pub origin: Vector,
-    /// Axes of the plane; their product points out of the drawing.
+    /// Axes of the plane; their cross product points out of the drawing.
     pub axes: [Vector; 2],
 }
 
@@ -92,8 +92,9 @@ struct CutPieces<'m> {
 type Corner = (usize, Mix, f64);
 
 impl CutPieces<'_> {
-    /// Adds the cut through an element, as that through tetrahedra between the sides of its faces,
-    /// the middles of the faces and its own middle. Elements of any shape then fit together.
+    /// Adds the cut through an element as cuts through tetrahedra. Each tetrahedron lies between a
+    /// side of a face, the middle of that face and the middle of the element. Elements of any shape
+    /// then fit together.
     fn element(&mut self, element: usize) {
         let (mesh, body) = (self.mesh, self.mesh.element_body[element]);
         let middle = mesh.n_nodes() + element;
@@ -205,8 +206,8 @@ mod tests {
     use crate::space::{along, direction, unit};
 
     /// A distorted block of two hexahedra, one of them also as prisms or tetrahedra. The areas of
-    /// cuts add up to its volume, whatever their direction: by the trapezoid rule over `n` cuts to
-    /// O(1/n^2).
+    /// cuts add up to its volume, whatever their direction: by the trapezoid rule over the cuts, up
+    /// to a piece at each end.
     #[test]
     fn the_areas_of_cuts_add_up_to_the_volume() {
         let mut mesh = Mesh {

@@ -44,7 +44,8 @@ const SMALLEST_SIDE: f64 = 4.0;
 const SIDE: RGBColor = RGBColor(0x6a, 0x74, 0x80);
 
 /// Draws the part of the scene in a window, undeformed; with `mesh` also the sides of the elements
-/// that are large enough to be visible. Returns the share of the area of these elements.
+/// that are large enough to be visible. Also returns the share of the visible area that these
+/// elements cover.
 ///
 /// # Errors
 /// `Internal` if it cannot be drawn.
@@ -81,7 +82,7 @@ pub(super) fn draw(
 }
 
 /// Returns the sides of elements that are large enough to be more than a grey area, and the share
-/// of the area of these elements.
+/// of the visible area that these elements cover.
 fn sides_seen(model: &Model, picture: &Picture, window: Window) -> (Vec<Vec<[f64; 2]>>, f64) {
     let mesh = &model.mesh;
     let pixel = {

@@ -339,7 +339,8 @@ pub(super) fn reference(results: &Results) -> Markup {
     table(&head, &rows)
 }
 
-/// Formats the excess of the computed value over the reference, if there is a ratio.
+/// Formats the excess of the computed value over the reference in per cent; `none` if the ratio is
+/// not finite.
 fn difference(ratio: f64) -> String {
     if ratio.is_finite() {
         format!("{:+.2} %", 100.0 * (ratio - 1.0))

@@ -13,7 +13,8 @@ pub(super) struct Window {
     pub high: [f64; 2],
 }
 
-/// Extent of a picture of the contact, in half widths of the pairs that are or were closed.
+/// Half width and half height of a picture of the contact, in half widths of the pairs that are or
+/// were closed.
 const REACH: [f64; 2] = [2.4, 2.0];
 /// Room round the content of a picture, as a fraction of its size.
 const ROOM: f64 = 0.03;
@@ -90,7 +91,7 @@ impl Window {
     }
 }
 
-/// Returns the axes along which the model is a half of the whole: mirrored at x = 0, y = 0, z = 0.
+/// Returns for each axis whether the model is a half of the whole, mirrored at coordinate 0.
 ///
 /// A support that only holds x, all of whose nodes lie on x = 0 with the model on one side, is a
 /// plane of symmetry; so is the axis of an axisymmetric model that reaches it.

@@ -158,7 +158,7 @@ fn check_sweep(problems: &mut Problems, scene: &Scene) {
                 revolve.angle,
                 "be an angle in degrees, more than 0 and at most 360",
             );
-            // Each element must turn by less than 120 degrees.
+            // Each element must turn by less than 90 degrees; four may make a full turn.
             let least = if revolve.angle >= 270.0 {
                 4
             } else {

@@ -50,7 +50,8 @@ impl Scene {
     }
 }
 
-/// The problem with a number of copies that make the whole, if there is one.
+/// Describes why a number of copies cannot make the whole of a model of this kind; `None` if it
+/// can.
 fn symmetry_problem(kind: Space, copies: usize) -> Option<String> {
     let (allowed, words): (&[usize], _) = match kind {
         Space::Axisymmetric => (
@@ -142,8 +143,8 @@ fn check_units(problems: &mut Problems, scene: &Scene) {
     }
 }
 
-/// Requires all numbers of the scene to be finite. Numbers from a file always are, numbers set
-/// by a caller may not be.
+/// Requires all numbers of the scene to be finite. Numbers from a file always are; numbers set by a
+/// caller may not be.
 fn check_finite(problems: &mut Problems, scene: &Scene) {
     match toml::Value::try_from(scene) {
         Ok(value) => check_finite_value(problems, "", &value),

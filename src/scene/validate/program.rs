@@ -77,7 +77,7 @@ fn check_cycle(problems: &mut Problems, targets: &[Target]) {
     );
 }
 
-/// Checks what the load factors of the program count in.
+/// Checks the unit of the program's load factors, and the keys that depend on it.
 fn check_unit(problems: &mut Problems, scene: &Scene) {
     let program = &scene.program;
     if let Some(until) = program.interference_until {
@@ -233,8 +233,8 @@ fn check_target_figure(problems: &mut Problems, key: &str, target: &Target, scen
     }
 }
 
-/// Requires targets for a figure that unloading does not reduce not to decrease from one target
-/// to the next.
+/// Requires, for each figure that unloading does not reduce, that no target is less than an earlier
+/// one.
 fn check_growing(problems: &mut Problems, targets: &[Target]) {
     let mut largest: BTreeMap<(&str, Option<&str>), f64> = BTreeMap::new();
     for (index, target) in targets.iter().enumerate() {

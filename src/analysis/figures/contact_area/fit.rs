@@ -33,7 +33,7 @@ impl Cloud {
         }
     }
 
-    /// Fits a polynomial around a place to the values near it and to some `more`.
+    /// Fits a polynomial around a place to the known values near it and to the values `more`.
     pub(super) fn fit(&self, origin: [f64; 2], more: &[Known]) -> Option<LocalPolynomial> {
         let near = self.tree.nearest_few(in_space(origin), 2 * FITTED);
         let near = near.into_iter().map(|(_, item)| self.known[item]);

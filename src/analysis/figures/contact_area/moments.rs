@@ -10,7 +10,8 @@ pub(super) type Polygon = Vec<[f64; 2]>;
 /// Corners of a triangle.
 pub(super) type TriangleCorners = [[f64; 2]; 3];
 
-/// Moments of a patch's part of the model in the two coordinates of the patch.
+/// Moments of a patch in its two coordinates. The area is that of the modelled part; the centre and
+/// the second moments are those of the part together with its mirror images.
 #[derive(Clone, Copy)]
 pub(super) struct Moments {
     pub(super) area: f64,

@@ -19,7 +19,7 @@ pub(in crate::analysis::figures) struct ReadPatch {
     pub(in crate::analysis::figures) patch: ContactPatch,
     /// Error of the smaller half axis, estimated from a second reading.
     pub(in crate::analysis::figures) reading: f64,
-    /// Number of closed pairs over the half axis over which fewer pairs lie.
+    /// Number of closed pairs along the half axis that has fewer of them.
     pub(in crate::analysis::figures) pairs: usize,
     /// Pressure at the centroid of the patch.
     pub(in crate::analysis::figures) pole_pressure: f64,

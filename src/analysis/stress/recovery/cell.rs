@@ -1,4 +1,4 @@
-//! Cells of an element in which its maximum is searched: images of a square or cube.
+//! Cells of an element in which the maximum of the stress is searched: images of a square or cube.
 
 use crate::shape::{CORNERS_OF_CUBE, Place, Shape};
 use crate::space::along;

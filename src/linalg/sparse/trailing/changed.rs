@@ -156,7 +156,8 @@ fn factor_panel(values: &mut DMatrixViewMut<f64>) -> Option<DMatrix<f64>> {
     Some(below)
 }
 
-/// Places in panel `q`, which has the given list of rows, of ascending rows that are all in it.
+/// Writes to `places` where the ascending `rows` lie in panel `q`, which contains all of them;
+/// `list` holds the rows of `q` below its triangle.
 fn place_rows(q: &Panel, list: &[u32], rows: impl Iterator<Item = usize>, places: &mut [u32]) {
     let mut next = 0;
     for (row, place) in rows.zip(places) {

@@ -193,8 +193,8 @@ impl<'a> TraceFactor<'a> {
         Some(TraceFactor { samples, q, r })
     }
 
-    /// Coefficients of functions at some of the points in the basis `phi`, a column for each
-    /// function: `R^-1 Q' sqrt(w) f`.
+    /// Coefficients in the basis `phi` of functions `f` that are given at the integration points of
+    /// `range`: `R^-1 Q' sqrt(w) f`, one column for each function.
     fn coefficients(
         &self,
         columns: usize,

@@ -170,9 +170,9 @@ impl MortarFace {
         }
     }
 
-    /// Pieces of the facet in a plane, counter-clockwise as seen against its normal: the facet
-    /// itself if its edges are straight in the plane, otherwise triangles and a quadrilateral
-    /// between all of its nodes.
+    /// Pieces of the facet projected into a plane, counter-clockwise as seen against the plane's
+    /// normal: the facet itself if its edges are straight in the plane, otherwise triangles and a
+    /// quadrilateral between all of its nodes.
     pub(super) fn pieces(&self, plane: &FacePlane) -> Vec<Vec<Point>> {
         let points: Vec<Point> = self.x.iter().map(|&x| plane.project(x)).collect();
         let n = self.reference.n_corners;

@@ -23,7 +23,8 @@ pub(super) struct Sides<'a> {
     pub(super) normals: BTreeMap<usize, Vector>,
 }
 
-/// Master facet that the line along a slave's normal meets, with the gap.
+/// Place at which the line along a slave's normal meets a master facet: the gap, and the nodes of
+/// the facet with their weights.
 pub(super) struct Met {
     pub gap: f64,
     pub masters: Vec<(usize, f64)>,

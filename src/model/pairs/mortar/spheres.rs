@@ -57,7 +57,8 @@ pub(super) fn find(mesh: &Mesh, surface: &Surface) -> Option<Curve> {
     agree.then(|| curve.facing(outward))
 }
 
-/// Whether points deviate from a surface by only a small share of what the facets between them do.
+/// Whether points deviate from a surface by only a small fraction of the deviation of the facets
+/// between them.
 fn is_on(curve: &Curve, points: &[Vector], faces: &[MortarFace]) -> bool {
     let depth = |face: &MortarFace| {
         let Some((from, radius, _)) = curve.spine(face.center) else {
