@@ -24,8 +24,8 @@ pub(super) fn words(
     if let Some(limit) = reference.limit {
         let off = percent((limit / reference.value - 1.0).abs());
         out.push(format!(
-            "the meshes converge to a value that is {off} off the closed form: finer ones gain \
-             nothing below that"
+            "the meshes converge to a value that differs by {off} from the closed form: finer \
+             meshes do not reduce the error below that"
         ));
     }
     if let Some(own) = runs.iter().find(|run| is_own(run))
@@ -92,7 +92,9 @@ fn limits(runs: &[StudyRun], path: &str, reference: f64, own: f64) -> Vec<String
         .collect();
     let second = (!loosest.is_empty()).then(|| {
         let all = loosest.join(", ");
-        format!("{all} would do: the mesh hides the difference")
+        format!(
+            "{all} would be accurate enough: the error of the mesh is larger than the difference"
+        )
     });
     std::iter::once(first).chain(second).collect()
 }

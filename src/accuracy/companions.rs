@@ -115,7 +115,7 @@ fn wanted(scene: &Scene, elements: usize, can_be_read: impl Fn(f64) -> bool) -> 
             break;
         }
     }
-    found.companions("subdivided, the mesh would take many times the run")
+    found.companions("a run on the subdivided mesh would take many times as long")
 }
 
 /// Chooses the nearest two coarser meshes for which all further runs together take no more than

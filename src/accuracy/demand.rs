@@ -333,9 +333,9 @@ impl Pursuit {
         }
         if let Some(path) = self.without_limit(outcome, ratio, is_judged) {
             return Next::Never(format!(
-                "{path} has no limit under refinement, or comes to it so slowly that no mesh will \
-                 do; name the quantities that you need, as in accuracy = \"load = 1 %\", or round \
-                 the corner, spread the force that makes it"
+                "{path} has no limit under refinement, or converges too slowly for any mesh that \
+                 can be afforded; name the quantities that you need, as in accuracy = \"load = 1 \
+                 %\", or round the corner, spread the force that makes it"
             ));
         }
         if is_judged && outcome.algebra > 1.0 {

@@ -120,8 +120,8 @@ pub(super) fn errors(
             }
             Err(error) => {
                 notes.push(format!(
-                    "the run with other {what} failed, so that the error of the path lacks them: \
-                     {error}"
+                    "the run with other {what} failed, so that the error of the path lacks their \
+                     part: {error}"
                 ));
                 continue;
             }
@@ -155,7 +155,7 @@ pub(super) fn beyond_asked(scene: &Scene, quantities: &[QuantityError]) -> Optio
     let asked = scene.program.path_error;
     (left > asked).then(|| {
         format!(
-            "program.path_error = {asked:e} is not shown to be reached: the increments leave an \
+            "program.path_error = {asked:e} is probably not reached: the increments leave an \
              estimated {} of {quantity}; a smaller program.path_error makes them shorter",
             percent(left)
         )

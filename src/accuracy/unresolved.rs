@@ -122,8 +122,8 @@ impl Unresolved {
         let states: Vec<String> = states.collect();
         (!states.is_empty()).then(|| {
             format!(
-                "all contacts are open on all meshes ({}), by no more than the meshes leave \
-                 uncertain: it is not known whether the surfaces touch, and no error of pressures \
+                "all contacts are open on all meshes ({}), by less than the uncertainty of their \
+                 gaps: it is not known whether the surfaces touch, and no error of pressures \
                  and widths is stated",
                 states.join(", ")
             )

@@ -84,7 +84,7 @@ fn check<T>(is_null: bool, n: usize, what: &str) -> Result<()> {
     }
     if n > isize::MAX as usize / size_of::<T>().max(1) {
         return Err(Error::input(format!(
-            "{what}: {n} values are more than memory holds"
+            "{what}: {n} values exceed any memory"
         )));
     }
     Ok(())

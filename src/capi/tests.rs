@@ -446,7 +446,7 @@ fn bad_arrays_are_refused_by_index_and_leave_the_model_as_it_was() {
         refused(pairs(c"first = 'a'", [0, 1]), &["the contact", "second"]);
         refused(
             brinell_model_nodes(model, square.as_ptr(), usize::MAX / 2),
-            &["more than memory holds"],
+            &["exceed any memory"],
         );
         let mut results = null_mut();
         refused(

@@ -279,7 +279,7 @@ impl Report {
         if let Some(ranks) = ranks {
             let peak = |peak: &Option<u64>| peak.map_or("?".to_string(), |n| bytes(n as f64));
             text += &format!(
-                "; held at most {}; the first asked the others {} times, {} to and from them",
+                "; held at most {}; the first sent the others {} requests, {} transferred",
                 list(ranks.peak_memory_bytes.iter().map(peak).collect()),
                 ranks.requests,
                 bytes(ranks.bytes as f64)

@@ -68,7 +68,7 @@ impl RestartArguments {
 /// Returns the error for a scene that demands an accuracy, which leaves no checkpoints.
 pub(super) fn not_with_accuracy() -> Error {
     Error::input(
-        "--checkpoint and --resume are of one run on one mesh, but `accuracy` asks for runs on \
+        "--checkpoint and --resume need a single run on one mesh, but `accuracy` asks for \
          several: leave `accuracy` out, and give the mesh and tolerances (scene_as_run.toml of a \
          run with `accuracy` has those that it chose)",
     )

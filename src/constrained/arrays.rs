@@ -192,11 +192,11 @@ fn check_starts<I: Index>(
     {
         let say = |begin: Option<&I>| begin.map_or("none".to_string(), I::to_string);
         return Err(Error::input(format!(
-            "the begins of {n} {what}s must be one number more, begin with 0, not fall and end \
-             with the number of entries: {} were given, {}from {} to {}, for {indices} indices and \
-             {values} values",
+            "the starts of {n} {what}s must be one number more, begin with 0, never decrease \
+             and end with the number of entries: {} were given, {}from {} to {}, for {indices} \
+             indices and {values} values",
             starts.len(),
-            if rising { "" } else { "not rising " },
+            if rising { "" } else { "decreasing " },
             say(starts.first()),
             say(starts.last())
         )));

@@ -74,15 +74,15 @@ impl Cycles {
                 "nothing yields any more".to_string()
             }
             CycleOutcome::ElasticShakedown => format!(
-                "what flows falls from each to the next, to {} at most in the last",
+                "the plastic strain gained in a cycle decreases, to {} at most in the last",
                 short(last.flow)
             ),
             CycleOutcome::PlasticShakedown => format!(
-                "in each plastic strains go to and fro, by {} at most, and come back",
+                "in each cycle plastic strains alternate, by {} at most, and return",
                 short(last.flow)
             ),
             CycleOutcome::Ratchetting => format!(
-                "in each the plastic strain of {body} grows by {} at most",
+                "in each cycle the plastic strain of {body} grows by {} at most",
                 short(last.growth)
             ),
             CycleOutcome::NotSteady => format!(

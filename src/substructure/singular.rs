@@ -17,8 +17,8 @@ pub(super) fn name_freedom(error: Error, model: &Model) -> Error {
             let cause = match shape_with_zero_energy_modes(model, freedom) {
                 // Rigid motions have been checked already, and are held.
                 Some(shape) => format!(
-                    "elements of the shape {} have ways to deform that their Gauss points do not \
-                     see, and nothing here holds them; give the body `integration = \"full\"`, two \
+                    "elements of the shape {} have deformations without stiffness (hourglass modes), \
+                     and nothing here holds them; give the body `integration = \"full\"`, two \
                      elements across, another shape, or more supports",
                     shape.name()
                 ),

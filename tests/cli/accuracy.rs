@@ -68,7 +68,10 @@ fn what_limits_and_what_would_do_are_named() {
         assert!(text.contains(*found), "{found}: {text}");
     };
     said("the increments limit", "gain more than a finer mesh");
-    said("tolerance 1e-", "would do: the mesh hides the difference");
+    said(
+        "tolerance 1e-",
+        "would be accurate enough: the error of the mesh is larger than the difference",
+    );
 }
 
 /// What is compared.

@@ -282,7 +282,8 @@ fn over_temperature(model: &Model) -> Effect {
         (true, _) => "no body has a temperature of its own".to_string(),
         (_, true) => "no material of the bodies with a temperature depends on it".to_string(),
         _ => format!(
-            "{} at one temperature for the whole run: another temperature needs a new factorisation",
+            "{} at one temperature for the whole run: another temperature needs a new \
+             factorisation",
             names.join(", ")
         ),
     };

@@ -87,16 +87,16 @@ pub(super) fn scene(test: &Hardness) -> Result<String> {
     };
     let end = match depth {
         Some(_) => {
-            "# That load is the elastic one at the depth asked for: of it so much is found as \
-                    the flat bears.\n"
+            "# That is the elastic load at the depth asked for; the run ends at the part of it at \
+                    which the flat reaches this depth.\n"
         }
         None => "",
     };
     // Under the same load an elastic contact is smaller than any elastic-plastic one.
     let far = match hertz.contact_radius(load) > SMALL * radius {
         true => {
-            "# Even an elastic contact is wider than 0.2 of the ball's radius here: beyond what \
-             small strains\n# are good for.\n"
+            "# Even an elastic contact is wider than 0.2 of the ball's radius here: small \
+             strains no\n# longer hold.\n"
         }
         false => "",
     };

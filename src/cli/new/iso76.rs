@@ -277,8 +277,8 @@ impl ElasticLoads<'_> {
         ));
         if is_plane && self.given.race.is_some() {
             text.push_str(
-                "The roller of the scene has the relative radius of roller and race: on a flat it \
-                 leaves\nthe gap that they leave.\n",
+                "The roller of the scene has the relative radius of roller and race, so that on a \
+                 flat\nit has the same gap.\n",
             );
         }
         text

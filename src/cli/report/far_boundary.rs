@@ -13,8 +13,8 @@ pub(super) fn in_words(scene: &Scene) -> Option<String> {
     let plane = plane.map(|p| (contact_size::far_size(scene, p), "half widths"));
     let (far, of) = solid.or(plane)?;
     Some(format!(
-        "Closed forms are of bodies without end; these end at {} {of} at first yield. No mesh of \
-         the same `far_size` shows what that changes: twice the size does.",
+        "Closed forms assume infinite bodies; these end at {} {of} at first yield. Meshes with \
+         the same `far_size` do not show this effect: one with twice the size does.",
         significant(far, 3)
     ))
 }
