@@ -107,7 +107,7 @@ pub(super) fn value(run: &StudyRun, path: &str) -> Option<f64> {
 
 /// Correction for the length of the increments in the scene's own run, and its uncertainty. The two
 /// runs with the most increments on the same mesh, other than from event to event, are extrapolated
-/// with first order; the last change is the uncertainty.
+/// with first order; the last change is the uncertainty, which covers any order from first on.
 pub(super) fn path_correction(runs: &[StudyRun], path: &str) -> Option<(f64, f64)> {
     let own = runs.iter().find(|r| is_own(r))?;
     let mut stepped: Vec<(usize, f64)> = runs

@@ -16,8 +16,8 @@ pub(super) struct ElementType {
 }
 
 /// Differences between the formulation of a type and of the element used for it.
-const REDUCED: &str = "the type has one point with hourglass control, brinell full integration with mean dilatation \
-     (B-bar)";
+const REDUCED: &str = "the type has one point with hourglass control, brinell full integration \
+                       with mean dilatation (B-bar)";
 const MODES: &str = "the type has incompatible modes, brinell mean dilatation (B-bar) instead";
 const HYBRID: &str =
     "the type has pressure unknowns, brinell none: mean dilatation, or the same points";

@@ -274,7 +274,8 @@ impl<'d> HistoryStep<'d> {
         let keyword = self.kind.keyword();
         let named = given.values.iter().map(|(value, name)| {
             let Some(name) = name else {
-                let message = "some values of this step have an amplitude and others none: give all of them one";
+                let message = "some values of this step have an amplitude and others none: give \
+                               all of them one";
                 return Err(deck.error(given.place, keyword, message));
             };
             let amplitude = deck.program.amplitudes.get(name).ok_or_else(|| {

@@ -187,8 +187,8 @@ fn check_sets(mesh: &Mesh) -> Result<()> {
         if let Some(pair) = facets.windows(2).find(both_sides) {
             let [one, two] = [pair[0], pair[1]].map(|f| mesh.element_label(f.element));
             return Err(Error::input(format!(
-                "surface `{name}` contains both sides of the face between elements {one} and {two}: \
-                 take the facet of one of them"
+                "surface `{name}` contains both sides of the face between elements {one} and \
+                 {two}: take the facet of one of them"
             )));
         }
     }

@@ -17,8 +17,8 @@ pub(super) fn fill_in(scene: &mut Scene) -> Result<()> {
         };
         let units = scene.units.as_ref().ok_or_else(|| {
             Error::input(
-                "it is taken from the list of materials, in MPa: name the units of the scene, such as \
-                 units = { length = \"mm\", force = \"N\", stress = \"MPa\" }",
+                "it is taken from the list of materials, in MPa: name the units of the scene, such \
+                 as units = { length = \"mm\", force = \"N\", stress = \"MPa\" }",
             )
         });
         let material = units

@@ -17,9 +17,9 @@ pub(super) fn name_freedom(error: Error, model: &Model) -> Error {
             let cause = match shape_with_zero_energy_modes(model, freedom) {
                 // Rigid motions have been checked already, and are held.
                 Some(shape) => format!(
-                    "elements of the shape {} have deformations without stiffness (hourglass modes), \
-                     and nothing here holds them; give the body `integration = \"full\"`, two \
-                     elements across, another shape, or more supports",
+                    "elements of the shape {} have deformations without stiffness (hourglass \
+                     modes), and nothing here holds them; give the body `integration = \"full\"`, \
+                     two elements across, another shape, or more supports",
                     shape.name()
                 ),
                 None => "a part of the model is not held, or an element there is degenerate".into(),

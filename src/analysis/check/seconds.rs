@@ -29,7 +29,8 @@ const MODEL: f64 = 6e-7;
 const ASSEMBLY: f64 = 5e-7;
 const FILES: f64 = 6e-7;
 const STATE: f64 = 1.0e-6;
-/// Seconds that the search for first yield takes per freedom of the zone.
+/// Seconds that the search for first yield takes per freedom of the zone; of the model as long as
+/// the zone is not known.
 const YIELD_LOAD: f64 = 2e-6;
 /// Seconds of ordering, factorisation and condensation, as far as they can be estimated without the
 /// symbolic factorisation: per freedom, per power 3/2 of the freedoms (the growth of nested

@@ -196,8 +196,8 @@ fn first_load_estimate(zone: &mut ZoneFit, solver: &mut Solver, watched: Watched
         _ => None,
     };
     solver.restore_elastic(&before);
-    // Stress grows at least like the cube root of the load (point contact). The estimate aims
-    // beyond yield; doubling continues from there.
+    // The stress grows with the load or, in line contact, with its square root, so that this load
+    // lies beyond yield; in point contact (cube root) it may fall short and is then doubled.
     Ok(estimate
         .filter(|r| r.is_finite() && *r > 0.0)
         .map_or(1.0, |r| 1.2 / r.min(r * r)))

@@ -231,7 +231,7 @@ fn given_by_factor(model: &Model) -> [bool; 2] {
 
 /// Power of the load over which increments are spread evenly. If increments end at changes of
 /// contact and the contact grows pair by pair, it is the power with which the width of Hertz's
-/// contact grows.
+/// contact grows; in solids, where contacts are lines or patches, the power of a line.
 fn changes_by_load(model: &Model) -> f64 {
     let mut contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
     let grows =

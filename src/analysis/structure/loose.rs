@@ -19,8 +19,9 @@ const SETTLED: f64 = 1e-11;
 /// the body has then moved by a hundred times the deformation.
 const DRIVEN: f64 = 1e-6;
 
-/// Largest number of times that springs are released. If contact holds a motion with a hundredth of
-/// its stiffness, the force that springs bear falls by four orders of magnitude each time.
+/// Largest number of times that springs are released. If contact holds a motion with a
+/// ten-thousandth of its stiffness, the force that springs bear falls by four orders of magnitude
+/// each time (the springs have 1e-8 of that stiffness).
 const MOST_TIMES: usize = 8;
 
 /// Moves each body that no contact force holds, as a rigid body, until it touches: under the first

@@ -71,8 +71,8 @@ pub(super) fn scene(pressed: &Pressed, ball: bool) -> Result<String> {
     let (about, first) = about_loads(load, yield_load, per(ball));
     let patience = match yield_load.is_some_and(|first| load > FAR * first) {
         true => {
-            "# So far beyond first yield a run may take minutes, and the estimate of its errors longer: \
-             `--no-estimate` leaves the estimate out.\n"
+            "# So far beyond first yield a run may take minutes, and the estimate of its errors \
+             longer: `--no-estimate` leaves the estimate out.\n"
         }
         false => "",
     };

@@ -151,8 +151,8 @@ impl Deck {
         let first = sections.first().map_or(1.0, of);
         if let Some(other) = sections.iter().find(|section| of(section) != first) {
             let message = format!(
-                "the thickness is {}, but {} in another section: all sections of a plane model must have \
-                 the same",
+                "the thickness is {}, but {} in another section: all sections of a plane model \
+                 must have the same",
                 exact(of(other)),
                 exact(first)
             );
@@ -258,8 +258,8 @@ impl Deck {
             if is_mixed && !std::mem::replace(&mut is_said[body as usize], true) {
                 let label = self.mesh.element_name(element);
                 let text = format!(
-                    "element {label}: its type has reduced integration, brinell integrates it fully, \
-                     as others in body {name}: give it a section of its own"
+                    "element {label}: its type has reduced integration, brinell integrates it \
+                     fully, as others in body {name}: give it a section of its own"
                 );
                 let place = self.mesh.elements.places[element];
                 account.take(&self.files, place, "ELEMENT", &text);

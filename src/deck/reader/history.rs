@@ -179,8 +179,8 @@ impl StepReader {
                         step.renewed[ConditionKind::Volume as usize] = Some(keyword.place);
                     }
                 } else if is_new && step.renewed[kind as usize].is_none() {
-                    let how = "OP=NEW has no effect after another keyword of this kind in the step, \
-                               as in CalculiX: give it on the first";
+                    let how = "OP=NEW has no effect after another keyword of this kind in the \
+                               step, as in CalculiX: give it on the first";
                     block.take(how);
                 }
             }

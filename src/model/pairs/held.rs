@@ -35,8 +35,8 @@ pub(super) fn leave_to_supports(
         )));
     }
     notes.push(format!(
-        "{what}: supports hold {} along the contact normal: the supports carry the contact force there, \
-         which is not part of the results",
+        "{what}: supports hold {} along the contact normal: the supports carry the contact force \
+         there, which is not part of the results",
         list(mesh, &held)
     ));
     Ok(())
