@@ -2,7 +2,7 @@
 
 use super::Model;
 use super::symmetry::{Conditions, mirrors};
-use crate::number::{exact, significant};
+use crate::number::{exact, percent, significant};
 use crate::scene::Scene;
 
 /// Strains at yield, from lead to elastomers: M. F. Ashby, *Materials Selection in Mechanical
@@ -103,11 +103,11 @@ pub(super) fn of_program(model: &Model) -> Vec<String> {
             ));
         } else if let Some(largest) = beyond(end) {
             out.push(format!(
-                "{key}: {} is beyond the largest target, {}: at most {} % of the interference is \
+                "{key}: {} is beyond the largest target, {}: at most {} of the interference is \
                  applied",
                 exact(end),
                 exact(largest),
-                significant(100.0 * largest / end, 3)
+                percent(largest / end)
             ));
         }
     }
@@ -117,11 +117,11 @@ pub(super) fn of_program(model: &Model) -> Vec<String> {
         };
         if let Some(largest) = beyond(free) {
             out.push(format!(
-                "{key}.until: {} is beyond the largest target, {}: {} % of the forces that held \
+                "{key}.until: {} is beyond the largest target, {}: {} of the forces that held \
                  until {} still act in the end",
                 exact(free),
                 exact(largest),
-                significant(100.0 * (free - largest) / (free - end), 3),
+                percent((free - largest) / (free - end)),
                 exact(end)
             ));
         }
@@ -202,14 +202,20 @@ program.targets = [{ load_factor = 1.0 }]
         let unused =
             "program.interference_until: no contact has an interference: this changes nothing";
         assert_eq!(of("program.interference_until = 1.0", ""), [unused]);
-        let left =
-            |free: &str| format!("{{ on = \"a.left\", fix = [\"x\"], until = [1.0, {free}] }}");
+        let left = |free: &str| {
+            let of = |side: &str| format!("on = \"a.{side}\", fix = [\"x\"]");
+            format!(
+                "{{ {} }}, {{ {}, until = [1.0, {free}] }}",
+                of("right"),
+                of("left")
+            )
+        };
         assert_eq!(of("", &left("2.0")), [""; 0]);
         assert_eq!(
             of("", &left("5.0")),
             [
-                "support.1.until: 5 is beyond the largest target, 2: 75 % of the forces that held \
-              until 1 still act in the end"
+                "support.2.until: 5 is beyond the largest target, 2: 75 % of the forces that held \
+                 until 1 still act in the end"
             ]
         );
     }

@@ -462,7 +462,10 @@ mod tests {
         assert!(require_memory(&[4e9, 5e9, 6e9], &ranks).is_ok());
         let of = |needed: [f64; 3]| require_memory(&needed, &ranks).unwrap_err().to_string();
         let text = of([6e9, 6e9, 6e9]);
-        assert!(text.contains("the 2 ranks on `a`"), "{text}");
+        assert!(
+            text.contains("the group of 2 ranks on `a` needs about"),
+            "{text}"
+        );
         assert!(text.contains("12000 MB and 10000 MB"), "{text}");
         let text = of([1e9, 8e9, 1e9]);
         assert!(
