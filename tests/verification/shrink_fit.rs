@@ -33,7 +33,7 @@ fn an_interference_that_grows_with_the_load_is_applied_in_proportion() {
             "shrink_fit",
             &[
                 "program.unit=load",
-                "program.targets=[{load_factor=1.0}]",
+                "program.targets=[{name=\"fitted\",load_factor=1.0}]",
                 until,
             ],
         )
