@@ -18,7 +18,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-// The call did what it was asked for.
+// The call succeeded.
 #define BRINELL_OK 0
 
 // An argument, the scene or the mesh is wrong, or asks for an effect that brinell does not have.
@@ -40,7 +40,7 @@
 // demands was not reached, or the message names another reason not to trust the results.
 #define BRINELL_INACCURATE 7
 
-// Contact reached the end of its candidates although the bodies go on there.
+// Contact reached the end of the contact candidates, although the bodies extend beyond it.
 #define BRINELL_OUTGROWN 8
 
 // A fault of brinell itself.
@@ -121,17 +121,17 @@
 // Pressure, compressive positive.
 #define BRINELL_PAIR_PRESSURE 5
 
-// 1 where closed, 0 where open.
+// 1 if the pair is closed, 0 if it is open.
 #define BRINELL_PAIR_CLOSED 6
 
-// Undeformed z, of a solid.
+// Undeformed z of the pair in a solid.
 #define BRINELL_PAIR_Z 7
 
-// n_nodes x 2 displacements, of a solid x 3, node by node.
+// Displacements, n_nodes x 2 components (n_nodes x 3 in a solid), node by node.
 #define BRINELL_FIELD_DISPLACEMENT 0
 
-// n_elements x 4 mean stresses: xx, yy, zz, xy (axisymmetric rr, zz, tt, rz); of a solid x 6, yz
-// and zx after them.
+// Mean stresses of the elements, n_elements x 4 components: xx, yy, zz, xy (axisymmetric rr, zz,
+// tt, rz). In a solid n_elements x 6: xx, yy, zz, xy, yz, zx.
 #define BRINELL_FIELD_STRESS 1
 
 // n_elements von Mises stresses.
@@ -182,7 +182,7 @@ typedef struct brinell_scene brinell_scene;
 // A stiffness with contact rows, factored and condensed.
 typedef struct brinell_structure brinell_structure;
 
-// How to compute. NULL stands for the defaults, which are all zeros.
+// Options of the computation. NULL stands for the defaults, which are all zeros.
 typedef struct brinell_options {
   // sizeof(brinell_options).
   size_t size;
@@ -196,7 +196,7 @@ typedef struct brinell_increment {
   size_t size;
   // Number, from 1.
   uint64_t number;
-  // Load factor at its end, in the program's unit.
+  // Load factor at the end of the increment, in the program's unit.
   double alpha;
   // Total load at the end of the increment.
   double load;
@@ -206,9 +206,9 @@ typedef struct brinell_increment {
   double half_width;
   // Sum of the contact forces.
   double contact_force;
-  // Pairs that are closed.
+  // Number of closed pairs.
   uint64_t closed_pairs;
-  // Gauss points with plastic strain.
+  // Number of Gauss points with plastic strain.
   uint64_t plastic_points;
   // Largest equivalent plastic strain.
   double max_equivalent_plastic_strain;
@@ -221,7 +221,7 @@ typedef struct brinell_increment {
 // Called in the calling thread after each accepted increment; anything but 0 stops the run there.
 typedef int32_t (*brinell_callback)(const struct brinell_increment *increment, void *user);
 
-// First yield. Not a number where it is not known.
+// First yield. Numbers that are not known are NaN.
 typedef struct brinell_yield {
   // sizeof(brinell_yield).
   size_t size;
@@ -233,13 +233,13 @@ typedef struct brinell_yield {
   double max_pressure;
   // Contact half width.
   double half_width;
-  // Where it yields first: x (r).
+  // Coordinate x (r) of the point that yields first.
   double x;
-  // Where it yields first: y (z).
+  // Coordinate y (z) of the point that yields first.
   double y;
   // Number of the body that yields, from 0.
   uint64_t body;
-  // Where it yields first: z, of a solid.
+  // Coordinate z of the point that yields first, in a solid.
   double z;
 } brinell_yield;
 
@@ -257,21 +257,22 @@ typedef struct brinell_state {
   double max_pressure;
   // Contact half width.
   double half_width;
-  // The residual dent.
+  // Depth of the residual dent.
   double residual_depth;
-  // Displacement of the loaded surface along the load.
+  // Relative approach of the bodies; for a single load the mean displacement of the loaded
+  // surface along the load.
   double approach;
   // Largest equivalent plastic strain.
   double max_equivalent_plastic_strain;
-  // Gauss points with plastic strain.
+  // Number of Gauss points with plastic strain.
   uint64_t plastic_points;
   // Number of contact pairs.
   uint64_t n_pairs;
-  // 1 where the state has fields.
+  // 1 if the state has fields, otherwise 0.
   int32_t has_fields;
 } brinell_state;
 
-// The mesh, as it lies in memory: valid as long as the results.
+// The mesh, not copied: the arrays are valid as long as the results.
 typedef struct brinell_mesh {
   // sizeof(brinell_mesh).
   size_t size;
@@ -279,23 +280,25 @@ typedef struct brinell_mesh {
   size_t n_nodes;
   // Number of elements.
   size_t n_elements;
-  // n_nodes x 2 coordinates, of a solid x 3, node by node.
+  // Coordinates, n_nodes x 2 (n_nodes x 3 in a solid), node by node.
   const double *coordinates;
   // Nodes of all elements, one element after the other.
   const uint32_t *connectivity;
   // n_elements + 1 starts of the elements' nodes in the connectivity.
   const size_t *offsets;
-  // n_elements bodies.
+  // Number of the body of each element, from 0; n_elements values.
   const uint32_t *element_body;
 } brinell_mesh;
 
-// A patch of contact of a solid; of a patch that reaches planes of symmetry the whole.
+// A contact patch of a solid. If the patch reaches planes of symmetry, the figures are those of
+// the whole patch, mirror images included.
 typedef struct brinell_patch {
   // sizeof(brinell_patch).
   size_t size;
-  // Which contact of the scene, from 0.
+  // Number of the contact in the scene, from 0.
   uint64_t contact;
-  // Area, on the plane across the mean normal.
+  // Area, projected on the plane perpendicular to the mean normal; for a patch that closes round
+  // a body the area of its surface.
   double area;
   // Centroid of the area.
   double centroid[3];
@@ -347,7 +350,7 @@ typedef struct brinell_rows {
 extern "C" {
 #endif // __cplusplus
 
-// The reason of the last failure in this thread, UTF-8; empty before the first one. Valid until
+// The message of the last failure in this thread, UTF-8; empty before the first one. Valid until
 // the next failure in this thread.
 const char *brinell_last_error(void);
 
@@ -357,8 +360,8 @@ const char *brinell_version(void);
 // The version of this interface: raised where a program built against an older header would break.
 uint32_t brinell_abi_version(void);
 
-// Reads a scene file, with `n_overrides` texts "key.path=value" put over it (as `--set` of the
-// program: tables are merged, "key=" removes a key; NULL and 0 for none).
+// Reads a scene file and applies `n_overrides` texts "key.path=value" to it, as `--set` of the
+// program does: tables are merged, "key=" removes a key; NULL and 0 for none.
 int32_t brinell_scene_load(const char *path,
                            const char *const *overrides,
                            size_t n_overrides,
@@ -370,40 +373,40 @@ int32_t brinell_scene_parse(const char *toml, struct brinell_scene **out);
 // Frees a scene.
 void brinell_scene_free(struct brinell_scene *scene);
 
-// An empty model: one of BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS, BRINELL_AXISYMMETRIC,
-// BRINELL_SOLID. `symmetry` copies of it make the whole: 1 where all of it is meshed, 2 for a half
-// model, 4 for a quarter of a plane or solid one, 8 for an eighth of a solid one (loads and
-// results are those of the whole).
+// Creates an empty model of the given kind: BRINELL_PLANE_STRAIN, BRINELL_PLANE_STRESS,
+// BRINELL_AXISYMMETRIC or BRINELL_SOLID. `symmetry` is the number of copies of the model that make
+// up the whole: 1 if the whole is meshed, 2 for a half model, 4 for a quarter of a plane or solid
+// model, 8 for an eighth of a solid model. Loads and results are those of the whole.
 int32_t brinell_model_new(int32_t kind, size_t symmetry, struct brinell_model **out);
 
 // Frees a model.
 void brinell_model_free(struct brinell_model *model);
 
-// Adds nodes: n x 2 coordinates, of a solid n x 3, node by node. Nodes are numbered from 0 in the
-// order in which they were added.
+// Adds nodes with n x 2 coordinates (n x 3 in a solid), node by node. Nodes are numbered from 0 in
+// the order in which they were added.
 int32_t brinell_model_nodes(struct brinell_model *model, const double *coordinates, size_t n);
 
-// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body: the nodes of one after the other,
-// in the order of its shape.
+// Adds `n` elements of one shape (BRINELL_SHAPE_...) to a body. `nodes` holds the nodes of one
+// element after the other, each in the order of the shape.
 int32_t brinell_model_elements(struct brinell_model *model,
                                const char *body,
                                int32_t shape,
                                const int64_t *nodes,
                                size_t n);
 
-// Names some nodes.
+// Adds a named set of nodes.
 int32_t brinell_model_node_set(struct brinell_model *model, const char *name, const int64_t *nodes, size_t n);
 
-// Names a surface of n facets, each by its element and its number there: facet k lies between
-// corners k and k + 1.
+// Adds a named surface of n facets, each given by its element and its local number in the element.
+// In the plane, facet k lies between corners k and k + 1.
 int32_t brinell_model_surface(struct brinell_model *model,
                               const char *name,
                               const int64_t *elements,
                               const int64_t *facets,
                               size_t n);
 
-// Names a surface by its nodes, mid-side nodes included: the facets of the boundary all whose
-// nodes are among them.
+// Adds a named surface by its nodes, mid-side nodes included. The surface consists of all boundary
+// facets that have no other nodes than the given ones.
 int32_t brinell_model_surface_of_nodes(struct brinell_model *model,
                                        const char *name,
                                        const int64_t *nodes,
@@ -418,7 +421,7 @@ int32_t brinell_model_circle(struct brinell_model *model,
                              double radius,
                              int32_t outward);
 
-// Runs the load program of a model; all else as brinell_run. The model may be changed and run
+// Runs the load program of a model; otherwise like brinell_run. The model may be changed and run
 // again.
 int32_t brinell_model_run(const struct brinell_model *model,
                           const struct brinell_options *options,
@@ -426,19 +429,19 @@ int32_t brinell_model_run(const struct brinell_model *model,
                           void *user,
                           struct brinell_results **out);
 
-// Adds tables of a scene (TOML text): materials, bodies, contact, tie, equation, support, load,
-// program, analysis, units, title; whatever a scene file may say but for `kind`, `symmetry`
-// and `mesh`. Materials, bodies, contacts, ties, equations, supports and loads come to those that
-// are there, the others take their place. A model without a target has load factor 1 as one.
+// Adds tables of a scene (TOML text): materials, bodies, rigid, contact, tie, equation, support,
+// load, program, analysis, units, title. Materials, bodies, rigid surfaces, contacts, ties,
+// equations, supports and loads are added to the existing ones; the other tables replace the
+// existing ones. A model without a target gets one target, at load factor 1.
 int32_t brinell_model_tables(struct brinell_model *model, const char *tables);
 
 // Lets two surfaces touch at n given pairs of nodes. `contact` has the keys of a `[[contact]]`
-// table (TOML text): `first`, `second` and what else is given. Nodes of the surfaces that are in
-// no pair do not touch.
+// table (TOML text): `first`, `second` and any other keys. Nodes of the surfaces that are in no
+// pair do not touch.
 //
-// `normals` are n x 2, of a solid n x 3, directions from the second body to the first; NULL for
-// the second surface's outward normals. `gaps` are n gaps >= 0; NULL for the contact's `gap`, or
-// the geometric ones.
+// `normals` holds the direction of each pair from the second body to the first, n x 2 components
+// (n x 3 in a solid); NULL for the outward normals of the second surface. `gaps` holds n gaps >=
+// 0; NULL for the contact's key `gap` or, without this key, for the geometric gaps.
 int32_t brinell_model_contact_pairs(struct brinell_model *model,
                                     const char *contact,
                                     size_t n,
@@ -447,9 +450,9 @@ int32_t brinell_model_contact_pairs(struct brinell_model *model,
                                     const double *normals,
                                     const double *gaps);
 
-// Adds a load that has a force of its own on each of n nodes: n x 2 components, of a solid n x 3.
-// The forces act on the model itself, not on the whole of a symmetric one. `load` has the keys
-// `name` and, where the load is not proportional, `history` of a `[[load]]` table (TOML text).
+// Adds a load with a force of its own on each of n nodes: n x 2 components (n x 3 in a solid). The
+// forces act on the meshed part of a symmetric model, not on the whole. `load` has keys of a
+// `[[load]]` table (TOML text): `name` and, unless the load is proportional, `history`.
 int32_t brinell_model_nodal_load(struct brinell_model *model,
                                  const char *load,
                                  size_t n,
@@ -459,35 +462,35 @@ int32_t brinell_model_nodal_load(struct brinell_model *model,
 // Runs a scene's load program. `callback` (NULL for none) is called after each increment with
 // `user`.
 //
-// A run that was stopped, collapsed or failed after increments were accepted returns
-// BRINELL_STOPPED, BRINELL_COLLAPSE or BRINELL_ANALYSIS *and* results: what was computed before; a
-// complete one with a state whose quality misses its tolerance, or that does not reach the
-// accuracy its scene demands, returns BRINELL_INACCURATE and results. After any other failure
-// `*out` is NULL.
+// A run that ends early after increments were accepted returns the status of the reason, such as
+// BRINELL_STOPPED, BRINELL_COLLAPSE, BRINELL_OUTGROWN or BRINELL_ANALYSIS, *and* the results
+// computed up to then. A complete run returns BRINELL_INACCURATE and results if the quality of a
+// state misses its tolerance, if the accuracy that the scene demands is not reached, or for
+// another reason that the message names. After any other failure `*out` is NULL.
 //
-// A scene with the key `accuracy` is run on finer and finer meshes until their stated errors are
-// within it: the callback sees the increments of each, counted from 1 anew, and the results are
-// those of the last (`accuracy` of the summary says what is stated of each figure, and why a
-// demand was not reached).
+// A scene with the key `accuracy` is run on finer and finer meshes until the stated errors are
+// within the demand. The callback receives the increments of each run, counted anew from 1. The
+// results are those of the last mesh; `accuracy` in the summary lists the stated error of each
+// figure, and the reason if the demand was not reached.
 int32_t brinell_run(const struct brinell_scene *scene,
                     const struct brinell_options *options,
                     brinell_callback callback,
                     void *user,
                     struct brinell_results **out);
 
-// Frees results; arrays taken from them are gone.
+// Frees results; arrays taken from them are no longer valid.
 void brinell_results_free(struct brinell_results *results);
 
 // Number of states; 0 for NULL.
 size_t brinell_results_n_states(const struct brinell_results *results);
 
-// First yield. BRINELL_INPUT where the run has none.
+// First yield. The status is BRINELL_INPUT if the run has no first yield.
 int32_t brinell_results_yield(const struct brinell_results *results, struct brinell_yield *out);
 
-// The figures of state `index`, from 0; brinell_results_value has all of them.
+// The main figures of state `index`, from 0; brinell_results_value gives every figure.
 int32_t brinell_results_state(const struct brinell_results *results, size_t index, struct brinell_state *out);
 
-// The name of state `index`; NULL where there is no such state. Valid as long as the results.
+// The name of state `index`; NULL if there is no such state. Valid as long as the results.
 const char *brinell_results_state_name(const struct brinell_results *results, size_t index);
 
 // An array of the contact pairs of state `index`: one of BRINELL_PAIR_... Valid as long as the
@@ -522,26 +525,26 @@ int32_t brinell_results_write(const struct brinell_results *results, const char 
 size_t brinell_n_quantities(void);
 
 // The key of quantity `index`, from 0, as in summary.json: "load", "half_width", "residual_depth"
-// and so on; NULL where there is none such. Static.
+// and so on; NULL if there is no such quantity. Static.
 const char *brinell_quantity_key(size_t index);
 
 // A number of the results by its path in summary.json: "yield.KEY" at first yield, or
 // "states.NAME.KEY" of a state, where the number of the state, from 0, may stand for its name.
-// Counts are numbers too; not a number where it is not known. BRINELL_INPUT where the results have
-// none such.
+// Counts are numbers too; a number that is not known is NaN. The status is BRINELL_INPUT if the
+// results have no such number.
 int32_t brinell_results_value(const struct brinell_results *results, const char *path, double *value);
 
-// Number of patches of contact of state `index` of a solid; 0 where there is no such state.
+// Number of contact patches of a solid in state `index`; 0 if there is no such state.
 size_t brinell_results_n_patches(const struct brinell_results *results, size_t index);
 
-// A patch of contact of state `index`, from 0.
+// A contact patch of state `index`; `index` and `patch` count from 0.
 int32_t brinell_results_patch(const struct brinell_results *results,
                               size_t index,
                               size_t patch,
                               struct brinell_patch *out);
 
 // Factors and condenses a stiffness with contact rows (NULL for none). The arrays are not needed
-// afterwards. The state is that without load.
+// afterwards. The initial state is that without load.
 int32_t brinell_structure_new(const struct brinell_matrix *matrix,
                               const struct brinell_rows *rows,
                               const struct brinell_options *options,
@@ -561,15 +564,15 @@ int32_t brinell_structure_condensed(const struct brinell_structure *structure,
                                     const double **data,
                                     size_t *n);
 
-// Solves contact under a load on all freedoms (plastic loads among them).
+// Solves contact under a load on all freedoms, which includes any plastic loads.
 int32_t brinell_structure_solve(struct brinell_structure *structure, const double *load, size_t n);
 
-// Starts a piece of the load path: from the state at hand the load goes on as load + t rate, t
+// Starts a piece of the load path: from the current state on the load is load + t rate, with t
 // from 0.
 int32_t brinell_structure_start(struct brinell_structure *structure, const double *rate, size_t n);
 
-// Goes on to `end` or to the next change of contact: `t` is where, `n_changes` how many rows
-// change there, 0 at the end.
+// Goes on to `end` or to the next change of contact, whichever comes first. `t` receives the
+// position, `n_changes` the number of rows that change there, 0 at the end.
 int32_t brinell_structure_step(struct brinell_structure *structure, double end, double *t, size_t *n_changes);
 
 // Change `index` of the last event: its row, and whether it closes (1) or opens (0).
@@ -587,8 +590,8 @@ int32_t brinell_structure_forces(const struct brinell_structure *structure, cons
 // Statuses of the rows: 1 closed, 0 open.
 int32_t brinell_structure_statuses(const struct brinell_structure *structure, int32_t *closed, size_t n);
 
-// Displacements of all freedoms. Costs one full solve. `backward_error` (NULL if not wanted) is
-// that of this solve.
+// Displacements of all freedoms. Costs one full solve. `backward_error` (NULL if not wanted)
+// receives the backward error of this solve.
 int32_t brinell_structure_displacements(const struct brinell_structure *structure,
                                         double *u,
                                         size_t n,
