@@ -161,13 +161,15 @@ fn judged(
     page: &mut String,
     mut priced: Option<&mut Vec<Priced>>,
 ) -> Vec<Claim> {
-    write!(page, "\n## Families: {group}\n\n| family {COLUMNS}").unwrap();
-    let mut all = Vec::new();
+    let (mut all, mut rows, mut without) = (Vec::new(), String::new(), Vec::new());
     for family in families {
         let known = family.known();
         let claims = family.claims_beside(&known);
         let row = row(&claims.iter().collect::<Vec<_>>());
-        writeln!(page, "| {} | {row} |", family.name).unwrap();
+        match claims.is_empty() {
+            true => without.push(family.name.as_str()),
+            false => writeln!(rows, "| {} | {row} |", family.name).unwrap(),
+        }
         eprintln!("{}: {row}", family.name);
         if let Some(priced) = &mut priced {
             for demand in prices::of(family, &known) {
@@ -177,11 +179,26 @@ fn judged(
         }
         all.extend(claims);
     }
+    write!(page, "\n## Families: {group}\n\n").unwrap();
+    if !rows.is_empty() {
+        write!(page, "| family {COLUMNS}{rows}").unwrap();
+    }
+    if !without.is_empty() {
+        let (gap, names) = (if rows.is_empty() { "" } else { "\n" }, without.join("; "));
+        writeln!(
+            page,
+            "{gap}No run of these families states an error of a compared figure: {names}."
+        )
+        .unwrap();
+    }
     all
 }
 
 /// A group by quantity, and its errors that lie farthest beyond what was stated.
 fn by_quantity(group: &str, claims: &[Claim], page: &mut String) {
+    if claims.is_empty() {
+        return;
+    }
     write!(page, "\nBy quantity ({group}):\n\n| quantity {COLUMNS}").unwrap();
     let mut keys: Vec<&str> = claims.iter().map(Claim::key).collect();
     keys.sort_unstable();
@@ -240,7 +257,7 @@ fn prices_of_estimates(claims: &[Claim]) -> String {
 /// Number, share within, median, worst.
 fn row(claims: &[&Claim]) -> String {
     if claims.is_empty() {
-        return "0 | - | - | -".to_string();
+        return "no figures".to_string();
     }
     let within = claims.iter().filter(|c| c.truth <= c.stated).count();
     let mut ratios: Vec<f64> = claims.iter().map(|c| c.stated / c.truth).collect();
