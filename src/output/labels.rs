@@ -1,7 +1,7 @@
 //! Names of the quantities of a run for readers, and the names of their units: the scene's names if
 //! it gives them, else nothing. Keys and columns for programs keep their names.
 
-use crate::model::{LoadCase, Magnitude, Model};
+use crate::model::{Magnitude, Model};
 use crate::results::{Quantity, Unit};
 use crate::scene;
 use crate::space::Space;
@@ -156,15 +156,19 @@ impl Labels {
     }
 }
 
-/// Returns the unit of the total load, which is stated for the first load that varies; for a
-/// displacement it is the unit of the force that the displacement takes.
+/// Returns the unit of the total load, that of the leading load. Displacements and gaps are stated
+/// by the force that they take; temperatures and strains have no named unit.
 fn load_unit(model: &Model, names: &scene::Units, is_plane: bool) -> String {
-    let varies = |load: &&LoadCase| load.history != scene::History::Constant;
-    let leading = model.loads.iter().find(varies).or(model.loads.first());
+    let leading = model.leading_load().and_then(|load| model.loads.get(load));
     match leading.map(|load| load.measures) {
         Some(Magnitude::Stress) => names.stress.clone(),
-        _ if !is_plane => names.force.clone(),
-        _ => format!("{}/{}", names.force, names.length),
+        Some(Magnitude::Temperature | Magnitude::Strain | Magnitude::Carried) => String::new(),
+        None | Some(Magnitude::Force | Magnitude::Displacement | Magnitude::Gap) if is_plane => {
+            format!("{}/{}", names.force, names.length)
+        }
+        None | Some(Magnitude::Force | Magnitude::Displacement | Magnitude::Gap) => {
+            names.force.clone()
+        }
     }
 }
 
@@ -207,7 +211,7 @@ mod tests {
     }
 
     /// The load is per length in the plane and that of the whole about an axis; a pressure is a
-    /// stress.
+    /// stress, and a temperature has no named unit.
     #[test]
     fn the_unit_of_the_load_is_that_of_what_loads() {
         for (name, expected) in [
@@ -215,6 +219,8 @@ mod tests {
             ("ball_on_half_space", "N"),
             ("ball_on_flat_3d", "N"),
             ("thick_cylinder", "MPa"),
+            ("shrink_fit", "N/mm"),
+            ("fit_by_heat", ""),
         ] {
             assert_eq!(labels(name, true).load(), expected, "{name}");
         }
