@@ -123,8 +123,8 @@ const CASES: [Case; 6] = [
         quantities: &["yield.load", "yield.max_pressure", "yield.half_width"],
         theory: EDGE,
         remark: "With `quad4` load and pressure are right to a thousandth from six elements over \
-                 the contact on, and no order is to be read off what is left; the other elements \
-                 converge with theirs.",
+                 the contact on, so that no order can be observed; the other elements converge \
+                 with theirs.",
     },
     Case {
         name: "thick_cylinder",
@@ -151,8 +151,8 @@ const CASES: [Case; 6] = [
         quantities: &["states.flow.load"],
         theory: "1: the velocity of the exact mechanism jumps, and continuous elements smear the \
                  jump over one of theirs",
-        remark: "The velocity jumps at the punch's edge: first order from above, whatever else is \
-                 refined.",
+        remark: "The velocity jumps at the punch's edge: first order, with values from above, \
+                 whatever else is refined.",
     },
 ];
 
@@ -249,7 +249,7 @@ fn section(case: &Case, study: &Study) -> Outcome<String> {
         writeln!(
             text,
             "Up to first yield nothing yields and the path is followed exactly: there are no \
-             increments and no tolerances to turn, and none are wasted.\n"
+             increments and no tolerances to vary.\n"
         )?;
     }
     for name in case.quantities {

@@ -65,11 +65,12 @@ pub fn page() -> String {
     let family: Vec<_> = ELEMENTS.iter().map(|&n| measured(n, rooted(n))).collect();
     let mut out = String::from(
         "# What finer grading would buy\n\n`cargo run --release --example claims -- grading` \
-         writes this page: a cylinder on a half plane to three times the load at first yield and \
-         off, on every combination of elements over the contact half width and growth of elements \
-         away from it, against 64 elements and growth 1.05. Cheapest mesh of these on which \
-         all figures of a kind are within a demand, beside the cheapest of the series that \
-         demands go through (growth to its root), in floating point operations.\n\n\
+         writes this page: a cylinder on a half plane, loaded to three times the load at first \
+         yield and unloaded, on every combination of elements over the contact half width and \
+         growth of elements away from it, compared with 64 elements and growth 1.05. The table \
+         has the cheapest of these meshes on which all figures of a kind are within a demand, \
+         next to the cheapest of the series that demands go through (growth to its root), in \
+         floating point operations.\n\n\
          | figure | demand | any: elements, growth | operations | series: elements, growth | \
          operations | ratio |\n|---|---|---|---|---|---|---|\n",
     );

@@ -37,9 +37,7 @@ const HEAD: &str = "# Stated errors beside true ones\n\n`cargo run --release --e
                     over the three meshes are not offered as results: of 659 that showed an order \
                     which is believed, the extrapolated one was nearer to the truth than the \
                     mesh's own in 68 %, and an error for it, from its distance to other \
-                    extrapolations with Roache's factor, covered 57 %.\n\nWhere a contact is \
-                    open on all three meshes that closes on finer ones, its pressure and width \
-                    are stated as exactly zero: the largest ratios of the disc.\n";
+                    extrapolations with Roache's factor, covered 57 %.\n";
 
 const COLUMNS: &str = "| figures | within the stated error | median of stated over true | largest \
                        true over stated |\n|---|---|---|---|---|\n";

@@ -11,9 +11,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::time::Instant;
 
-pub const HEAD: &str = "\n## What a demand costs\n\nAll runs of a demand together, over the one \
-                       run of the cheapest mesh by trial, in floating point operations, and the \
-                       last run of the demand alone over the same. Meshes by trial are uniform \
+pub const HEAD: &str = "\n## What a demand costs\n\nCost of all runs of a demand divided by that \
+                       of one run on the cheapest mesh found by trial, in floating point \
+                       operations, and cost of the last run of the demand divided by the same. Meshes by trial are uniform \
                        ones and, where bodies touch on less than an element, the same with \
                        elements refined around the contact, each 1.2 times coarser than the one \
                        before; the cheapest is the coarsest from which on every mesh is as \

@@ -44,8 +44,8 @@ these outcomes (`tests/verification/shakedown.rs`; the finer mesh with `BRINELL_
 spaces, while here
   half a sphere is held at its middle.
 - The radius by Jackson and Green at 10 and 20 times the interference at first yield is 3.3 and \
-3.2 % smaller than
-  computed (Kogut and Etsion's: 1.8 %). This is not explained.
+3.1 % smaller than
+  computed (Kogut and Etsion's: 1.9 and 1.7 %). This is not explained.
 - SSNA102: the published codes compute large displacements on coarse meshes. In this model a \
 sphere gives way by 19
   % of the distance between its nodes, where small strains no longer hold. The figures are \

@@ -59,7 +59,7 @@ pub(super) const FAMILIES: &[CaseFamily] = &[
         figure: "half width at 0.1 to 50 times first yield against Hertz",
         bound: 1.0 / 64.0,
         source: "candidates follow from the load; the edge is read to an eighth of an element, of \
-                 16; circle for parabola, (b/R)^2/8",
+                 16; a circle in place of a parabola, (b/R)^2/8",
         cases: spreading,
     },
     CaseFamily {

@@ -37,12 +37,12 @@ EXAMPLES = [
      "up to the slope of the deck; nodes at the edge are held"),
     ("press_fit", "press fit", "ccx's contact is a spring"),
     ("constraint_tie", "tie", "three nodes in a line are fixed, about which it turns freely: "
-     "the displacements are anybody's, the stresses count; the tie holds in the mean"),
+     "the displacements are arbitrary, compare the stresses; the tie holds in the mean"),
     ("constraint_section_print", "section print"),
     ("constraint_selfweight_cantilever", "own weight"),
     ("constraint_centrif", "rotation", "nothing holds the disc along x: ccx moves it by kilometres"),
     ("constraint_transform_beam_hinged", "transform", "nothing holds the beam along its hinges: "
-     "the displacements are anybody's, the stresses count"),
+     "the displacements are arbitrary, compare the stresses"),
     ("constraint_transform_torque", "transform"),
     ("rc_wall_2d", "shells"),
     ("material_nl_platewithhole", "plasticity", "NLGEOM in ccx, small displacements here: it flows "

@@ -44,7 +44,8 @@ const fn row(row: &'static str, name: &'static str, why: &'static str) -> Row {
 const SLICE: &str = "ccx computes a slice of 2 degrees with plane faces";
 const THICKNESS: &str = "the thickness of ccx follows shape functions: no stress across it in the \
                          mean, here at each point";
-const TURNS: &str = "contact of ccx follows the turning of the surfaces: in proportion to the load";
+const TURNS: &str =
+    "contact of ccx follows the rotation of the surfaces, a difference in proportion to the load";
 const STEPS: &str = "ccx takes each of its increments in one step of the implicit rule";
 const POINTS: &str = "slaves of ccx follow the points that they lie on, here the mean over the \
                       faces: `decks::table` shows that equations of that kind give the values of \
