@@ -13,8 +13,9 @@ use std::time::Instant;
 
 pub const HEAD: &str = "\n## What a demand costs\n\nCost of all runs of a demand divided by that \
                        of one run on the cheapest mesh found by trial, in floating point \
-                       operations, and cost of the last run of the demand divided by the same. Meshes by trial are uniform \
-                       ones and, where bodies touch on less than an element, the same with \
+                       operations, and cost of the last run of the demand divided by the \
+                       same. Meshes by trial are uniform ones and, where bodies touch on less \
+                       than an element, the same with \
                        elements refined around the contact, each 1.2 times coarser than the one \
                        before; the cheapest is the coarsest from which on every mesh is as \
                        accurate, with the true errors known. Each demand is made on the family's \

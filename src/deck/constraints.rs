@@ -70,6 +70,9 @@ impl LinearEquation {
     }
 }
 
+/// The axes of nodes without local axes: x, y and z.
+pub(super) const GLOBAL: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// Local axes of nodes, by node.
 pub(super) type LocalAxes = BTreeMap<u32, [Vector; 3]>;
 

@@ -5,6 +5,7 @@
 //! `u_i = sum_k a_k u_k`, in which no `u_i` occurs on the right of any row (Gauss-Jordan
 //! elimination, with the largest coefficient of a column or row as the pivot).
 
+use super::constraints::LocalAxes;
 use super::facets::Key;
 use super::source::LinePlace;
 use std::collections::{BTreeMap, BTreeSet};
@@ -26,6 +27,26 @@ pub(super) struct LinearRow {
     pub(super) first: Option<Key>,
     pub(super) place: LinePlace,
     pub(super) keyword: &'static str,
+}
+
+impl LinearRow {
+    /// Replaces displacements along local axes of some nodes by those along x, y and z.
+    pub(super) fn resolve(&mut self, axes: &LocalAxes) {
+        for (key, c) in std::mem::take(&mut self.terms) {
+            let Some(own) = axes.get(&key.0) else {
+                *self.terms.entry(key).or_insert(0.0) += c;
+                continue;
+            };
+            for (k, share) in (0..3u8).zip(own[key.1 as usize]) {
+                *self.terms.entry((key.0, k)).or_insert(0.0) += c * share;
+            }
+        }
+        if let Some((node, _)) = self.first.filter(|first| axes.contains_key(&first.0)) {
+            let of_node = self.terms.range((node, 0)..=(node, 2));
+            let largest = of_node.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+            self.first = largest.map(|(key, _)| *key);
+        }
+    }
 }
 
 /// A displacement that is expressed by others.

@@ -13,6 +13,7 @@
 //! # Source
 //! G. Dhondt, *CalculiX CrunchiX User's Manual* 2.20, `*RIGID BODY`, `*KINEMATIC`.
 
+use super::constraints::{GLOBAL, LocalAxes};
 use super::data::{EntitySelection, Rigid, RigidNodes};
 use super::facets::Key;
 use super::linear::{FreedomCoefficients, LinearRow};
@@ -20,7 +21,10 @@ use super::mesh::DeckMesh;
 use super::sets::{At, Lookup, What};
 use super::source::LinePlace;
 use crate::error::Result;
-use crate::space::difference;
+use crate::space::{Vector, cross, difference, dot, length, unit};
+
+/// Largest cosine between two directions that counts as round-off: they are perpendicular.
+const ROUND_OFF: f64 = 1e-14;
 
 /// A rigid body, with nodes given by their indices.
 pub(super) struct DeckRigidBody {
@@ -75,32 +79,61 @@ impl DeckRigidBody {
         .collect()
     }
 
-    /// The equations of the body's nodes along the axes of the model.
-    pub(super) fn rows(&self, mesh: &DeckMesh) -> impl Iterator<Item = (u32, usize, LinearRow)> {
+    /// Nodes of the body in ascending order, without the reference node and the rotation node.
+    pub(super) fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
+    /// The equations of the body's nodes, each along its own axes: those of a `*TRANSFORM`, if the
+    /// node has any and follows the body in every direction, otherwise x, y and z. With a direction
+    /// `v` and the position `r` relative to the reference node,
+    ///
+    /// ```text
+    /// v . u - v . u_r - (r x v) . w = 0
+    /// ```
+    pub(super) fn rows(&self, mesh: &DeckMesh, axes: &LocalAxes) -> Vec<LinearRow> {
         let dimension = mesh.dimension();
+        let follows_wholly = self.follows[..dimension].iter().all(|follows| *follows);
         let origin = mesh.point(self.reference as usize);
-        self.nodes.iter().flat_map(move |&node| {
+        let mut out = Vec::new();
+        for &node in &self.nodes {
             let r = difference(mesh.point(node as usize), origin);
-            let axes = (0..dimension).filter(|axis| self.follows[*axis]);
-            axes.map(move |axis| {
-                let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
-                // The component of the cross product: w_next r_last - w_last r_next.
-                let mut terms = FreedomCoefficients::from([((self.reference, axis as u8), -1.0)]);
-                for (of, c) in [(next, -r[last]), (last, r[next])] {
-                    // In the plane only the rotation about the normal exists.
-                    if dimension == 3 || of == 2 {
-                        terms.insert((self.rotation, of as u8), c);
-                    }
+            let own = axes.get(&node).filter(|_| follows_wholly);
+            for axis in (0..dimension).filter(|axis| self.follows[*axis]) {
+                let v = own.map_or(unit(axis), |own| own[axis]);
+                let mut terms = FreedomCoefficients::new();
+                match own {
+                    Some(_) => _ = terms.insert((node, axis as u8), 1.0),
+                    None => add(&mut terms, node, v, axes),
                 }
-                let row = LinearRow {
+                let largest = terms.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+                let first = largest.map(|(key, _)| *key);
+                add(&mut terms, self.reference, v.map(|x| -x), axes);
+                let mut arm = cross(r, v).map(|x| -x);
+                if dimension == 2 {
+                    // In the plane only the rotation about the normal exists.
+                    arm = [0.0, 0.0, arm[2]];
+                }
+                add(&mut terms, self.rotation, arm, axes);
+                out.push(LinearRow {
                     terms,
-                    first: None,
+                    first,
                     place: self.place,
                     keyword: self.keyword,
-                };
-                (node, axis, row)
-            })
-        })
+                });
+            }
+        }
+        out
+    }
+}
+
+/// Adds the term `v . u` of a node's displacement `u`, which is given along the node's own axes.
+fn add(terms: &mut FreedomCoefficients, node: u32, v: Vector, axes: &LocalAxes) {
+    for (of, axis) in axes.get(&node).unwrap_or(&GLOBAL).iter().enumerate() {
+        let c = dot(*axis, v);
+        if c.abs() > ROUND_OFF * length(v) {
+            *terms.entry((node, of as u8)).or_insert(0.0) += c;
+        }
     }
 }
 

@@ -195,7 +195,7 @@ fn pin(
             groups.iter().for_each(|&group| moved[group] = true);
             let motion = motions.describe(mode);
             let unheld = |why: String| Error::new(ErrorKind::Unheld, format!("{motion}: {why}"));
-            let driven = most_driving(motions, mode, &forces);
+            let driven = most_driving(motions, mode, &forces, loads);
             let mut is_explained = |share: f64| {
                 let round = round.get_or_insert_with(|| RoundSurfaces::of(motions.mesh));
                 share <= round.work_of_facets(motions, mode)
@@ -229,13 +229,32 @@ fn pin(
 }
 
 /// Finds the load that does most work on a mode relative to the load's size, and returns this ratio
-/// too; `None` if all ratios are round-off.
-fn most_driving(motions: &Motions, mode: &Mode, forces: &Forces) -> Option<(usize, f64)> {
-    let work = motions.work(mode, forces).into_iter();
-    let shares = work.map(|(load, work)| {
+/// too; `None` if all ratios are round-off. Loads of one history always act together, so that their
+/// work is added; of these, the one with most work is returned.
+fn most_driving(
+    motions: &Motions,
+    mode: &Mode,
+    forces: &Forces,
+    loads: &[LoadCase],
+) -> Option<(usize, f64)> {
+    // For each history: the load with most work, that work, the sum of works, and that of sizes.
+    let mut together: Vec<(usize, f64, f64, f64)> = Vec::new();
+    for (load, work) in motions.work(mode, forces) {
         let size = motions.size(mode, forces, load) * mode.largest();
-        (load, work.abs() / size)
-    });
+        let acts_with = |other: &usize| loads[*other].history == loads[load].history;
+        match together.iter_mut().find(|sums| acts_with(&sums.0)) {
+            Some(sums) => {
+                if work.abs() > sums.1 {
+                    (sums.0, sums.1) = (load, work.abs());
+                }
+                sums.2 += work;
+                sums.3 += size;
+            }
+            None => together.push((load, work.abs(), work, size)),
+        }
+    }
+    let shares = together.into_iter();
+    let shares = shares.map(|(load, _, work, size)| (load, work.abs() / size));
     let driving = shares.filter(|(_, share)| *share > NO_WORK_FOUND);
     driving.max_by(|a, b| a.1.total_cmp(&b.1))
 }

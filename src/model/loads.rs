@@ -5,7 +5,7 @@ use super::load_case::{LoadCase, Magnitude, name, on_freedoms};
 use super::names::SceneEntry;
 use super::on_mesh::OnMesh;
 use super::openings::{Opening, opened};
-use super::tractions::{NodeForces, Tractions, integrate};
+use super::tractions::{NodeForces, Tractions, area, integrate};
 use super::{ContactSurface, Freedoms, Pair, Slot, volume_loads};
 use crate::analytical::KirschField;
 use crate::error::{Error, Result};
@@ -285,13 +285,6 @@ fn shares(space: Space, mesh: &Mesh, name: &str, nodes: &[usize]) -> Vec<f64> {
     } else {
         equal()
     }
-}
-
-fn area(space: Space, mesh: &Mesh, surface: &crate::mesh::Surface) -> f64 {
-    integrate(space, mesh, surface, |_| unit(0))
-        .iter()
-        .map(|(_, f)| f[0])
-        .sum()
 }
 
 fn total(nodal: &[(usize, Vector)]) -> Vector {

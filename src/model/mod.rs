@@ -127,6 +127,13 @@ impl Model {
         loads::leading(&self.scene, &self.loads)
     }
 
+    /// The pair of which a state is shown: a contact pair, or the point of a contact on the axis of
+    /// revolution that is none.
+    pub(crate) fn shown_pair(&self, contact: usize, pair: usize) -> Option<&Pair> {
+        let on_axis = || Some(&self.contacts.get(contact)?.axis.as_ref()?.pair);
+        self.pairs.get(pair).or_else(on_axis)
+    }
+
     /// Share of the interference of all contacts that is applied at a load factor.
     pub(crate) fn interference_at(&self, alpha: f64) -> f64 {
         let until = self.scene.program.interference_until;

@@ -1,7 +1,7 @@
 //! Warnings about entries of a scene that are probably mistakes.
 
 use super::Model;
-use super::symmetry::{Conditions, mirrors};
+use super::symmetry::{Conditions, cuts};
 use crate::number::{exact, percent, significant};
 use crate::scene::Scene;
 
@@ -71,7 +71,7 @@ pub(super) fn of_symmetry(model: &Model) -> Option<String> {
         return None;
     }
     let all: Vec<usize> = (0..n).collect();
-    let is_whole = mirrors(model, &Conditions::of(model), &all).is_empty();
+    let is_whole = cuts(model, &Conditions::of(model), &all).is_empty();
     is_whole.then(|| {
         format!(
             "symmetry = {}: forces are reported for a whole of which the mesh is a part, but no \
@@ -232,6 +232,37 @@ program.targets = [{ load_factor = 1.0 }]
         assert!(
             found[0].starts_with("symmetry = 4: forces are reported for a whole"),
             "{found:?}"
+        );
+    }
+
+    /// A base that is held in every direction is no plane of symmetry, and does not hide one that
+    /// ends at it.
+    #[test]
+    fn a_plane_of_symmetry_may_end_at_a_clamped_base() {
+        let of = |left: &str| {
+            let text = format!(
+                r#"
+kind = "solid"
+symmetry = 2
+mesh.parts = [
+    {{ body = "a", brick = {{ x = [0, 2], y = [-1, 1], z = [0, 2], elements = [2, 2, 2] }} }},
+]
+materials.s = {{ youngs_modulus = 210e3, poissons_ratio = 0.3 }}
+bodies.a.material = "s"
+support = [{{ on = "a.bottom", fix = ["x", "y", "z"] }}{left}]
+load = [{{ on = "a.top", pressure = 1.0 }}]
+program.targets = [{{ load_factor = 1.0 }}]
+"#
+            );
+            Model::new(&Scene::parse(&text, "test").expect("scene"))
+                .expect("model")
+                .warnings
+        };
+        assert_eq!(of(", { on = \"a.left\", fix = [\"x\"] }"), [""; 0]);
+        let whole = of("");
+        assert!(
+            whole[0].starts_with("symmetry = 2: forces are"),
+            "{whole:?}"
         );
     }
 }

@@ -251,6 +251,26 @@ impl Conditions {
 /// Planes of symmetry on which elements have a facet. All facets of the elements on a plane must be
 /// symmetric: the stress continues as its mirror image only if every condition there does.
 pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Vec<Mirror> {
+    held_planes(model, conditions, elements, |facets| {
+        facets.iter().all(|is| *is)
+    })
+}
+
+/// Planes at which a model may be cut because it is symmetric about them: all facets on the plane
+/// are held along its normal, and one of them at least is symmetric. Others may be at supports and
+/// loads that act elsewhere, too.
+pub(super) fn cuts(model: &Model, conditions: &Conditions, elements: &[usize]) -> Vec<Mirror> {
+    held_planes(model, conditions, elements, |facets| facets.contains(&true))
+}
+
+/// Planes on which all facets of the elements are held along the normal, and for which `is_kept`
+/// accepts which of these facets are symmetric.
+fn held_planes(
+    model: &Model,
+    conditions: &Conditions,
+    elements: &[usize],
+    is_kept: impl Fn(&[bool]) -> bool,
+) -> Vec<Mirror> {
     let sides = ActingSides::of(model, conditions, elements);
     let planes = || {
         let sides = sides.0.iter();
@@ -271,11 +291,12 @@ pub fn mirrors(model: &Model, conditions: &Conditions, elements: &[usize]) -> Ve
         }
     }
     out.retain(|mirror| {
-        let mut on_it = planes().filter(|(side, other)| same(mirror, other, side.length));
-        on_it.all(|(side, own)| {
-            Conditions::hold(model, side, own.normal)
-                && sides.are_symmetric(side, own.normal, model, conditions)
-        })
+        let on_it = || planes().filter(|(side, other)| same(mirror, other, side.length));
+        let is_symmetric = |(side, own): (&MirrorSide, Mirror)| {
+            sides.are_symmetric(side, own.normal, model, conditions)
+        };
+        on_it().all(|(side, own)| Conditions::hold(model, side, own.normal))
+            && is_kept(&on_it().map(is_symmetric).collect::<Vec<bool>>())
     });
     out
 }

@@ -6,7 +6,7 @@ use crate::element::{FacetPoint, facet_points};
 use crate::error::{Error, Result};
 use crate::mesh::{Mesh, Surface};
 use crate::scene::{Field, Load, Scene, VectorField};
-use crate::space::{Space, Vector, length};
+use crate::space::{Space, Vector, length, unit};
 use std::collections::BTreeMap;
 use std::convert::Infallible;
 
@@ -104,6 +104,12 @@ impl<'a> Tractions<'a> {
         self.entry
             .refused(error.within(self.entry.on(&self.load.on)))
     }
+}
+
+/// Area of a surface: length times thickness 1 in the plane, the whole annulus about an axis.
+pub(super) fn area(space: Space, mesh: &Mesh, surface: &Surface) -> f64 {
+    let forces = integrate(space, mesh, surface, |_| unit(0));
+    forces.iter().map(|(_, f)| f[0]).sum()
 }
 
 /// Consistent nodal forces of a traction on a surface.

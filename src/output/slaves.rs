@@ -39,10 +39,9 @@ impl<'a> Slaves<'a> {
     }
 
     /// Returns the node of a pair: the node of the first surface if two nodes face each other,
-    /// otherwise the slave of the pair. A point on an axis of revolution that is not a pair has
-    /// none.
+    /// otherwise the slave of the pair.
     pub(super) fn node(&self, of_pair: &PairState) -> Option<usize> {
-        let pair = self.model.pairs.get(of_pair.pair)?;
+        let pair = self.model.shown_pair(of_pair.contact, of_pair.pair)?;
         let is_on_first = |node: &usize| self.is_on_first(*node, of_pair.contact);
         Some(pair.faced().filter(is_on_first).unwrap_or(pair.slave))
     }

@@ -22,11 +22,13 @@ pub struct Contact {
     /// of the position, or values at nodes. A formula or nodal values are read at the slave nodes.
     pub gap: Option<Field>,
     /// Which surface is the slave: gaps and pressures are defined at the slave nodes. `"auto"`
-    /// takes the finer surface, with three exceptions. The coarser surface is the slave if its
-    /// facets are linear and more than twice as long as those of the finer one (or longer at all,
-    /// on a curved surface whose shape is not known). The second surface is the slave if the nodes
-    /// of the two surfaces face each other. The other surface becomes the slave if nodes at an edge
-    /// are already slaves of an earlier contact or, with `held`, if fewer of its nodes are held.
+    /// takes the finer surface, with four exceptions. A flat surface beyond whose edges the other
+    /// extends is the slave if the facets of neither are more than twice as long as those of the
+    /// other. The coarser surface is the slave if its facets are linear and more than twice as long
+    /// as those of the finer one (or longer at all, on a curved surface whose shape is not known).
+    /// The second surface is the slave if the nodes of the two surfaces face each other. The other
+    /// surface becomes the slave if nodes at an edge are already slaves of an earlier contact or,
+    /// with `held`, if fewer of its nodes are held.
     #[serde(default, skip_serializing_if = "SlaveSide::is_auto")]
     pub slave: SlaveSide,
     /// Set of the only nodes that may touch: nodes of one of the surfaces, which becomes the slave.

@@ -36,7 +36,8 @@ pub(super) const FAMILIES: &[CaseFamily] = &[
         name: "contact at nu 0.4999 to 0.499999",
         figure: "out-of-balance force over the round-off that the state reports, or over 1e-7",
         bound: 1.0,
-        source: "2 eps abs(K) abs(u), the round-off of forces; events are located to 10 gamma = 1e-7",
+        source: "2 eps abs(K) abs(u), the round-off of forces; events are located to 10 gamma = \
+                 1e-7",
         cases: incompressible_contact,
     },
     CaseFamily {

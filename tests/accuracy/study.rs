@@ -81,7 +81,7 @@ fn a_study_prices_accuracy_against_the_closed_form() {
             first.words
         );
     };
-    says(&["tolerance 1e-", "would do"]);
+    says(&["tolerance 1e-", "would be accurate enough"]);
     says(&["1.0 % costs"]);
     // Beyond yield the reference is extrapolated, the increments included.
     let opened = found

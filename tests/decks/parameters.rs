@@ -103,6 +103,52 @@ fn requests_for_output_are_read_over() {
     }
 }
 
+/// `*OUTPUT, HISTORY` is for requests of Abaqus, `*NODE OUTPUT`: a request of CalculiX that follows
+/// writes its file.
+#[test]
+fn a_file_is_written_behind_a_history() {
+    let items = |request: &str| {
+        let text = changed(&[("*OUTPUT, FIELD\n", request)]);
+        let deck = Deck::parse(text.as_bytes(), "deck.inp").unwrap();
+        let conversion = deck.convert(Options::default()).unwrap();
+        let moments = &conversion.scene.requests.moments;
+        moments
+            .iter()
+            .map(|moment| moment.file.len())
+            .sum::<usize>()
+    };
+    let file = items("*NODE FILE\nU\n");
+    assert!(file > 0);
+    assert_eq!(
+        items("*OUTPUT, HISTORY\n*NODE OUTPUT\nU\n*NODE FILE\nU\n"),
+        file
+    );
+    assert_eq!(items("*OUTPUT, HISTORY\n*NODE OUTPUT\nU\n"), 0);
+}
+
+/// A speed whose square becomes negative is none.
+#[test]
+fn the_square_of_a_speed_is_not_negative() {
+    let turning = |last: &str| {
+        changed(&[
+            (
+                "*AMPLITUDE, NAME=A\n0., 0., 1., 1.",
+                &format!("*AMPLITUDE, NAME=A\n0., 0., 1., {last}"),
+            ),
+            (
+                "*DLOAD\nBLOCKS, GRAV, 10., 0., -1.",
+                "*DLOAD, AMPLITUDE=A\nBLOCKS, CENTRIF, 4., 0., 0., 0., 0., 0., 1.",
+            ),
+        ])
+    };
+    assert!(converted(&turning("0.5")).is_ok());
+    let error = converted(&turning("-0.5")).unwrap_err().to_string();
+    assert!(
+        error.contains("*DLOAD: CENTRIF: the square of the speed becomes -2"),
+        "{error}"
+    );
+}
+
 #[test]
 fn parameters_that_change_nothing_are_read_over() {
     let pair = "TYPE=SURFACE TO SURFACE";

@@ -358,7 +358,8 @@ fn what_brinell_does_not_have_is_told_by_line_and_reason() {
         ),
         (
             before,
-            "*COUPLING, REF NODE=1, SURFACE=S, ORIENTATION=O\n*SOLID SECTION, ELSET=BODY",
+            "*COUPLING, REF NODE=1, SURFACE=S, ORIENTATION=O\n*KINEMATIC\n1, 2\n*SOLID SECTION, \
+             ELSET=BODY",
             "*COUPLING: ORIENTATION",
         ),
         (

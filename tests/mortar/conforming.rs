@@ -127,7 +127,7 @@ fn facets_that_overlap_are_noticed() {
     let why = builder.build().map(|_| ()).unwrap_err().to_string();
     assert!(why.contains("overlaps the other surface by"), "{why}");
     assert!(
-        why.contains("no more than flat facets deviate from a curved surface"),
+        why.contains("no more than facets deviate from a curved surface"),
         "{why}"
     );
     assert!(why.contains("mesh.circles"), "{why}");

@@ -5,7 +5,8 @@ use crate::mortar::blocks::{
 };
 use crate::mortar::sheet::Sheet;
 use crate::support::build::Build;
-use crate::support::run_built;
+use crate::support::random::Random;
+use crate::support::{either, run_built, run_text, run_with_model};
 use brinell::mesh::Shape;
 use brinell::model::{Model, ModelBuilder};
 use brinell::scene::{Direction, History, Kind, SlaveSide};
@@ -249,5 +250,138 @@ fn the_finer_surface_has_the_slaves() {
                 "{pair:?}"
             );
         }
+    }
+}
+
+/// A block that stands on a larger one of nearly equal elements is the slave, whichever is finer
+/// and whatever is first: slaves of the larger one, outside the edge, would touch with some
+/// thousandths of their areas, at pressures of many times the mean.
+#[test]
+fn a_block_on_a_larger_one_has_the_slaves() {
+    for seed in 1..=either(8, 60) {
+        let random = &mut Random::new(seed);
+        let ends = |random: &mut Random| [random.within(0.1, 0.6), random.within(1.4, 1.9)];
+        let (x, y) = (ends(random), ends(random));
+        let cells = |random: &mut Random, length: f64| {
+            format!("{}", (length / random.within(0.26, 0.42)).round())
+        };
+        let upper = [x, y].map(|[a, b]| cells(random, b - a)).join(", ");
+        let lower = [2.0, 2.0].map(|length| cells(random, length)).join(", ");
+        let contact =
+            random.one_of(&[["upper.bottom", "lower.top"], ["lower.top", "upper.bottom"]]);
+        let text = format!(
+            r#"
+kind = "solid"
+[[mesh.parts]]
+body = "lower"
+brick = {{ x = [0, 2], y = [0, 2], z = [-1, 0], elements = [{lower}, 2] }}
+[[mesh.parts]]
+body = "upper"
+brick = {{ x = {x:?}, y = {y:?}, z = [0, 1], elements = [{upper}, 2] }}
+[[contact]]
+first = "{}"
+second = "{}"
+[[support]]
+on = "lower.bottom"
+fix = ["x", "y", "z"]
+[[support]]
+on = "upper.top"
+fix = ["x", "y"]
+[[load]]
+on = "upper.top"
+displacement = {{ z = -1e-3 }}
+[bodies]
+lower.material = "m"
+upper.material = "m"
+[materials.m]
+youngs_modulus = 210e3
+poissons_ratio = 0.3
+[program]
+targets = [{{ load_factor = 1.0 }}]
+"#,
+            contact[0], contact[1]
+        );
+        let state = &run_text(&text).states[0];
+        let within = |at: f64, [a, b]: [f64; 2]| a - 1e-9 <= at && at <= b + 1e-9;
+        let outside = state
+            .pairs
+            .iter()
+            .find(|pair| !(within(pair.position[0], x) && within(pair.position[1], y)));
+        assert!(outside.is_none(), "{seed}: {outside:?}");
+        let mean = state.contact_force / ((x[1] - x[0]) * (y[1] - y[0]));
+        // On elements of a third of the width the edge of a punch, where the pressure has no limit,
+        // has two to three times the mean at its corners.
+        assert!(
+            state.max_pressure < 4.0 * mean,
+            "{seed}: {} {mean}",
+            state.max_pressure
+        );
+    }
+}
+
+/// Fields show pressures between zero and the largest one, also on masters, whose weights may be
+/// negative on elements of second order; on the axis, where such elements have no pair, too.
+#[test]
+fn fields_show_no_pressure_beyond_the_largest() {
+    for element in ["quad4", "quad8", "tri6"] {
+        let text = format!(
+            r#"
+kind = "axisymmetric"
+[[mesh.parts]]
+body = "lower"
+element = "{element}"
+block = {{ x = [0, 2], y = [-2, 0], elements = [9, 6] }}
+[[mesh.parts]]
+body = "upper"
+element = "{element}"
+block = {{ x = [0, 2], y = [0, 2], elements = [12, 6] }}
+[materials.m]
+youngs_modulus = 210e3
+poissons_ratio = 0.3
+[bodies]
+lower.material = "m"
+upper.material = "m"
+[[contact]]
+first = "upper.bottom"
+second = "lower.top"
+gap = "r^2 / 100"
+[[support]]
+on = "lower.bottom"
+fix = ["y"]
+[[support]]
+on = "lower.left"
+fix = ["x"]
+[[support]]
+on = "upper.left"
+fix = ["x"]
+[[load]]
+on = "upper.top"
+displacement = {{ y = -0.02 }}
+[program]
+targets = [{{ load_factor = 1.0 }}]
+"#
+        );
+        let (model, results) = run_with_model(&crate::support::parse(&text));
+        let state = &results.states[0];
+        let shown = &state.fields.as_ref().unwrap().contact_pressure;
+        let most = shown.iter().copied().fold(0.0, f64::max);
+        assert!(
+            most <= state.max_pressure * (1.0 + 1e-12),
+            "{element}: {most}"
+        );
+        let contact = [0, 1].map(|k| {
+            let name = ["upper.bottom", "lower.top"][k];
+            let nodes = model.mesh.set_nodes(name).unwrap();
+            nodes
+                .into_iter()
+                .find(|&node| model.mesh.point(node)[0] == 0.0)
+                .unwrap()
+        });
+        // One of them is the slave, whose pressure is that of the pole.
+        let at_pole = contact.map(|node| (shown[node] / state.pole_pressure - 1.0).abs());
+        assert!(
+            at_pole.iter().any(|off| *off <= 1e-12),
+            "{element}: {at_pole:?}"
+        );
     }
 }

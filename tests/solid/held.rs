@@ -155,6 +155,29 @@ fn a_body_that_no_support_holds_and_no_load_drives() {
     assert_eq!(told.count(), 6, "{:?}", results.warnings);
 }
 
+/// Loads of one history act together: two that press from both sides drive no motion, though each
+/// alone would; if they differ, they do.
+#[test]
+fn two_loads_that_balance_drive_no_motion() {
+    let pressed = |pressures: [f64; 2]| {
+        let mut builder = ModelBuilder::new(Kind::Solid);
+        body(&mut builder, "block", Shape::Hex8, &|x| x);
+        builder.press("block.x0", pressures[0]);
+        builder.press("block.x1", pressures[1]);
+        builder
+    };
+    let results = run_to_the_load(&mut pressed([10.0, 10.0]));
+    stresses_are(&results, [-10.0, 0.0, 0.0, 0.0, 0.0, 0.0], "free");
+    let refused = pressed([10.0, 10.001]).build();
+    let refused = refused.and_then(|model| Analysis::new(model, Backend::Dense).map(|_| ()));
+    let error = refused.unwrap_err();
+    assert_eq!(error.kind(), ErrorKind::Unheld, "{error}");
+    assert!(
+        error.message().contains("drives it by 5.0e-5 of its size"),
+        "{error}"
+    );
+}
+
 /// A block askew in space, held on three of its sides: edges belong to two of them, a corner to
 /// three. One stress everywhere, under every element; and so in two blocks in contact, whose pairs
 /// lie on the edges.

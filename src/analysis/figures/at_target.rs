@@ -187,14 +187,16 @@ fn fields(
 }
 
 /// Enters the pressure and gap of each pair on the slave and on the node that faces it. Other
-/// master nodes get the mean of the pressures that act on them.
+/// master nodes get the mean of the pressures that act on them, by the areas of the slaves times
+/// their weights. Negative weights, which shape functions of second order have, are left out, so
+/// that the mean lies between the pressures.
 fn on_nodes(model: &Model, pairs: &[PairState], fields: &mut Fields) {
     let n = model.mesh.n_nodes();
     fields.contact_pressure = vec![0.0; n];
     fields.gap = vec![f64::NAN; n];
     let mut forces: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
     for state in pairs {
-        let Some(pair) = model.pairs.get(state.pair) else {
+        let Some(pair) = model.shown_pair(state.contact, state.pair) else {
             continue;
         };
         for node in pair.faced().into_iter().chain([pair.slave]) {
@@ -202,7 +204,7 @@ fn on_nodes(model: &Model, pairs: &[PairState], fields: &mut Fields) {
             fields.gap[node] = state.gap;
         }
         if pair.faced().is_none() {
-            for &(node, weight) in &pair.masters {
+            for &(node, weight) in pair.masters.iter().filter(|master| master.1 > 0.0) {
                 let [force, area] = forces.entry(node).or_insert([0.0; 2]);
                 *force += weight * state.force;
                 *area += weight * state.area;

@@ -12,13 +12,13 @@ use crate::space::{Vector, along};
 /// Largest component of a unit vector that counts as round-off, after the sums of an elimination.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Displacement of a node along one of its axes, as a sum of other displacements plus a value over
-/// time.
-pub(super) struct AlongAxis {
-    pub(super) axis: Vector,
-    pub(super) of: FreedomCoefficients,
-    pub(super) moved: Series,
-    pub(super) place: LinePlace,
+/// Displacement of a node along a direction, as a sum of displacements of other nodes plus a value
+/// over time.
+struct AlongAxis {
+    axis: Vector,
+    of: FreedomCoefficients,
+    moved: Series,
+    place: LinePlace,
 }
 
 /// The condition `v . u = sum_k b_k d_k` on a node's displacement `u`, with the known displacements
@@ -31,8 +31,8 @@ struct KnownAlong {
 
 /// Known displacements of a node along some of its own axes.
 pub(super) struct NodeAlongAxes {
-    pub(super) node: u32,
-    pub(super) known: Vec<AlongAxis>,
+    node: u32,
+    known: Vec<AlongAxis>,
 }
 
 impl NodeAlongAxes {
@@ -49,6 +49,32 @@ impl NodeAlongAxes {
         });
         let known = known.collect();
         NodeAlongAxes { node, known }
+    }
+
+    /// Adds that the displacement along an axis is a sum of others plus a value. Displacements of
+    /// the same node among the others, `c_j a_j . u`, are subtracted from the direction `a` in
+    /// `a . u`.
+    pub(super) fn follow(
+        &mut self,
+        axis: u8,
+        mut of: FreedomCoefficients,
+        moved: Series,
+        axes: &LocalAxes,
+        place: LinePlace,
+    ) {
+        let own = &axes[&self.node];
+        let mut direction = own[axis as usize];
+        for (j, other) in (0..3u8).zip(own) {
+            if let Some(c) = of.remove(&(self.node, j)) {
+                direction = along(direction, -c, *other);
+            }
+        }
+        self.known.push(AlongAxis {
+            axis: direction,
+            of,
+            moved,
+            place,
+        });
     }
 
     /// Prescribes the displacement by Gaussian elimination, after which each component along x, y

@@ -52,7 +52,8 @@ impl<'c, 'd> DeckConditions<'c, 'd> {
         };
         let (planes, in_steps) = conditions.constrain(in_steps)?;
         conditions.turn_boundary(&in_steps);
-        conditions.turn_forces();
+        let axes = conditions.axes.clone();
+        conditions.turn_forces(&axes);
         let DeckConditions {
             draft,
             boundary,
@@ -276,9 +277,9 @@ impl<'c, 'd> DeckConditions<'c, 'd> {
         }
     }
 
-    /// Resolves forces in local axes into global components.
-    fn turn_forces(&mut self) {
-        let (axes, forces) = (&self.axes, &mut self.forces);
+    /// Resolves forces on nodes with these local axes into global components.
+    pub(super) fn turn_forces(&mut self, axes: &LocalAxes) {
+        let forces = &mut self.forces;
         let all = std::mem::take(forces).into_iter();
         let (turned, others): (Map, Map) = all.partition(|(key, _)| axes.contains_key(&key.0));
         *forces = others;

@@ -1,7 +1,7 @@
 //! The scene under construction: supports, loads and equations with their places.
 
 use super::super::Deck;
-use super::super::constraints::LocalAxes;
+use super::super::constraints::{GLOBAL, LocalAxes};
 use super::super::data::Account;
 use super::super::facets::Key;
 use super::super::history::KeyHistory;
@@ -14,9 +14,6 @@ use std::collections::BTreeMap;
 
 /// Size of a sum of displacements, relative to its terms, up to which the sum counts as zero.
 pub(super) const ROUND_OFF: f64 = 1e-9;
-
-/// The axes of a node that has none of its own.
-pub(super) const GLOBAL: [Vector; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Parts of a scene, and the sets to which they refer.
 pub(super) struct Draft<'d> {

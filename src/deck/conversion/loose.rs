@@ -1,7 +1,7 @@
 //! Nodes without elements, such as reference nodes. Their displacements and forces are sums of
 //! those of other nodes, which are recorded here for the tables that list them.
 
-use super::super::constraints::HeldPlane;
+use super::super::constraints::{HeldPlane, LocalAxes};
 use super::super::facets::Key;
 use super::super::history::{Map, sum_of};
 use super::super::linear::{FreedomCoefficients, LinearRow, Reduced};
@@ -14,6 +14,9 @@ use std::collections::BTreeMap;
 pub(super) struct LooseNodes<'c> {
     pub(super) mesh: &'c DeckMesh,
     pub(super) geometry: &'c Geometry,
+    /// Local axes of nodes whose displacements are taken along x, y and z here; tables are in the
+    /// local axes nevertheless.
+    pub(super) given_up: &'c LocalAxes,
     /// The sums by node number.
     pub(super) sums: BTreeMap<u64, LooseNode>,
 }
@@ -45,9 +48,22 @@ impl LooseNodes<'_> {
     }
 
     fn add_force(&mut self, key: Key, (node, axis): Key, share: f64) {
-        let label = self.mesh.node_label(node as usize);
+        let terms = self.along_own_axes((node, axis), share);
         if let Some(loose) = self.axis(key) {
-            loose.force.push((label, axis, share));
+            loose.force.extend(terms);
+        }
+    }
+
+    /// The terms of a displacement or a force in the axes of its node: the node's number, the axis
+    /// and the coefficient.
+    fn along_own_axes(&self, (node, axis): Key, c: f64) -> Vec<(u64, u8, f64)> {
+        let label = self.mesh.node_label(node as usize);
+        match self.given_up.get(&node) {
+            None => vec![(label, axis, c)],
+            Some(own) => (0..3u8)
+                .zip(own)
+                .map(|(of, way)| (label, of, c * way[axis as usize]))
+                .collect(),
         }
     }
 
@@ -85,7 +101,7 @@ impl LooseNodes<'_> {
         let free = terms.iter().filter(|(key, _)| !boundary.contains_key(key));
         let free: Vec<(u64, u8, f64)> = free
             .filter(|(key, _)| self.geometry.uses(key.0))
-            .map(|(&(node, axis), c)| (self.mesh.node_label(node as usize), axis, *c))
+            .flat_map(|(key, c)| self.along_own_axes(*key, *c))
             .collect();
         if let Some(loose) = self.axis(key) {
             loose.displacement = free;

@@ -3,7 +3,7 @@
 
 use super::super::Deck;
 use super::super::bodies::unsupported;
-use super::super::constraints::HeldPlane;
+use super::super::constraints::{HeldPlane, LocalAxes};
 use super::super::data::LinearEquation;
 use super::super::facets::Key;
 use super::super::history::{KeyHistory, Map, sum_of};
@@ -12,9 +12,9 @@ use super::super::rigid::{DeckRigidBody, rotations_among};
 use super::super::series::Series;
 use super::super::sets::What;
 use super::super::source::LinePlace;
-use super::along_axes::{AlongAxis, NodeAlongAxes};
+use super::along_axes::NodeAlongAxes;
 use super::conditions::DeckConditions;
-use super::draft::{GLOBAL, ROUND_OFF};
+use super::draft::ROUND_OFF;
 use super::in_steps::InSteps;
 use super::loose::LooseNodes;
 use crate::error::Result;
@@ -35,24 +35,34 @@ impl DeckConditions<'_, '_> {
         for equation in others {
             rows_of(equation, deck, &mut rows)?;
         }
+        let given_up = self.give_up_axes(&in_steps)?;
+        rows.iter_mut().for_each(|row| row.resolve(&given_up));
         self.rows_of_bodies(&mut rows)?;
         let mut loose = LooseNodes {
             mesh: &deck.mesh,
             geometry: &self.draft.geometry,
+            given_up: &given_up,
             sums: BTreeMap::new(),
         };
         loose.record_forces(&planes, &rows);
-        let (simple, joined) = apart(planes, &rows, |plane| self.is_joined(plane, &in_steps));
+        let (simple, joined) = apart(planes, &rows, |plane| {
+            let gives_up = |node: &u32| given_up.contains_key(node);
+            self.is_joined(plane, &in_steps) || plane.nodes.iter().any(gives_up)
+        });
         for plane in joined {
             let followers = plane.nodes.iter().filter(|node| **node != plane.leader.0);
-            rows.extend(followers.map(|&node| LinearRow {
-                terms: FreedomCoefficients::from([
-                    ((node, plane.leader.1), 1.0),
-                    (plane.leader, -1.0),
-                ]),
-                first: Some((node, plane.leader.1)),
-                place: plane.place,
-                keyword: "EQUATION",
+            rows.extend(followers.map(|&node| {
+                let mut row = LinearRow {
+                    terms: FreedomCoefficients::from([
+                        ((node, plane.leader.1), 1.0),
+                        (plane.leader, -1.0),
+                    ]),
+                    first: Some((node, plane.leader.1)),
+                    place: plane.place,
+                    keyword: "EQUATION",
+                };
+                row.resolve(&given_up);
+                row
             }));
         }
         let of_rows = rows.iter().flat_map(|row| row.terms.keys().copied());
@@ -82,18 +92,29 @@ impl DeckConditions<'_, '_> {
             || followers.any(|node| self.boundary.contains_key(&(*node, axis)))
     }
 
+    /// Removes the local axes of nodes of rigid bodies along which nothing is prescribed, and
+    /// returns them: rows between components along x, y and z can be reduced whatever these axes
+    /// are.
+    fn give_up_axes(&mut self, in_steps: &[(Key, KeyHistory)]) -> Result<LocalAxes> {
+        let deck = self.draft.deck;
+        let bodies = DeckRigidBody::all(&deck.properties.rigid, deck.lookup())?;
+        let mut out = LocalAxes::new();
+        for &node in bodies.iter().flat_map(DeckRigidBody::nodes) {
+            let in_a_step = in_steps.iter().any(|(key, _)| key.0 == node);
+            let is_given = (0..3).any(|axis| self.boundary.contains_key(&(node, axis)));
+            if self.draft.geometry.uses(node) && !in_a_step && !is_given {
+                out.extend(self.axes.remove(&node).map(|axes| (node, axes)));
+            }
+        }
+        self.turn_forces(&out);
+        Ok(out)
+    }
+
     /// Adds the rows of rigid bodies, in displacements along each node's own axes.
     fn rows_of_bodies(&self, rows: &mut Vec<LinearRow>) -> Result<()> {
         let deck = self.draft.deck;
         for body in DeckRigidBody::all(&deck.properties.rigid, deck.lookup())? {
-            for (node, axis, mut row) in body.rows(&deck.mesh) {
-                let own = self.axes.get(&node).copied().unwrap_or(GLOBAL);
-                for (of, local) in own.iter().enumerate() {
-                    *row.terms.entry((node, of as u8)).or_insert(0.0) += local[axis];
-                }
-                row.first = Some((node, axis as u8));
-                rows.push(row);
-            }
+            rows.extend(body.rows(&deck.mesh, &self.axes));
         }
         Ok(())
     }
@@ -188,12 +209,7 @@ impl DeckConditions<'_, '_> {
             let mut along = NodeAlongAxes::taken(node, &self.axes, &mut self.boundary);
             for follows in of_node {
                 let (of, moved) = self.apart_from_loose(follows, &known);
-                along.known.push(AlongAxis {
-                    axis: self.axes[&node][follows.key.1 as usize],
-                    of,
-                    moved,
-                    place: follows.place,
-                });
+                along.follow(follows.key.1, of, moved, &self.axes, follows.place);
             }
             along.prescribe(self.draft, &self.axes, &mut self.boundary);
         }

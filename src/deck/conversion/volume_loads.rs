@@ -7,6 +7,7 @@ use super::super::source::LinePlace;
 use super::super::temperature::OfBody;
 use super::draft::Draft;
 use crate::error::Result;
+use crate::number::significant;
 use crate::scene::{Field, Load, NodalField, Rotation};
 use crate::space::Space;
 use std::f64::consts::PI;
@@ -29,6 +30,20 @@ impl BodyLoads<'_> {
             }
             let on = self.bodies.names[body as usize].clone();
             let largest = entry.series.largest();
+            let is_rotation = matches!(
+                draft.deck.program.volume_loads[index as usize],
+                VolumeLoad::Rotation(_)
+            );
+            if let Some([_, square]) = entry.series.rows().iter().find(|row| row[1] < 0.0)
+                && is_rotation
+            {
+                let message = format!(
+                    "CENTRIF: the square of the speed becomes {}; it must not be negative: \
+                     check the *AMPLITUDE",
+                    significant(*square, 6)
+                );
+                return Err(draft.deck.error(entry.place, "DLOAD", message));
+            }
             let load = match draft.deck.program.volume_loads[index as usize] {
                 VolumeLoad::Acceleration(way) => Load {
                     on,

@@ -109,7 +109,7 @@ impl RequestReader {
         result_items(block, &mut request)?;
         self.schedule(block.keyword, steps);
         match steps.current() {
-            _ if self.is_history && !is_print => {
+            _ if self.is_history && keyword.name.ends_with("OUTPUT") => {
                 let why = "histories: tables of whole sets are written (--dat)";
                 block.ignore(why);
             }

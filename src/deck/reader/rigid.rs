@@ -43,8 +43,8 @@ impl RigidReader {
         block.allow(known)?;
         if block.keyword.has("ORIENTATION") {
             let why = "ORIENTATION: displacements follow along x, y, z here";
+            // The *KINEMATIC below still belongs to this coupling.
             block.refuse(why);
-            return block.skip();
         }
         self.open = Some(Rigid {
             nodes: RigidNodes::Surface(block.require("SURFACE")?.to_string()),

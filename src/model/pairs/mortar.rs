@@ -24,6 +24,7 @@ pub(in crate::model) mod roundness;
 mod sides;
 mod spheres;
 
+use super::super::tractions::area;
 use super::contact_input::ContactInput;
 use super::covered::Covered;
 use super::found::Found;
@@ -155,7 +156,7 @@ fn coupled<'a>(entries: &'a ContactInput<'a>, slave: SlaveSide) -> Result<Couple
     let slave = match slave {
         SlaveSide::First => 0,
         SlaveSide::Second => 1,
-        SlaveSide::Auto => finer(mesh, entries.surfaces, [0, 1].map(|k| curves[k].is_some())),
+        SlaveSide::Auto => finer(entries, [0, 1].map(|k| curves[k].is_some())),
     };
     let curves = [curves[slave], curves[1 - slave]];
     let [slave_surface, master_surface] = [entries.surfaces[slave], entries.surfaces[1 - slave]];
@@ -250,10 +251,14 @@ const LONGER: f64 = 2.0;
 const LONGER_KINKED: f64 = 1.0;
 
 /// Chooses the slave: the surface with the smaller facets in the part where the two surfaces may
-/// face each other, or the second surface if the facets are equal. The surface with the larger
-/// facets is the slave instead if its facets are linear and longer by a factor of more than
-/// [`LONGER`] or [`LONGER_KINKED`].
-fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
+/// face each other, or the second surface if the facets are equal. There are two exceptions. A flat
+/// surface that lies wholly opposite the other, while the other extends beyond it, is the slave
+/// unless its facets are longer by a factor of more than [`LONGER`]: slaves of the other surface
+/// would touch with a small part of their areas at its edges. The surface with the larger facets is
+/// the slave if its facets are linear and longer by a factor of more than [`LONGER`] or
+/// [`LONGER_KINKED`].
+fn finer(entries: &ContactInput, is_known: [bool; 2]) -> usize {
+    let (mesh, surfaces) = (entries.mesh, entries.surfaces);
     let faces = surfaces.map(|surface| -> Vec<MortarFace> {
         surface
             .facets
@@ -261,7 +266,7 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
             .map(|&facet| MortarFace::new(mesh, facet))
             .collect()
     });
-    let median = |own: &[MortarFace], other: &[MortarFace]| {
+    let faced_radii = |own: &[MortarFace], other: &[MortarFace]| {
         let near = Balls::new(other.iter().map(MortarFace::ball).collect());
         let faced = |face: &&MortarFace| {
             let near = near.near(face.center, face.normal, face.radius);
@@ -269,9 +274,21 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
         };
         let mut sizes: Vec<f64> = own.iter().filter(faced).map(|face| face.radius).collect();
         sizes.sort_by(f64::total_cmp);
-        sizes.get(sizes.len() / 2).copied().unwrap_or(f64::INFINITY)
+        sizes
     };
-    let [first, second] = [median(&faces[0], &faces[1]), median(&faces[1], &faces[0])];
+    let radii = [0, 1].map(|k| faced_radii(&faces[k], &faces[1 - k]));
+    let median = |sizes: &[f64]| sizes.get(sizes.len() / 2).copied().unwrap_or(f64::INFINITY);
+    let [first, second] = [median(&radii[0]), median(&radii[1])];
+    let is_within = [0, 1].map(|k| radii[k].len() == faces[k].len());
+    let longest = |faces: &[MortarFace]| faces.iter().map(|face| face.radius).fold(0.0, f64::max);
+    let areas = surfaces.map(|surface| area(entries.space, mesh, surface));
+    let inner = (0..2).find(|&k| is_within[k] && areas[k] < areas[1 - k] * (1.0 - 1e-6));
+    if let Some(inner) = inner.filter(|&k| depth(&faces[k]) <= FLAT * longest(&faces[k]))
+        && median(&radii[inner]) <= LONGER * (1.0 + 1e-6) * median(&radii[1 - inner])
+        && median(&radii[1 - inner]) <= LONGER * (1.0 + 1e-6) * median(&radii[inner])
+    {
+        return inner;
+    }
     let finer = usize::from(first >= second * (1.0 - 1e-6));
     let is_linear = |face: &MortarFace| face.nodes.len() == face.reference.n_corners;
     let ratio = if finer == 0 {
@@ -280,8 +297,7 @@ fn finer(mesh: &Mesh, surfaces: [&Surface; 2], is_known: [bool; 2]) -> usize {
         first / second
     };
     let coarser = &faces[1 - finer];
-    let size = coarser.iter().map(|face| face.radius).fold(0.0, f64::max);
-    let longer = match is_known[1 - finer] || depth(coarser) <= FLAT * size {
+    let longer = match is_known[1 - finer] || depth(coarser) <= FLAT * longest(coarser) {
         true => LONGER,
         false => LONGER_KINKED,
     };
@@ -371,11 +387,17 @@ impl Sides<'_> {
             -deepest.gap
         );
         let facets = self.depth_of_facets();
+        let is_linear = |face: &MortarFace| face.nodes.len() == face.reference.n_corners;
+        let finer = match self.slaves.iter().chain(&self.masters).all(is_linear) {
+            true => "use quadratic elements",
+            false => "use smaller elements",
+        };
         Err(Error::input(match -deepest.gap <= facets {
             true => format!(
-                "{place}: no more than flat facets deviate from a curved surface ({facets:.1e}), \
-                 which is not what the bodies do; say what the surface is (`mesh.circles`, \
-                 `spheres`, `cylinders`, `tori`), give `gap`, or use quadratic elements"
+                "{place}: no more than facets deviate from a curved surface ({facets:.1e}), which \
+                 is not what the bodies do; say what the surface is (`mesh.circles`, `spheres`, \
+                 `cylinders`, `tori`), give `gap`, {finer}, or say `overlap = true` where that is \
+                 an interference"
             ),
             false => format!(
                 "{place}; move the bodies apart, or say `overlap = true` where that is an \
