@@ -95,7 +95,7 @@ fn a_path_error_that_was_not_reached_is_named() {
     };
     let (value, left, named) = asked(1e-3);
     assert!(
-        named.contains("program.path_error = 1e-3 is not shown"),
+        named.contains("program.path_error = 1e-3 is probably not reached"),
         "{named}"
     );
     assert!(named.contains("states.unloaded.max_pressure"), "{named}");
