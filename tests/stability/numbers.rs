@@ -195,7 +195,9 @@ fn modes_without_energy_are_named() {
     let error = row(1).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Unheld);
     assert!(
-        error.message().contains("of the shape hex20 have deformations without stiffness"),
+        error
+            .message()
+            .contains("of the shape hex20 have deformations without stiffness"),
         "{error}"
     );
     // Bernoulli's beam; shear adds (h/L)^2 = 1 %.
