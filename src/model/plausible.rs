@@ -228,7 +228,8 @@ program.targets = [{ load_factor = 1.0 }]
         let left = "{ on = \"a.left\", fix = [\"x\"] }";
         assert_eq!(of("symmetry = 2", left), [""; 0]);
         assert_eq!(of("", ""), [""; 0]);
-        let found = of("symmetry = 4", "");
+        // Clamped, the base is no plane of symmetry.
+        let found = of("symmetry = 4", "{ on = \"a.bottom\", fix = [\"x\"] }");
         assert!(
             found[0].starts_with("symmetry = 4: forces are reported for a whole"),
             "{found:?}"
