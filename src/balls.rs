@@ -154,8 +154,8 @@ impl Balls {
         least
     }
 
-    /// Finds the items that come nearer than `reach` to the line through `point` along the unit
-    /// vector `way`, in ascending order of their numbers.
+    /// Finds the items whose balls come within `reach` of the line through `point` along the unit
+    /// vector `way`, or just touch it, in ascending order of their numbers.
     pub(crate) fn near(&self, point: Vector, way: Vector, reach: f64) -> Vec<usize> {
         let mut found = Vec::new();
         self.visit(point, way, reach, |item| found.push(item));

@@ -24,7 +24,7 @@ use std::ops::Range;
 /// Components of a free strain that share one value at each node.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct FreeStrain {
-    /// Range of the components that have this value.
+    /// Range of the strain components that share the value.
     pub components: Range<usize>,
     /// Value of these components at each node of the mesh.
     pub nodal: Vec<f64>,

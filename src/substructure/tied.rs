@@ -65,7 +65,7 @@ const ROUND_OFF: f64 = 1e-11;
 /// The tied structure, factored: all contact rows closed.
 pub(crate) struct Tied {
     rows: Rows,
-    /// Leaders whose `w` is an unknown.
+    /// Leaders that have an entry in `w`: all but as many as there are rigid motions.
     kept: Vec<usize>,
     /// Rigid motions of the leaders, `leaders x motions`.
     motions: DMatrix<f64>,

@@ -143,7 +143,8 @@ impl Changed {
     }
 }
 
-/// Factors a panel to which all earlier updates are applied; returns the rows below the triangle.
+/// Factors a panel to which all earlier updates have been applied. Returns the rows below the
+/// triangle; `None` if a pivot is not positive.
 fn factor_panel(values: &mut DMatrixViewMut<f64>) -> Option<DMatrix<f64>> {
     let (height, width) = values.shape();
     let own = values.rows(0, width).into_owned().cholesky()?.unpack();

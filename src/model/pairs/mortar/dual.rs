@@ -29,7 +29,7 @@ const ALPHA: f64 = crate::model::ContactBasis::ALPHA;
 
 /// Integrals of the functions of a slave node over its facets.
 pub(super) struct Integrals {
-    /// Integral `int phi` over all facets of the node.
+    /// Integral `int phi` over those facets of the node that the other surface covers, wholly or not.
     pub whole: f64,
     /// Integral `D = int psi` over the covered part.
     pub covered: f64,
