@@ -29,7 +29,8 @@ const ALPHA: f64 = crate::model::ContactBasis::ALPHA;
 
 /// Integrals of the functions of a slave node over its facets.
 pub(super) struct Integrals {
-    /// Integral `int phi` over those facets of the node that the other surface covers, wholly or not.
+    /// Integral `int phi` over those facets of the node that the other surface covers at least in
+    /// part.
     pub whole: f64,
     /// Integral `D = int psi` over the covered part.
     pub covered: f64,
