@@ -10,7 +10,7 @@ pub struct Quantity {
     pub path: String,
     /// Name of the state; `None` for first yield.
     pub state: Option<String>,
-    /// What the quantity is: KEY, or of a part one of [`PARTS`].
+    /// What the quantity is: KEY, or for a part what it is of the part, such as `"body dent"`.
     pub kind: &'static str,
     /// Value of the quantity in the unit of the run.
     pub value: f64,
