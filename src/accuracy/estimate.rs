@@ -166,7 +166,7 @@ impl ErrorSources<'_> {
 /// Estimates the error of a quantity from the energy norm of the stress error, if no other mesh was
 /// run. Loads, displacements and work take the norm of the whole model. All other quantities, and
 /// loads that the material or the contact decides, take the norm of the region where bodies touch
-/// and yield. The estimate is no bound; `None` if a target asks for the quantity itself. The error
+/// or yield. The estimate is no bound; `None` if a target asks for the quantity itself. The error
 /// of the reading and [`Quantity::least`] are added: unlike a comparison of meshes, the norm does
 /// not show how far the outermost points are from a surface.
 fn by_energy_norm(run: &Judged, quantity: &Quantity) -> Option<f64> {

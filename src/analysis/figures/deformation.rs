@@ -27,8 +27,8 @@ const LARGE: f64 = 0.1;
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub(in crate::analysis) struct Deformation {
     largest: f64,
-    /// Largest component of the strain tensor of the mean gradient of an element; `rotation` is the
-    /// largest rotation of such a gradient, in radians.
+    /// Largest strain component of any element so far, from the displacement gradient fitted to its
+    /// corners; `rotation` is the largest rotation, in radians.
     strain: f64,
     rotation: f64,
     /// Name of the state in which the gradient occurs; `body` is the body in which it occurs.
