@@ -148,7 +148,7 @@ def test_a_body_held_by_contact_alone():
     "arguments, words",
     [
         (dict(stiffness=([1.0], [3], [0, 1])), "row of the matrix, 3"),
-        (dict(stiffness=([1.0, 2.0], [0, 0], [0, 1])), "begins of 1 columns"),
+        (dict(stiffness=([1.0, 2.0], [0, 0], [0, 1])), "starts of 1 columns"),
         (dict(stiffness=([np.nan], [0], [0, 1])), "NaN"),
         (dict(stiffness=([1.0], [0.5], [0, 1])), "whole numbers"),
         (dict(stiffness=([1.0], [0])), "2 arrays"),
