@@ -2,7 +2,7 @@
 
 use super::carried::{Carried, Released};
 use super::given::Given;
-use super::{Model, Origin, resolve};
+use super::{Model, Origin, ProgramTarget, resolve};
 use crate::deck::words;
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
@@ -70,17 +70,17 @@ impl Model {
 
     /// Load factor at which the model's leg of the program ends; `None` if it is the last leg.
     pub(crate) fn end_of_leg(&self) -> Option<f64> {
-        let mut changes = self.scene.changes_of_support().into_iter();
+        let mut changes = self.program.support_changes.iter().copied();
         changes.find(|change| *change > self.start_of_leg())
     }
 
     /// Number of the program's targets that are reached by the end of the leg.
     pub(crate) fn targets_up_to_end_of_leg(&self) -> usize {
-        let targets = &self.scene.program.targets;
+        let targets = &self.program.targets;
         let Some(end) = self.end_of_leg() else {
             return targets.len();
         };
-        let factors = targets.iter().filter_map(|target| target.load_factor);
+        let factors = targets.iter().filter_map(ProgramTarget::load_factor);
         factors.filter(|factor| *factor <= end).count()
     }
 
@@ -114,7 +114,7 @@ impl Model {
     /// # Errors
     /// Errors of [`Model::next_leg`].
     fn check_later_legs(&self) -> Result<()> {
-        for at in self.scene.changes_of_support() {
+        for &at in &self.program.support_changes {
             let mut given = self.given();
             given.carried = Some(Carried {
                 at,

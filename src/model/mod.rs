@@ -26,6 +26,7 @@ mod held;
 pub(crate) mod images;
 mod initial_strain;
 mod load_case;
+mod load_program;
 mod loads;
 mod making;
 pub(crate) mod mirror;
@@ -61,6 +62,9 @@ pub use given::NodePair;
 pub use heat::{FreeOfLoad, FreeStrain};
 pub use held::{FloatingBodies, Pin};
 pub use load_case::{LoadCase, Magnitude};
+pub use load_program::{
+    DisplacementGoal, FigureGoal, LoadProgram, NodesOfSet, ProgramTarget, TargetCondition,
+};
 pub use pairs::{AxisPoint, ContactSurface, Pair};
 pub use rigid_motion::{RigidMotion, Work};
 pub use rows::ContactRows;
@@ -68,7 +72,7 @@ pub use sums::Sums;
 pub use yield_depth::YieldByDepth;
 
 use crate::results::EndState;
-use crate::scene::Scene;
+use crate::scene::{Scene, Settings};
 use crate::space::Vector;
 pub(crate) use far_boundary::volumes_of_nodes;
 use given::Given;
@@ -83,6 +87,10 @@ use std::path::Path;
 pub struct Model {
     /// Scene from which the model was made.
     pub scene: Scene,
+    /// Load program, with its names resolved.
+    pub program: LoadProgram,
+    /// Settings of the computation.
+    pub settings: Settings,
     /// Mesh and materials, to which the model dereferences.
     pub continuum: Continuum,
     /// Freedom numbering, local axes and supports.
@@ -136,7 +144,7 @@ impl Model {
 
     /// Share of the interference of all contacts that is applied at a load factor.
     pub(crate) fn interference_at(&self, alpha: f64) -> f64 {
-        let until = self.scene.program.interference_until;
+        let until = self.program.interference_until;
         until.map_or(1.0, |until| (alpha / until).clamp(0.0, 1.0))
     }
 
@@ -144,7 +152,7 @@ impl Model {
     pub(crate) fn kinks(&self) -> impl Iterator<Item = f64> + '_ {
         let of_loads = self.loads.iter().flat_map(LoadCase::kinks);
         let interferes = || self.pairs.iter().any(|pair| pair.interference != 0.0);
-        let until = self.scene.program.interference_until;
+        let until = self.program.interference_until;
         of_loads.chain(until.filter(|_| interferes()))
     }
 

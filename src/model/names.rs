@@ -23,8 +23,17 @@ impl<'s> SceneEntry<'s> {
         }
     }
 
-    /// Makes the entry of the displacement for which target `index` waits.
+    /// Makes the entry of target `index`.
     pub(super) fn of_target(scene: &'s Scene, index: usize) -> Self {
+        SceneEntry {
+            scene,
+            key: format!("program.targets.{index}"),
+            what: format!("target {}", index + 1),
+        }
+    }
+
+    /// Makes the entry of the displacement for which target `index` waits.
+    pub(super) fn of_target_displacement(scene: &'s Scene, index: usize) -> Self {
         SceneEntry {
             scene,
             key: format!("program.targets.{index}.displacement"),

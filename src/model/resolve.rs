@@ -4,7 +4,7 @@
 use super::contact_basis::ContactBasis;
 use super::followers::Followers;
 use super::given::Given;
-use super::names::SceneEntry;
+use super::load_program::LoadProgram;
 use super::{
     ContactSurface, Continuum, Freedoms, LoadCase, Mirror, Model, Origin, Pair, alike, ends,
     equations, fitness, held, initial_strain, loads, pairs, plausible, yield_depth,
@@ -111,7 +111,7 @@ pub(super) fn model(scene: &Scene, mut mesh: Mesh, origin: Origin) -> Result<Mod
     pairs::stated::at_control_points(scene, &mesh, &freedoms.basis, stated)?;
     let of_bodies = (&materials[..], &contacts[..]);
     let loads = load_cases(scene, &mesh, given, &freedoms, &pairs, of_bodies)?;
-    check_targets(scene, &mesh)?;
+    let program = LoadProgram::resolve(scene, &mesh)?;
     let (floating, rows) = held::resolve(
         kind,
         &mesh,
@@ -128,6 +128,8 @@ pub(super) fn model(scene: &Scene, mut mesh: Mesh, origin: Origin) -> Result<Mod
     }
     let model = Model {
         scene: scene.clone(),
+        program,
+        settings: scene.analysis.clone(),
         continuum: Continuum {
             kind,
             formulation: scene.mesh.formulation,
@@ -185,19 +187,6 @@ fn load_cases(
     let of_bodies = (materials, contacts);
     loads.extend(initial_strain::resolve(scene, mesh, of_bodies, freedoms)?);
     Ok(loads)
-}
-
-/// Checks that sets named by targets and the history exist, before a run starts.
-fn check_targets(scene: &Scene, mesh: &Mesh) -> Result<()> {
-    for (index, target) in scene.program.targets.iter().enumerate() {
-        if let Some(goal) = &target.displacement {
-            SceneEntry::of_target(scene, index).nodes(mesh, &goal.on)?;
-        }
-    }
-    for (index, name) in scene.program.history.iter().enumerate() {
-        SceneEntry::of_history(scene, index).named(mesh, name)?;
-    }
-    Ok(())
 }
 
 /// Material of each body of the mesh, and whether the body may yield.

@@ -312,6 +312,16 @@ impl MeshSource {
         }
     }
 
+    /// The key that widens the contact of the generated bodies; `None` if there is none.
+    pub(crate) fn key_of_contact_width(&self) -> Option<&'static str> {
+        if self.cylinder_on_half_plane.is_some() {
+            Some("mesh.cylinder_on_half_plane.contact_width")
+        } else {
+            self.curved_bodies.as_ref()?;
+            Some("mesh.curved_bodies.contact_width")
+        }
+    }
+
     /// The kind of the plane model of which the mesh is a section, if the mesh is swept into a
     /// solid: plane strain for an extrusion, axisymmetric for a revolution. Otherwise `kind`.
     pub fn section(&self, kind: Space) -> Space {

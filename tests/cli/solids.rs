@@ -206,6 +206,17 @@ fn plane_meshes_in_solid_scenes_and_the_reverse() {
         ],
     );
     refused_with(
+        "cylinder_on_half_plane",
+        &[
+            "program.targets=[{ displacement = { on = \"cylinder.top\", direction = \"z\", value = \
+             -1e-3 } }]",
+        ],
+        &[
+            "program.targets.0.displacement.direction",
+            "\"z\" is no direction where kind = \"plane_strain\"",
+        ],
+    );
+    refused_with(
         "ball_on_flat_3d",
         &["kind=axisymmetric"],
         &["curved_bodies is a solid model"],

@@ -334,6 +334,23 @@ fn files_of_a_folder_use_each_other_in_no_circle() {
     );
 }
 
+/// The model resolves the load program and the settings once: modules after it read these, and not
+/// the entries of the scene.
+#[test]
+fn the_analysis_reads_the_resolved_program() {
+    let folders = ["analysis", "constrained", "output", "substructure"];
+    let texts = folders.map(|folder| texts(&root(), &format!("src/{folder}")));
+    let mut n_models = 0;
+    for file in texts.iter().flatten().filter(|file| !is_test(&file.name)) {
+        let code: String = of_library(&file.text).split_whitespace().collect();
+        n_models += code.matches("model.program.").count();
+        for entry in ["scene.program", "scene.analysis", "scene.stepping()"] {
+            assert!(!code.contains(entry), "{}: {entry}", file.name);
+        }
+    }
+    assert!(n_models > 0);
+}
+
 #[test]
 fn functions_types_and_comments_are_counted() {
     let text = "\

@@ -1,6 +1,6 @@
 //! Targets by a figure of the state: the load that is found leaves what was asked for.
 
-use crate::support::{SMALL_BALL, load, run, try_run};
+use crate::support::{SMALL_BALL, load, run, run_text, try_run};
 use brinell::analytical::{HertzPoint, contact_modulus};
 use brinell::linalg::Backend;
 use brinell::results::{Results, State};
@@ -190,6 +190,58 @@ fn a_floating_body_is_met_where_it_is() {
         let results = run(&load("hard/floating_body", &[&targets]));
         let approach = results.states[0].approach;
         assert!(relative(approach, 0.0104) <= 1e-8, "{target}: {approach}");
+    }
+}
+
+/// The displacement that is sought is along the axis that the target names: a bar in space under
+/// uniaxial stress moves by `sigma L / E` along its load, and by `-nu` times as much across it.
+#[test]
+fn displacements_along_each_axis_in_space() {
+    let [e, nu, pressure] = [1000.0, 0.3, 10.0];
+    let sizes = [1.0, 2.0, 4.0];
+    let held = ["left", "front", "bottom"];
+    let free = ["right", "back", "top"];
+    let axes = ["x", "y", "z"];
+    for loaded in 0..3 {
+        for sought in 0..3 {
+            let moves = pressure / e * sizes[sought] * if loaded == sought { -1.0 } else { nu };
+            let support = |axis: usize| {
+                format!(
+                    "{{ on = \"bar.{}\", fix = [\"{}\"] }}",
+                    held[axis], axes[axis]
+                )
+            };
+            let text = format!(
+                "kind = \"solid\"\n\
+                 support = [{}, {}, {}]\n\
+                 load = [{{ on = \"bar.{}\", pressure = {pressure:.1} }}]\n\
+                 [[program.targets]]\n\
+                 displacement = {{ on = \"bar.{}\", direction = \"{}\", value = {:e} }}\n\
+                 [materials.m]\n\
+                 youngs_modulus = {e:.1}\n\
+                 poissons_ratio = {nu}\n\
+                 [bodies.bar]\n\
+                 material = \"m\"\n\
+                 [[mesh.parts]]\n\
+                 body = \"bar\"\n\
+                 element = \"hex8\"\n\
+                 brick = {{ x = [0, 1], y = [0, 2], z = [0, 4], elements = [1, 2, 2] }}\n",
+                support(0),
+                support(1),
+                support(2),
+                free[loaded],
+                free[sought],
+                axes[sought],
+                1.5 * moves,
+            );
+            let alpha = run_text(&text).states[0].alpha;
+            assert!(
+                relative(alpha, 1.5) <= 1e-8,
+                "loaded along {}, sought along {}: {alpha}",
+                axes[loaded],
+                axes[sought]
+            );
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::assembly::assemble;
 use crate::error::Result;
 use crate::linalg::{Backend, Partition, Prediction};
 use crate::memory;
-use crate::model::{LoadCase, Magnitude, Model};
+use crate::model::{LoadCase, Magnitude, Model, TargetCondition};
 use crate::number::exact;
 use crate::results::{Effect, EndState, LOADS_FOUND, Sizes};
 use crate::scene::{LoadAction, VolumeAction};
@@ -95,7 +95,7 @@ pub fn check(model: &Model, backend: Backend) -> Result<Check> {
     };
     let of_contact = seconds::of_contact(&contact);
     let factorisation = seconds::of_factorisation(&prediction, backend) + of_contact;
-    let again = model.scene.changes_of_support().len() as f64 * factorisation;
+    let again = model.program.support_changes.len() as f64 * factorisation;
     let run = again + seconds::of_run(model, &sizes, &prediction, factorisation);
     let mut notes = model.warnings.clone();
     notes.extend(notes_on_program(model));
@@ -125,7 +125,7 @@ fn notes_on_program(model: &Model) -> Vec<String> {
                 .to_string(),
         );
     }
-    let cycles = model.scene.program.cycles;
+    let cycles = model.program.cycles;
     if cycles > 1 {
         notes.push(format!(
             "the program has at most {cycles} cycles: memory is that of all, time that of one"
@@ -345,26 +345,25 @@ fn prescribed_displacements(model: &Model) -> Effect {
 }
 
 fn cycles(model: &Model) -> Effect {
-    let why = match model.scene.program.cycles {
+    let why = match model.program.cycles {
         1 => "the program is gone through once".to_string(),
         n => format!("the targets at most {n} times, until a cycle is like the last"),
     };
-    effect("cycles", model.scene.program.cycles > 1, why)
+    effect("cycles", model.program.cycles > 1, why)
 }
 
 /// The effect of targets for which the load is searched.
 fn loads_found(model: &Model) -> Effect {
-    let program = &model.scene.program;
-    let labels = program.labels();
     let mut words = Vec::new();
-    for (target, label) in program.targets.iter().zip(&labels) {
-        let found = target.figures().next();
-        let what = match (found, target.half_width) {
-            (Some((figure, value)), _) => format!("{} = {}", figure.key(), exact(value)),
-            (None, Some(width)) => format!("half_width = {}", exact(width)),
-            (None, None) => continue,
+    for target in &model.program.targets {
+        let what = match &target.condition {
+            TargetCondition::Figure(goal) => {
+                format!("{} = {}", goal.figure.key(), exact(goal.value))
+            }
+            TargetCondition::HalfWidth(width) => format!("half_width = {}", exact(*width)),
+            _ => continue,
         };
-        words.push(format!("`{label}` ({what})"));
+        words.push(format!("`{}` ({what})", target.label));
     }
     let why = match words.is_empty() {
         true => "no target is a figure of the state".to_string(),
@@ -418,7 +417,7 @@ fn interference(model: &Model) -> Effect {
         .filter(|load| load.measures == Magnitude::Gap && load.acts())
         .map(|load| load.name.as_str())
         .collect();
-    let why = match (stated, model.scene.program.interference_until) {
+    let why = match (stated, model.program.interference_until) {
         (true, Some(_)) => "a contact states an interference, applied with the load".to_string(),
         (true, None) => "a contact states an interference, applied before the load".to_string(),
         (false, _) if changed.is_empty() => "no contact states one".to_string(),
@@ -447,7 +446,7 @@ fn preload(model: &Model) -> Effect {
 }
 
 fn changing_supports(model: &Model) -> Effect {
-    let legs = model.scene.changes_of_support().len() + 1;
+    let legs = model.program.support_changes.len() + 1;
     let why = match legs {
         1 => "the same displacements are held throughout".to_string(),
         _ => format!("{legs} legs of the program, each with a factorisation of its own"),

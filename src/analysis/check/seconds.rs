@@ -2,9 +2,9 @@
 
 use crate::analysis::structure::flow;
 use crate::linalg::{Backend, Prediction};
-use crate::model::{Model, Pair};
+use crate::model::{LoadProgram, Model, Pair, ProgramTarget, TargetCondition};
 use crate::results::Sizes;
-use crate::scene::{Program, Stepping, Target, Unit};
+use crate::scene::{Stepping, Unit};
 use crate::substructure::ContactCost;
 
 /// Floating point operations per second of large supernodes on one thread, with CHOLMOD and with
@@ -114,7 +114,7 @@ pub(in crate::analysis) fn of_contact(contact: &ContactCost) -> f64 {
 
 /// Rough number of trailing solves of a run.
 fn solves(model: &Model) -> f64 {
-    let program = &model.scene.program;
+    let program = &model.program;
     let n_targets = program.targets.len() as f64;
     let pairs_of = |alike: bool| -> f64 {
         let contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
@@ -138,7 +138,7 @@ fn solves(model: &Model) -> f64 {
         true if growing > alike => 1,
         true => 2,
     };
-    match model.scene.stepping() {
+    match program.stepping {
         Stepping::Events => SOLVES[kind] * (n_targets + ways * changes),
         Stepping::Steps => SOLVES_OF_LONG[kind] * program.steps as f64 * n_targets,
         // The load falls along every other way, on which the material unloads elastically for the
@@ -167,17 +167,17 @@ pub(in crate::analysis) fn gaps_are_alike(pairs: &[Pair]) -> bool {
 }
 
 /// The load at each target, in the unit of the program or of the quantity that the target asks for.
-fn goals(program: &Program) -> Vec<f64> {
+fn goals(program: &LoadProgram) -> Vec<f64> {
     let mut at = 0.0f64;
-    let goal = |target: &Target| {
-        let displaced = target.displacement.as_ref().map(|d| d.value.abs());
-        at = match (target.load_factor, target.half_width) {
-            (Some(factor), _) => factor,
+    let goal = |target: &ProgramTarget| {
+        at = match &target.condition {
+            TargetCondition::FirstYield => 1.0,
+            TargetCondition::LoadFactor(factor) => *factor,
             // The load of a line contact depends on the square of its width.
-            (_, Some(width)) => width * width,
+            TargetCondition::HalfWidth(width) => width * width,
             // A figure is searched for with rising load.
-            _ if target.finds_load() => at.max(1.0),
-            _ => displaced.unwrap_or(1.0),
+            TargetCondition::Figure(_) => at.max(1.0),
+            TargetCondition::Displacement(goal) => goal.value.abs(),
         };
         at
     };
@@ -221,7 +221,7 @@ pub(super) fn of_run(
     factorisation: f64,
 ) -> f64 {
     let n = sizes.freedoms as f64;
-    let states = model.scene.program.targets.len() as f64;
+    let states = model.program.targets.len() as f64;
     let elastic = START
         + (MODEL + ASSEMBLY) * n
         + factorisation

@@ -296,7 +296,7 @@ impl ClosedRun<'_> {
 
     /// Area of the surface at a place, per length along the surface.
     fn width(&self, k: usize) -> f64 {
-        match self.model.scene.kind {
+        match self.model.kind {
             Kind::Axisymmetric => 2.0 * PI * self.point(k)[0],
             _ => 1.0,
         }

@@ -6,8 +6,8 @@ use super::measure::ContactFigures;
 use super::reactions;
 use super::reading::Reading;
 use crate::analysis::structure::solver::Solver;
-use crate::error::{Error, Result};
-use crate::model::Model;
+use crate::error::Result;
+use crate::model::{Model, NodesOfSet};
 use crate::space::Vector;
 
 /// Names of the axes in column titles.
@@ -15,41 +15,33 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Gauges that are read after each increment.
 pub(in crate::analysis) struct Gauges {
-    /// Nodes of each set.
-    sets: Vec<Vec<usize>>,
+    /// Sets whose motion and force are read.
+    sets: Vec<NodesOfSet>,
     /// Approach of the bodies of each contact.
     approaches: Vec<Option<Approach>>,
 }
 
 impl Gauges {
-    /// The gauges that the scene asks for; `None` if it asks for none.
-    ///
-    /// # Errors
-    /// A set that the mesh does not have.
-    pub(in crate::analysis) fn of(model: &Model) -> Result<Option<Self>> {
-        let names = &model.scene.program.history;
-        let nodes = |name: &String| {
-            let nodes = model.mesh.set_nodes(name).filter(|nodes| !nodes.is_empty());
-            nodes.ok_or_else(|| Error::input(format!("program.history: no nodes in `{name}`")))
-        };
-        let sets = names.iter().map(nodes).collect::<Result<Vec<_>>>()?;
-        Ok((!sets.is_empty()).then(|| Gauges {
-            sets,
+    /// The gauges that the program asks for; `None` if it asks for none.
+    pub(in crate::analysis) fn of(model: &Model) -> Option<Self> {
+        let sets = &model.program.history;
+        (!sets.is_empty()).then(|| Gauges {
+            sets: sets.clone(),
             approaches: Approach::of_contacts(model),
-        }))
+        })
     }
 
-    /// Names of the columns, in the order of [`Gauges::read`]; empty if the scene asks for none.
+    /// Names of the columns, in the order of [`Gauges::read`]; empty if the program asks for none.
     pub(in crate::analysis) fn columns(model: &Model) -> Vec<String> {
-        let names = &model.scene.program.history;
-        if names.is_empty() {
+        let sets = &model.program.history;
+        if sets.is_empty() {
             return Vec::new();
         }
         let mut out = vec!["approach".to_string()];
         for number in 1..=model.contacts.len() {
             out.extend(["approach", "force", "area"].map(|key| format!("contact_{number}.{key}")));
         }
-        for name in names {
+        for NodesOfSet { name, .. } in sets {
             for key in ["displacement", "force"] {
                 let axes = &AXES[..model.mesh.dimension];
                 out.extend(axes.iter().map(|axis| format!("{name}.{key}_{axis}")));
@@ -84,7 +76,7 @@ impl Gauges {
                 sum
             })
         };
-        for nodes in &self.sets {
+        for NodesOfSet { nodes, .. } in &self.sets {
             let motion = sum(nodes, &|node| moved[node]);
             let force = sum(nodes, &|node| {
                 std::array::from_fn(|axis| {

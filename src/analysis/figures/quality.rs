@@ -21,14 +21,14 @@ use crate::results::{Quality, Tolerances};
 /// times any condition number at which a state is still of use.
 const ROUND_OFF: f64 = 1e-8;
 
-/// The bounds on the quality of a state of this model: the tolerances that the scene asks for, with
+/// The bounds on the quality of a state of this model: the tolerances of the settings, with
 /// room for the difference between measured and iterated quantities, and for round-off.
 pub(in crate::analysis) fn tolerances(model: &Model) -> Tolerances {
-    let settings = &model.scene.analysis;
+    let settings = &model.settings;
     // Between changes of contact, a gap or a contact force may be negative by gamma.
     let forces = ROUND_OFF
         .max(100.0 * settings.tolerance)
-        .max(10.0 * model.scene.program.gamma)
+        .max(10.0 * model.program.gamma)
         .min(LOOSEST);
     Tolerances {
         backward_error: (16.0 * f64::EPSILON * model.freedoms.n as f64).max(1e-12),

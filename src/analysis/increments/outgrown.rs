@@ -5,6 +5,7 @@ use super::step::{Arrival, IncrementReport, Step};
 use crate::analysis::structure::loose::{refuse_driven_bodies, settle_springs};
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, ErrorKind, Result};
+use crate::model::ProgramTarget;
 use crate::scene::Kind;
 
 /// Fraction of the largest contact force below which a pair counts as about to open or just closed.
@@ -59,9 +60,9 @@ fn outgrown(solver: &Solver, pair: usize, reached: f64) -> Error {
         .collect();
     let place = place.join(", ");
     let names = &model.contacts[model.pairs[pair].contact].names;
-    let targets = model.scene.program.targets.iter();
+    let targets = model.program.targets.iter();
     let largest = targets
-        .filter_map(|t| t.load_factor)
+        .filter_map(ProgramTarget::load_factor)
         .fold(0.0f64, |m, f| m.max(f.abs()));
     let ratio = largest / reached.abs();
     // The mean pressure never falls as the load rises, so the area of contact grows no faster than
@@ -75,10 +76,9 @@ fn outgrown(solver: &Solver, pair: usize, reached: f64) -> Error {
     } else {
         String::new()
     };
-    let remedy = if model.scene.mesh.cylinder_on_half_plane.is_some() {
-        "give a larger mesh.cylinder_on_half_plane.contact_width"
-    } else {
-        "make the surfaces longer"
+    let remedy = match model.scene.mesh.key_of_contact_width() {
+        Some(key) => format!("give a larger {key}"),
+        None => "make the surfaces longer".to_string(),
     };
     Error::new(
         ErrorKind::Outgrown,

@@ -108,7 +108,7 @@ impl PlasticDrive {
             return Ok(Step::arrived(Arrival::ZoneOutgrown));
         }
         let may_be_elastic = !matches!(self.ahead, Ahead::Unknown) || solver.zone.is_idle();
-        if may_be_elastic && rules.stepping != Stepping::Steps {
+        if may_be_elastic && rules.program.stepping != Stepping::Steps {
             if let Some(step) = self.follow(solver, end, monitor)? {
                 return Ok(step);
             }
@@ -156,7 +156,7 @@ impl PlasticDrive {
         monitor: Option<&Monitor>,
         rules: Rules,
     ) -> Result<Step> {
-        let left = match rules.stepping {
+        let left = match rules.program.stepping {
             Stepping::Events => 1.0,
             Stepping::Auto => {
                 (solver.predictor.flow).share(&solver.at, end, rules.program.path_error)

@@ -4,7 +4,8 @@ use crate::analysis::stress::recovery::RecoveredPeak;
 use crate::analysis::structure::solver::Solver;
 use crate::contact::Change;
 use crate::error::{Error, ErrorKind, Result};
-use crate::scene::{Program, Settings, Stepping};
+use crate::model::LoadProgram;
+use crate::scene::Settings;
 
 /// Report on an accepted increment.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -62,10 +63,8 @@ impl Step {
 pub struct Rules<'a> {
     /// Solver settings.
     pub settings: &'a Settings,
-    /// The way in which increments are chosen.
-    pub stepping: Stepping,
-    /// The program, with its tolerances and numbers of increments.
-    pub program: &'a Program,
+    /// The program, with the way in which increments are chosen.
+    pub program: &'a LoadProgram,
     /// Absolute load factor up to which the zone was chosen.
     pub zone_until: f64,
     /// Called between iterations; true stops the run at the last accepted increment.

@@ -106,7 +106,7 @@ impl<'s, 'm> Stepper<'s, 'm> {
     ) -> Result<(Increment, bool)> {
         move_loose_bodies(self.solver, end)?;
         self.solver.forget_tangent();
-        let mut tries = Tries::new(self.solver, self.rules.stepping, left, smallest);
+        let mut tries = Tries::new(self.solver, self.rules.program.stepping, left, smallest);
         loop {
             match self.try_once(&tries, end, ahead.take())? {
                 Ok(increment) => {
@@ -405,14 +405,13 @@ targets = [{ load_factor = 1.0 }]
         starting::begin(&mut solver).unwrap();
         let end = solver.structure.point(0.5);
         let rules = Rules {
-            settings: &scene.analysis,
-            stepping: Stepping::Auto,
-            program: &scene.program,
+            settings: &model.settings,
+            program: &model.program,
             zone_until: f64::INFINITY,
             stop: &|| false,
         };
         let open = solver.tableau.open().to_vec();
-        let mut tries = Tries::new(&solver, rules.stepping, 1.0, 1e-6);
+        let mut tries = Tries::new(&solver, rules.program.stepping, 1.0, 1e-6);
         assert!(solver.tableau.flip(0));
         let mut stepper = Stepper::new(&mut solver, rules);
         let mut again = || stepper.try_otherwise(&mut tries, &end, NoIncrement::Undecided);

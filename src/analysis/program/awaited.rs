@@ -6,9 +6,9 @@ use crate::analysis::figures::measure::ContactFigures;
 use crate::analysis::figures::reading::Reading;
 use crate::analysis::increments::step::Monitor;
 use crate::analysis::structure::solver::Solver;
-use crate::error::{Error, Result};
-use crate::model::Model;
-use crate::scene::{Target, TargetFigure};
+use crate::error::Result;
+use crate::model::{FigureGoal, Model};
+use crate::scene::TargetFigure;
 use std::cell::Cell;
 use std::rc::Rc;
 
@@ -19,44 +19,12 @@ const NEAR: f64 = 0.25;
 /// A figure that a target waits for.
 #[derive(Clone)]
 pub(super) struct Awaited<'m> {
-    model: &'m Model,
-    figure: TargetFigure,
-    /// The value of the figure at the target.
-    pub(super) value: f64,
-    /// The body to which the figure belongs, if the target names one.
-    body: Option<usize>,
-    /// The contact to which the figure belongs, if the target names one.
-    contact: Option<usize>,
+    pub(super) model: &'m Model,
+    /// The figure, with its value at the target.
+    pub(super) goal: &'m FigureGoal,
 }
 
 impl<'m> Awaited<'m> {
-    /// The figure for which a target waits; `None` if it waits for none.
-    ///
-    /// # Errors
-    /// A body that the mesh does not have.
-    pub(super) fn of(model: &'m Model, target: &Target) -> Result<Option<Self>> {
-        let Some((figure, value)) = target.figures().next() else {
-            return Ok(None);
-        };
-        let number_of = |name: &String| {
-            let bodies = &model.mesh.bodies;
-            let number = bodies.iter().position(|body| body == name);
-            number.ok_or_else(|| Error::input(format!("the mesh has no body `{name}`")))
-        };
-        Ok(Some(Awaited {
-            model,
-            figure,
-            value,
-            body: target.body.as_ref().map(number_of).transpose()?,
-            contact: target.contact.map(|number| number - 1),
-        }))
-    }
-
-    /// Name of the awaited figure.
-    pub(super) fn key(&self) -> &'static str {
-        self.figure.key()
-    }
-
     /// Value of the figure in the current state; for a dent, the dent of the present plastic
     /// strains. Costs half a full solve for the approach, half a trailing solve for a dent.
     ///
@@ -64,15 +32,15 @@ impl<'m> Awaited<'m> {
     /// Failure of the backend's solve.
     pub(super) fn here(&self, solver: &mut Solver) -> Result<f64> {
         let of_contact = |solver: &Solver| -> ContactFigures {
-            match self.contact {
+            match self.goal.contact {
                 Some(contact) => ContactFigures::of_contact(solver, contact),
                 None => ContactFigures::of(solver),
             }
         };
-        Ok(match self.figure {
+        Ok(match self.goal.figure {
             TargetFigure::ResidualDepth => {
                 let dent = Dent::of(solver);
-                self.body.map_or(dent.depth, |body| dent.by_body[body])
+                self.goal.body.map_or(dent.depth, |body| dent.by_body[body])
             }
             TargetFigure::ContactForce => of_contact(solver).force * self.model.symmetry,
             TargetFigure::ContactArea => of_contact(solver).area,
@@ -91,8 +59,9 @@ impl<'m> Awaited<'m> {
     /// `unloads_outside` if yielding on unloading leaves the zone.
     fn as_meant(&self, solver: &mut Solver, unloads_outside: &Cell<bool>) -> Result<f64> {
         let here = self.here(solver)?;
-        let is_near = (here - self.value).abs() <= NEAR * self.value;
-        if self.figure != TargetFigure::ResidualDepth || !is_near {
+        let FigureGoal { figure, value, .. } = *self.goal;
+        let is_near = (here - value).abs() <= NEAR * value;
+        if figure != TargetFigure::ResidualDepth || !is_near {
             return Ok(here);
         }
         let unloading = Unloading::of(self.model);
@@ -108,7 +77,7 @@ impl<'m> Awaited<'m> {
     /// Function of order 1 that vanishes when the figure has its target value.
     pub(super) fn monitor(self, unloads_outside: Rc<Cell<bool>>) -> Box<Monitor<'m>> {
         Box::new(move |solver: &mut Solver| {
-            Ok(self.as_meant(solver, &unloads_outside)? / self.value - 1.0)
+            Ok(self.as_meant(solver, &unloads_outside)? / self.goal.value - 1.0)
         })
     }
 }

@@ -149,7 +149,7 @@ impl CycleRecord {
 
     /// The outcome of the cycles; `None` if the program has no cycles.
     pub(super) fn outcome(&self, model: &Model) -> Option<Cycles> {
-        if model.scene.program.cycles == 1 {
+        if model.program.cycles == 1 {
             return None;
         }
         let body = model.mesh.element_body.get(self.place);

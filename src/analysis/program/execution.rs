@@ -22,7 +22,7 @@ use crate::analysis::structure::starting;
 use crate::error::{Error, Result};
 use crate::progress::{Flow, Observer};
 use crate::results::{HistoryRow, Results, State};
-use crate::scene::{Stepping, Target, Unit};
+use crate::scene::Stepping;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
@@ -84,7 +84,7 @@ impl<'m, 'o> Run<'m, 'o> {
         *seconds = seconds.running_since(found_since);
         seconds.hand_over((start - found_since).as_secs_f64(), TimeRow::Zone);
         run.zone.expected = expected.map(|expected| expected.ratios);
-        run.follow_sets()?;
+        run.follow_sets();
         run.begin()?;
         Ok(run)
     }
@@ -172,12 +172,12 @@ impl<'m, 'o> Run<'m, 'o> {
     /// `Analysis` if the run has taken `program.max_increments`, with a report on what it has
     /// reached.
     fn within_bound(&self) -> Result<()> {
-        let program = &self.model().scene.program;
+        let program = &self.model().program;
         let taken = self.results.history.len();
         if taken < program.max_increments {
             return Ok(());
         }
-        let shorter = match self.model().scene.stepping() {
+        let shorter = match program.stepping {
             Stepping::Auto => format!("a larger program.path_error (now {:e})", program.path_error),
             Stepping::Events => "program.stepping = \"auto\" or \"steps\"".to_string(),
             Stepping::Steps => format!("fewer program.steps (now {})", program.steps),
@@ -246,7 +246,7 @@ impl<'m, 'o> Run<'m, 'o> {
         }
         if row.is_some() {
             let cycle = self.targets.n_of_program().max(1) as f64;
-            let cycles = self.model().scene.program.cycles as f64;
+            let cycles = self.model().program.cycles as f64;
             let reached = self.position.target as f64 + self.share_behind(arrival);
             let behind = (self.position.cycles.n_done() as f64 + reached / cycle) / cycles;
             self.position.fraction = self.position.fraction.max(behind);
@@ -303,12 +303,11 @@ impl<'m, 'o> Run<'m, 'o> {
 
     /// Takes the next step of a drive.
     fn step(&mut self, mut drive: Drive, end: &LoadPoint) -> Result<Step> {
-        let scene = &self.solver.structure.model.scene;
+        let model = self.solver.structure.model;
         let observer = &*self.observer;
         let rules = Rules {
-            settings: &scene.analysis,
-            stepping: scene.stepping(),
-            program: &scene.program,
+            settings: &model.settings,
+            program: &model.program,
             zone_until: match self.zone.spread {
                 Some(_) => self.position.zone_until,
                 None => f64::INFINITY,
@@ -408,10 +407,8 @@ impl<'m, 'o> Run<'m, 'o> {
     /// Finds first yield and the zone of the program after the preload. The preload is applied
     /// again if the material turns out to yield under it although this was not noticed.
     fn prepare(&mut self, again: bool) -> Result<()> {
-        let program = &self.model().scene.program;
-        let required = self.purpose == Purpose::YieldLoad
-            || program.unit == Unit::Yield
-            || program.targets.iter().any(Target::needs_first_yield);
+        let required =
+            self.purpose == Purpose::YieldLoad || self.model().program.needs_first_yield();
         if again && !self.position.first_yield.is_behind {
             return Err(Error::internal(
                 "the material yields under the preload, and does not when that is applied anew",

@@ -77,7 +77,7 @@ impl EndedRun<'_, '_> {
         self.judge_quality();
         let (solver, results) = (&self.run.solver, &mut self.results);
         let structure = &solver.structure;
-        if model.scene.analysis.condition
+        if model.settings.condition
             || !results.inaccurate.is_empty()
             || results.condition > DOUBTFUL
         {
@@ -121,7 +121,7 @@ impl EndedRun<'_, '_> {
         let excused = (self.judged.iter()).filter_map(|(_, q)| q.excused(&self.tolerances));
         let floor = excused.fold(self.run.solver.scales.round_off, f64::max);
         if floor > 0.0 {
-            let tolerance = self.run.model().scene.analysis.tolerance;
+            let tolerance = self.run.model().settings.tolerance;
             let text = format!(
                 "forces balance to their round-off, {floor:.1e} of the largest force, and not to \
                  analysis.tolerance = {tolerance:.1e}: displacements are large compared with the \

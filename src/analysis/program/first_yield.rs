@@ -37,7 +37,7 @@ impl YieldSearch<'_, '_, '_> {
     /// preload already, which was passed as if elastic.
     pub(super) fn find(mut self) -> Result<bool> {
         if self.run.position.first_yield.is_behind {
-            return match self.run.model().scene.program.unit {
+            return match self.run.model().program.unit {
                 Unit::Yield => Err(Error::analysis(
                     "`unit = \"yield\"`: the preload alone makes the material yield, so there is \
                      no yield load to count in; use `unit = \"load\"`",
@@ -68,9 +68,9 @@ impl YieldSearch<'_, '_, '_> {
         ))
     }
 
-    /// Searches from the present state on, by the method that the scene asks for.
+    /// Searches from the present state on, by the method of the settings.
     fn go(&mut self) -> Result<SearchEnd> {
-        match self.run.model().scene.analysis.yield_load {
+        match self.run.model().settings.yield_load {
             YieldMethod::Exact => self.exact(),
             YieldMethod::Secant if self.required => {
                 let Run {
@@ -90,7 +90,7 @@ impl YieldSearch<'_, '_, '_> {
 
     /// Takes over what the search found: first yield, or the range in which nothing yields.
     fn record(&mut self, found: Option<(f64, RecoveredPeak)>) -> Result<()> {
-        let scene = &self.run.model().scene;
+        let model = self.run.model();
         if let Some((alpha, peak)) = found {
             let Run {
                 solver, position, ..
@@ -99,14 +99,14 @@ impl YieldSearch<'_, '_, '_> {
             if self.run.purpose == Purpose::YieldLoad {
                 self.run.at_yield = Some(Reading::of(&mut self.run.solver).quality_here()?);
             }
-            let unit_is_yield = scene.program.unit == Unit::Yield;
+            let unit_is_yield = model.program.unit == Unit::Yield;
             let unit = if unit_is_yield { 1.0 } else { alpha };
             self.run.position.first_yield.alpha = Some(unit);
             if unit_is_yield {
                 self.run.solver.structure.unit = alpha;
             }
         }
-        let exact = scene.analysis.yield_load == YieldMethod::Exact;
+        let exact = model.settings.yield_load == YieldMethod::Exact;
         let searched = self.run.targets.largest_factor().filter(|_| exact);
         let first_yield = &mut self.run.position.first_yield;
         first_yield.elastic_range[1] = first_yield.alpha.or(searched).unwrap_or(0.0);

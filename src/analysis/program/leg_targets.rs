@@ -1,13 +1,10 @@
 //! The targets of a leg of the program.
 
-use crate::model::Model;
-use crate::scene::Target;
+use crate::model::{Model, ProgramTarget, TargetCondition};
 
 /// The targets of the program, and the number of targets up to the end of the model's leg.
 pub(super) struct LegTargets<'m> {
     model: &'m Model,
-    /// Names of the program's targets.
-    labels: Vec<String>,
     /// Number of targets of the program up to the end of the leg.
     pub(super) end: usize,
 }
@@ -16,33 +13,28 @@ impl<'m> LegTargets<'m> {
     pub(super) fn of(model: &'m Model) -> Self {
         LegTargets {
             model,
-            labels: model.scene.program.labels(),
             end: model.targets_up_to_end_of_leg(),
         }
     }
 
     /// Number of targets of the whole program.
     pub(super) fn n_of_program(&self) -> usize {
-        self.labels.len()
+        self.model.program.targets.len()
     }
 
-    pub(super) fn target(&self, index: usize) -> &'m Target {
-        &self.model.scene.program.targets[index]
-    }
-
-    pub(super) fn label(&self, index: usize) -> &str {
-        &self.labels[index]
+    pub(super) fn target(&self, index: usize) -> &'m ProgramTarget {
+        &self.model.program.targets[index]
     }
 
     /// The program's targets up to the end of the leg.
-    fn up_to_end(&self) -> &'m [Target] {
-        &self.model.scene.program.targets[..self.end]
+    fn up_to_end(&self) -> &'m [ProgramTarget] {
+        &self.model.program.targets[..self.end]
     }
 
     /// Load factors from target `first` on, to the end of the leg.
     pub(super) fn factors_from(&self, first: usize) -> impl Iterator<Item = f64> + Clone + 'm {
         let ahead = &self.up_to_end()[first..];
-        ahead.iter().filter_map(|target| target.load_factor)
+        ahead.iter().filter_map(ProgramTarget::load_factor)
     }
 
     /// The largest absolute load factor among the targets up to the end of the leg; `None` if no
@@ -57,8 +49,11 @@ impl<'m> LegTargets<'m> {
     pub(super) fn extreme_factors(&self, at_yield: f64) -> Vec<f64> {
         let mut all: Vec<f64> = Vec::new();
         for target in self.up_to_end() {
-            all.extend(target.load_factor);
-            all.extend(target.half_width.map(|m| m * m * at_yield));
+            match target.condition {
+                TargetCondition::LoadFactor(alpha) => all.push(alpha),
+                TargetCondition::HalfWidth(m) => all.push(m * m * at_yield),
+                _ => {}
+            }
         }
         let high = all.iter().copied().fold(at_yield, f64::max);
         let low = all.iter().copied().fold(0.0, f64::min);

@@ -123,7 +123,7 @@ impl HandedOver {
         starting::begin_at(&mut solver, &self.state);
         let mut run = Run::of(solver, ZoneFit::new(choice), self.results, observer);
         run.position = self.position;
-        run.follow_sets()?;
+        run.follow_sets();
         check_same_state(&mut run.solver, &self.displacements)?;
         run.warn(note_on_dents(&run.solver));
         run.timed(TimeRow::Zone, |run| {

@@ -79,7 +79,7 @@ pub(super) fn resume<'m, 'o>(
     let mut run = Run::of(solver, zone, results, observer);
     run.path = record.sampler;
     run.position = record.position;
-    run.follow_sets()?;
+    run.follow_sets();
     run.position.seconds = run.position.seconds.running_since(begin);
     run.start = start;
     if let Some(search) = run.position.search {
@@ -112,7 +112,7 @@ fn results_of(record: &mut RunRecord, store: &Store) -> Result<Results> {
 /// Whether a position, with the states before it and the start of its way, belongs to the program
 /// of this structure.
 fn fits(position: &Position, results: &Results, start: Option<&Start>, solver: &Solver) -> bool {
-    let program = &solver.structure.model.scene.program;
+    let program = &solver.structure.model.program;
     let n_targets = program.targets.len();
     let is_last = position.cycles.is_last(program.cycles);
     position.target <= n_targets

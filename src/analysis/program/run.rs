@@ -84,11 +84,10 @@ impl<'m, 'o> Run<'m, 'o> {
         out
     }
 
-    /// Sets up the gauges and columns of the history that the scene asks for.
-    pub(super) fn follow_sets(&mut self) -> Result<()> {
-        self.gauges = Gauges::of(self.model())?;
+    /// Sets up the gauges and columns of the history that the program asks for.
+    pub(super) fn follow_sets(&mut self) {
+        self.gauges = Gauges::of(self.model());
         self.results.history_columns = Gauges::columns(self.model());
-        Ok(())
     }
 
     /// Warns with the given text, if there is any.
@@ -104,7 +103,6 @@ impl<'m, 'o> Run<'m, 'o> {
         Goal {
             model: self.model(),
             target: self.targets.target(self.position.target),
-            label: self.targets.label(self.position.target).to_string(),
             half_width_at_yield: at_yield.map(|y| y.half_width).filter(|b| *b > 0.0),
             unloads_outside: Rc::clone(&self.unloads_outside),
         }

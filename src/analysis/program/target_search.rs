@@ -7,18 +7,15 @@ use crate::analysis::figures::reading::Reading;
 use crate::analysis::increments::step::{MONITOR_ACCURACY, Monitor};
 use crate::analysis::structure::solver::Solver;
 use crate::error::{Error, Result};
-use crate::model::Model;
+use crate::model::{DisplacementGoal, Model, ProgramTarget, TargetCondition};
 use crate::number::{exact, percent};
-use crate::scene::{Direction, DisplacementTarget, Target};
 use std::cell::Cell;
 use std::rc::Rc;
 
 /// What the current target of a run asks for.
 pub(super) struct Goal<'m> {
     pub(super) model: &'m Model,
-    pub(super) target: &'m Target,
-    /// Name of the target.
-    pub(super) label: String,
+    pub(super) target: &'m ProgramTarget,
     /// Contact half width at first yield, if it is known and not zero.
     pub(super) half_width_at_yield: Option<f64>,
     /// Whether the target was searched for with a zone outside of which unloading yields.
@@ -32,36 +29,30 @@ impl<'m> Goal<'m> {
     /// # Errors
     /// A target that cannot be measured.
     pub(super) fn monitor(&self, scale: f64) -> Result<Box<Monitor<'m>>> {
-        let label = &self.label;
-        if let Some(multiple) = self.target.half_width {
-            let goal = self.half_width_at_yield.map(|at_yield| multiple * at_yield);
-            let goal = goal.ok_or_else(|| {
-                Error::analysis(format!(
-                    "target `{label}`: the contact half width at yield is not known"
-                ))
-            })?;
-            return Ok(Box::new(move |solver: &mut Solver| {
-                Ok(ContactFigures::of(solver).half_width / goal - 1.0)
-            }));
-        }
-        if let Some(awaited) = Awaited::of(self.model, self.target)? {
-            return Ok(awaited.monitor(Rc::clone(&self.unloads_outside)));
-        }
-        let Some(goal) = &self.target.displacement else {
-            return Err(Error::internal("a target that is not searched for"));
-        };
-        let DisplacementTarget { on, value, .. } = goal;
-        let (value, direction) = (*value, usize::from(goal.direction == Direction::Y));
-        let nodes = self.model.mesh.set_nodes(on);
-        let nodes = nodes
-            .ok_or_else(|| Error::input(format!("target `{label}`: the mesh has no set `{on}`")))?;
-        Ok(Box::new(move |solver: &mut Solver| {
-            let u = Reading::of(solver).displacements()?.total;
-            let (freedoms, factors) = (&solver.structure.model.freedoms, &solver.at.factors);
-            let along = |&n: &usize| freedoms.displacement(n, &u, factors)[direction];
-            let mean = nodes.iter().map(along).sum::<f64>() / nodes.len() as f64;
-            Ok((mean - value) / scale)
-        }))
+        let model = self.model;
+        Ok(match &self.target.condition {
+            TargetCondition::HalfWidth(multiple) => {
+                let goal = self.half_width_at_yield.map(|at_yield| multiple * at_yield);
+                let goal = goal.ok_or_else(|| {
+                    Error::analysis(format!(
+                        "target `{}`: the contact half width at yield is not known",
+                        self.target.label
+                    ))
+                })?;
+                Box::new(move |solver: &mut Solver| {
+                    Ok(ContactFigures::of(solver).half_width / goal - 1.0)
+                })
+            }
+            TargetCondition::Figure(goal) => {
+                Awaited { model, goal }.monitor(Rc::clone(&self.unloads_outside))
+            }
+            TargetCondition::Displacement(goal) => {
+                Box::new(move |solver: &mut Solver| Ok(short_of(goal, solver)? / scale))
+            }
+            TargetCondition::FirstYield | TargetCondition::LoadFactor(_) => {
+                return Err(Error::internal("a target that is not searched for"));
+            }
+        })
     }
 
     /// The search for the target, with the function that vanishes there. `None` if the target is
@@ -73,19 +64,15 @@ impl<'m> Goal<'m> {
         &self,
         solver: &mut Solver,
     ) -> Result<Option<(Box<Monitor<'m>>, TargetSearch)>> {
-        match &self.target.displacement {
-            _ if self.target.finds_load() => self.search_figure(solver),
-            Some(goal) => self.search_displacement(goal, solver).map(Some),
-            None => Err(Error::input(format!(
-                "target `{}` has no condition",
-                self.label
-            ))),
+        match &self.target.condition {
+            TargetCondition::Displacement(goal) => self.search_displacement(goal, solver).map(Some),
+            _ => self.search_figure(solver),
         }
     }
 
     fn search_displacement(
         &self,
-        goal: &DisplacementTarget,
+        goal: &DisplacementGoal,
         solver: &mut Solver,
     ) -> Result<(Box<Monitor<'m>>, TargetSearch)> {
         let off = self.monitor(1.0)?(solver)?;
@@ -107,22 +94,24 @@ impl<'m> Goal<'m> {
     ) -> Result<Option<(Box<Monitor<'m>>, TargetSearch)>> {
         let monitor = self.monitor(1.0)?;
         let off = monitor(solver)?;
-        let stays = self.target.figures().find(|(figure, _)| figure.stays());
-        let Some((figure, value)) = stays.filter(|_| off > 0.0) else {
-            let search = TargetSearch::new(solver.at.alpha, off, off < 0.0, 1.0);
-            return Ok(Some((monitor, search)));
+        let goal = match &self.target.condition {
+            TargetCondition::Figure(goal) if goal.figure.stays() && off > 0.0 => goal,
+            _ => {
+                let search = TargetSearch::new(solver.at.alpha, off, off < 0.0, 1.0);
+                return Ok(Some((monitor, search)));
+            }
         };
-        if off <= self.model.scene.program.gamma {
+        if off <= self.model.program.gamma {
             return Ok(None);
         }
         Err(Error::analysis(format!(
             "target `{}`: the {} is {:.6e} at load factor {:.6} already, beyond {}, and \
              unloading does not reduce it",
-            self.label,
-            figure.key(),
-            (1.0 + off) * value,
+            self.target.label,
+            goal.figure.key(),
+            (1.0 + off) * goal.value,
             solver.at.alpha,
-            exact(value),
+            exact(goal.value),
         )))
     }
 
@@ -133,16 +122,16 @@ impl<'m> Goal<'m> {
         monitor: Option<&Monitor>,
         solver: &mut Solver,
     ) -> Result<Option<String>> {
-        let Some(monitor) = monitor.filter(|_| self.target.finds_load()) else {
+        let Some(monitor) = monitor.filter(|_| self.target.condition.finds_load()) else {
             return Ok(None);
         };
         let off = monitor(solver)?;
-        let tolerance = self.model.scene.program.gamma.max(MONITOR_ACCURACY);
+        let tolerance = self.model.program.gamma.max(MONITOR_ACCURACY);
         Ok((off.abs() > tolerance).then(|| {
             format!(
                 "target `{}`: its quantity jumps past the value asked for at load factor {:.6}: it \
                  is off by {} there",
-                self.label,
+                self.target.label,
                 solver.at.alpha,
                 percent(off)
             )
@@ -151,18 +140,18 @@ impl<'m> Goal<'m> {
 
     /// Describes the quantity of the target, its present value and its target value.
     fn how_far(&self, solver: &mut Solver) -> Result<String> {
-        let awaited = Awaited::of(self.model, self.target)?;
-        let (what, here, wanted) = match (awaited, &self.target.displacement) {
-            (Some(awaited), _) => {
-                let here = awaited.here(solver)?;
-                (awaited.key().to_string(), here, awaited.value)
+        let model = self.model;
+        let (what, here, wanted) = match &self.target.condition {
+            TargetCondition::Figure(goal) => {
+                let here = Awaited { model, goal }.here(solver)?;
+                (goal.figure.key().to_string(), here, goal.value)
             }
-            (None, Some(goal)) => {
-                let off = self.monitor(1.0)?(solver)?;
-                let what = format!("the displacement of {}", goal.on);
+            TargetCondition::Displacement(goal) => {
+                let off = short_of(goal, solver)?;
+                let what = format!("the displacement of {}", goal.of.name);
                 (what, goal.value + off, goal.value)
             }
-            (None, None) => {
+            _ => {
                 let off = self.monitor(1.0)?(solver)?;
                 let width = ContactFigures::of(solver).half_width;
                 ("half_width".to_string(), width, width / (1.0 + off))
@@ -173,7 +162,7 @@ impl<'m> Goal<'m> {
 
     /// The error of a search that has no further load factor to go to.
     pub(super) fn never_reached(&self, solver: &mut Solver) -> Error {
-        let (label, alpha) = (&self.label, solver.at.alpha);
+        let (label, alpha) = (&self.target.label, solver.at.alpha);
         match self.how_far(solver) {
             Ok(how_far) => Error::analysis(format!(
                 "target `{label}` was never reached: the load factor went to {alpha:.6}, and \
@@ -185,7 +174,7 @@ impl<'m> Goal<'m> {
 
     /// The error that ended the way to the target, with the values reached.
     pub(super) fn not_reached(&self, error: Error, solver: &mut Solver) -> Error {
-        let (label, alpha) = (&self.label, solver.at.alpha);
+        let (label, alpha) = (&self.target.label, solver.at.alpha);
         match self.how_far(solver) {
             Ok(how_far) => error.within(format!(
                 "target `{label}` was not reached (the last increment ended at load factor \
@@ -194,6 +183,15 @@ impl<'m> Goal<'m> {
             Err(_) => error,
         }
     }
+}
+
+/// Mean displacement in the current state, less the value that a target prescribes for it.
+fn short_of(goal: &DisplacementGoal, solver: &mut Solver) -> Result<f64> {
+    let u = Reading::of(solver).displacements()?.total;
+    let (freedoms, factors) = (&solver.structure.model.freedoms, &solver.at.factors);
+    let nodes = &goal.of.nodes;
+    let along = |&n: &usize| freedoms.displacement(n, &u, factors)[goal.axis];
+    Ok(nodes.iter().map(along).sum::<f64>() / nodes.len() as f64 - goal.value)
 }
 
 /// Value of a monitored quantity at a slightly larger load factor, if nothing yields on the way.

@@ -9,7 +9,7 @@ use crate::analysis::figures::reading::Reading;
 use crate::analysis::increments::step::Arrival;
 use crate::analysis::stress::recovery::Watched;
 use crate::error::{Error, ErrorKind, Result};
-use crate::model::{Magnitude, Model};
+use crate::model::{Magnitude, Model, TargetCondition};
 use crate::results;
 use crate::scene::{Kind, Stepping, Unit};
 
@@ -18,15 +18,15 @@ impl Run<'_, '_> {
     pub(super) fn begin_target(&mut self) -> Result<()> {
         self.set_start();
         let goal = self.goal();
-        if goal.target.first_yield {
+        if goal.target.condition == TargetCondition::FirstYield {
             let alpha = self.position.first_yield.alpha.ok_or_else(|| {
                 Error::analysis(format!(
                     "target `{}`: no yield load was found before the program's largest load factor",
-                    goal.label
+                    goal.target.label
                 ))
             })?;
             self.position.stops = self.stops(alpha);
-        } else if let Some(alpha) = goal.target.load_factor {
+        } else if let Some(alpha) = goal.target.load_factor() {
             self.position.stops = self.stops(alpha);
         } else if let Some((monitor, search)) = goal.search(&mut self.solver)? {
             self.monitor = Some(monitor);
@@ -73,7 +73,7 @@ impl Run<'_, '_> {
     /// cycle.
     pub(super) fn begin_cycle(&mut self) -> bool {
         let (structure, zone) = (&self.solver.structure, &self.solver.zone);
-        let program = &structure.model.scene.program;
+        let program = &structure.model.program;
         let follows = self.position.cycles.begin_next(
             (program.cycles, program.steady),
             structure.model.start.as_ref(),
@@ -106,14 +106,15 @@ impl Run<'_, '_> {
     /// watched.
     pub(super) fn finish_target(&mut self) -> Result<Option<results::State>> {
         let goal = self.goal();
-        let (target, label) = (goal.target, &goal.label);
+        let target = goal.target;
+        let label = &target.label;
         let mut figures = self.timed(TimeRow::States, |run| {
             let figures = Reading::of(&mut run.solver).figures(label, target.fields)?;
             let seconds = &mut run.position.seconds;
             seconds.hand_over(figures.stress_seconds, TimeRow::Stresses);
             Ok::<_, Error>(figures)
         })?;
-        if target.load_factor.is_some() {
+        if target.load_factor().is_some() {
             let state = &mut figures.state;
             [state.load_is_given, state.approach_is_given] = given_by_factor(self.model());
         }
@@ -133,10 +134,7 @@ impl Run<'_, '_> {
             self.position.attempt = 0;
             let (model, of) = (self.solver.structure.model, &mut self.position.deformation);
             of.take(&model.mesh, label, &figures.deformation);
-            let is_last = self
-                .position
-                .cycles
-                .is_last(self.model().scene.program.cycles);
+            let is_last = self.position.cycles.is_last(model.program.cycles);
             return Ok(is_last.then_some(figures.state));
         }
         let start = start.ok_or_else(|| Error::internal("the way to a target has no start"))?;
@@ -212,7 +210,7 @@ impl Run<'_, '_> {
 /// Whether the reported load follows from the load factor alone, and whether the approach does:
 /// without the yield load and without the response of the bodies.
 fn given_by_factor(model: &Model) -> [bool; 2] {
-    let is_known = model.scene.program.unit != Unit::Yield;
+    let is_known = model.program.unit != Unit::Yield;
     let leading = model.leading_load();
     let measures = leading.map(|leading| model.loads[leading].measures);
     let of_load = |of: Magnitude| match of {
@@ -235,7 +233,7 @@ fn given_by_factor(model: &Model) -> [bool; 2] {
 fn changes_by_load(model: &Model) -> f64 {
     let mut contacts = model.contacts.iter().map(|c| &model.pairs[c.range.clone()]);
     let grows =
-        model.scene.stepping() != Stepping::Steps && contacts.any(|pairs| !gaps_are_alike(pairs));
+        model.program.stepping != Stepping::Steps && contacts.any(|pairs| !gaps_are_alike(pairs));
     match (grows, model.kind) {
         (false, _) => 1.0,
         (true, Kind::Axisymmetric) => 1.0 / 3.0,

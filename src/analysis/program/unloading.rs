@@ -43,11 +43,9 @@ impl<'m> Unloading<'m> {
 
     /// Goes to load factor zero. Returns false if the zone is too small for that.
     fn go(&self, solver: &mut Solver) -> Result<bool> {
-        let scene = &self.model.scene;
         let rules = Rules {
-            settings: &scene.analysis,
-            stepping: scene.stepping(),
-            program: &scene.program,
+            settings: &self.model.settings,
+            program: &self.model.program,
             zone_until: f64::INFINITY,
             stop: &|| false,
         };

@@ -247,7 +247,7 @@ impl<const D: usize, const S: usize, const P: usize, const N: usize> RecoveryOf<
             neighbours,
             patches: BTreeMap::new(),
             conditions: Conditions::of(model),
-            gamma: model.scene.program.gamma,
+            gamma: model.program.gamma,
             watched,
         };
         if watched == Watched::Recovered {

@@ -230,7 +230,7 @@ impl Solver<'_> {
     /// the bodies have parted, nothing but the imbalance is left, and the forces returned are zero.
     pub fn contact_forces(&self) -> Cow<'_, [f64]> {
         let force = &self.now.force;
-        let tolerance = self.structure.model.scene.analysis.tolerance * self.scales.force;
+        let tolerance = self.structure.model.settings.tolerance * self.scales.force;
         let imbalance = tolerance.max(self.round_off_of_contact());
         let all = force.iter().fold(0.0, |sum, force| sum + force);
         if self.now.initial.load.largest() > 0.0 && all <= imbalance {

@@ -6,7 +6,7 @@ use crate::analysis::zone::history::PointHistory;
 use crate::checkpoint::read_end_state;
 use crate::error::{Error, Result};
 use crate::material::Material;
-use crate::model::Model;
+use crate::model::{Model, ProgramTarget, TargetCondition};
 use crate::results::{EndState, LeftBy, LeftByBody};
 use crate::scene::{Kind, Unit};
 
@@ -30,12 +30,13 @@ pub(in crate::analysis) fn read(model: &Model) -> Result<Option<EndState>> {
 }
 
 fn checked(model: &Model, state: EndState) -> Result<EndState> {
-    let program = &model.scene.program;
-    let target = program.targets.iter().find(|target| target.first_yield);
+    let program = &model.program;
+    let is_yield = |target: &&ProgramTarget| target.condition == TargetCondition::FirstYield;
+    let target = program.targets.iter().find(is_yield);
     let asked = match target {
         Some(target) => Some(format!(
             "take the target `{}` out of program.targets",
-            target.name.as_deref().unwrap_or("yield")
+            target.label
         )),
         None if program.unit == Unit::Yield => {
             Some("count loads with program.unit = \"load\"".to_string())

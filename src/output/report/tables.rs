@@ -274,7 +274,7 @@ pub(super) fn states(model: &Model, results: &Results, labels: &Labels) -> Marku
         return PreEscaped(String::new());
     }
     let columns = of_states(states, labels, model.kind, !model.pairs.is_empty(), false);
-    let unit = model.scene.program.unit;
+    let unit = model.program.unit;
     let mut head = vec![text("state"), numbers(factor(unit))];
     let rest = columns
         .iter()

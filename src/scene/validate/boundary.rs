@@ -103,7 +103,7 @@ pub(super) fn check_direction(problems: &mut Problems, key: &str, given: Compone
 }
 
 /// Refuses direction z except in a solid.
-fn check_axis(problems: &mut Problems, key: &str, direction: Direction, space: Space) {
+pub(super) fn check_axis(problems: &mut Problems, key: &str, direction: Direction, space: Space) {
     problems.require(
         direction.axis() < space.dimension(),
         key,

@@ -1,5 +1,6 @@
 //! Validation of the load program and the settings.
 
+use super::boundary::check_axis;
 use super::problems::Problems;
 use crate::number::exact;
 use crate::scene::{Field, History, LEAST_PATH_ERROR, Scene, Target, TargetFigure, Unit};
@@ -168,6 +169,8 @@ fn check_target(problems: &mut Problems, key: &str, target: &Target, scene: &Sce
             format!("{key}.displacement.on"),
             "is empty; name a surface or node set of the mesh",
         );
+        let direction = format!("{key}.displacement.direction");
+        check_axis(problems, &direction, displacement.direction, scene.kind);
         problems.require(
             scene.any_load_varies(),
             format!("{key}.displacement"),

@@ -227,7 +227,7 @@ impl<'a> ProjectedPatch<'a> {
     /// count.
     pub(super) fn copies(&self) -> f64 {
         let images = self.images.count();
-        let copies = match self.model.scene.symmetry {
+        let copies = match self.model.symmetry as usize {
             1 if self.endless.is_some() => images / 2,
             1 => images,
             declared => images.min(declared),
