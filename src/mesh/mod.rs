@@ -16,6 +16,7 @@ mod of_body;
 mod part;
 mod pieces;
 mod round;
+mod rounding;
 mod subdivision;
 pub mod surface;
 mod sweep;

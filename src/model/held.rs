@@ -4,7 +4,8 @@
 //! contact pairs. A motion that both leave free causes an error that names the body and the motion,
 //! unless no load does work on it: then one freedom is pinned, which affects only the free motion.
 //! A round body is pinned too if a load turns it no more than its flat facets explain; the pin then
-//! bears this small load.
+//! bears this small load. So is a round body whose rotation is held by nothing but small deviations
+//! of its nodes and facets from the round shape.
 
 use super::far_boundary::{FarBoundary, StoppedMotion};
 use super::motions::{self, FREE, Forces, Mode, Motions};
@@ -59,6 +60,8 @@ pub struct Pin {
     /// size of the load. The flat facets of a round surface explain this work. `None` if no load
     /// does work on the motion.
     pub driven: Option<(String, f64)>,
+    /// Whether contact holds the motion a little, because a surface is not exactly round.
+    pub is_held_by_deviations: bool,
     /// Node of the pinned freedom.
     pub node: usize,
 }
@@ -68,21 +71,31 @@ pub struct Pin {
 /// more accurately, and a load through the centre does about that much work.
 const NO_WORK_FOUND: f64 = 10.0 * FREE;
 
+/// Fraction of a free mode's largest entry by which the nodes of a round surface may leave the
+/// surface.
+const SLIDES: f64 = 1e-6;
+/// Fraction of the largest singular value below which contact holds a motion weakly: the fourth
+/// root of the round-off. The matrix of contact has a condition of the square of its inverse, with
+/// which half of all digits are lost.
+const WEAK: f64 = 1.2e-4;
+
 impl Pin {
     fn in_words(&self, mesh: &Mesh) -> String {
         let Pin {
             motion,
             driven,
+            is_held_by_deviations,
             node,
         } = self;
         let node = mesh.node_label(*node);
+        let held = match is_held_by_deviations {
+            true => "only nodes that deviate from a round surface hold this motion",
+            false => "nothing holds this motion",
+        };
         match driven {
-            None => format!(
-                "{motion}: nothing holds this motion and no load drives it; it is held at node \
-                 {node}"
-            ),
+            None => format!("{motion}: {held} and no load drives it; it is held at node {node}"),
             Some((load, share)) => format!(
-                "{motion}: nothing holds this motion, and load `{load}` drives it by {} of its \
+                "{motion}: {held}, and load `{load}` drives it by {} of its \
                  size, no more than flat facets of a round surface explain; it is held at node \
                  {node}, which carries this small load",
                 significant(*share, 2)
@@ -180,10 +193,21 @@ fn pin(
     let mut round: Option<RoundSurfaces> = None;
     let mut pinned = Vec::new();
     for _ in 0..motions.per_group() * motions.names.len() {
-        let free = motions.free(freedoms, pairs);
+        let mut free = motions.free(freedoms, pairs);
+        let are_weak = free.is_empty();
+        if are_weak {
+            free = motions.held_by_less(freedoms, pairs, WEAK);
+            free.retain(|mode| {
+                let surfaces = round.get_or_insert_with(|| RoundSurfaces::of(motions.mesh));
+                let driven = most_driving(motions, mode, &forces, loads).map_or(0.0, |of| of.1);
+                driven <= surfaces.work_of_facets(motions, mode, WEAK)
+                    && surfaces.carry(motions, mode, pairs, WEAK)
+            });
+        }
         if free.is_empty() {
             break;
         }
+        let off = if are_weak { WEAK } else { SLIDES };
         // Motions that have no body in common stay free when one of them is pinned, so all of them
         // are pinned at once.
         let mut moved = vec![false; motions.names.len()];
@@ -198,7 +222,7 @@ fn pin(
             let driven = most_driving(motions, mode, &forces, loads);
             let mut is_explained = |share: f64| {
                 let round = round.get_or_insert_with(|| RoundSurfaces::of(motions.mesh));
-                share <= round.work_of_facets(motions, mode)
+                share <= round.work_of_facets(motions, mode, off)
             };
             if let Some((load, share)) = driven.filter(|(_, share)| !is_explained(*share)) {
                 let how_much = match share < 0.01 {
@@ -220,6 +244,7 @@ fn pin(
             pins.push(Pin {
                 motion,
                 driven,
+                is_held_by_deviations: are_weak,
                 node,
             });
             freedoms.pin(freedom);

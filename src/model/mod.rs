@@ -30,6 +30,7 @@ mod load_program;
 mod loads;
 mod making;
 pub(crate) mod mirror;
+mod motion_words;
 mod motions;
 mod names;
 mod numbering;

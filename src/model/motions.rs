@@ -5,7 +5,7 @@ use super::gram::Gram;
 use super::{Freedoms, LoadCase, Pair, Slot};
 use crate::classes::Classes;
 use crate::mesh::Mesh;
-use crate::space::{self, RigidMotion, Space, Vector, unit};
+use crate::space::{self, Space, Vector, unit};
 use nalgebra::DVector;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -18,13 +18,15 @@ const HELD: f64 = 1e-11;
 
 /// Rigid motions of groups; a group is a set of bodies that share nodes and move together.
 pub(super) struct Motions<'a> {
-    space: Space,
+    pub(super) space: Space,
     pub(super) mesh: &'a Mesh,
     basis: ContactBasis,
     /// Number of the group of each node.
     pub(super) group_of_node: Vec<usize>,
-    center: Vec<Vector>,
-    size: Vec<f64>,
+    /// Middle of the box around each group.
+    pub(super) center: Vec<Vector>,
+    /// Diagonal of the box around each group.
+    pub(super) size: Vec<f64>,
     /// Names of the bodies of each group.
     pub(super) names: Vec<Vec<String>>,
     /// Nodes of each group, ascending.
@@ -42,7 +44,7 @@ pub(super) struct Mode {
 
 impl Mode {
     /// Entry of a row; 0 if the group of the row does not move.
-    fn at(&self, row: usize) -> f64 {
+    pub(super) fn at(&self, row: usize) -> f64 {
         let place = self.rows.binary_search(&row);
         place.map_or(0.0, |k| self.values[k])
     }
@@ -141,14 +143,26 @@ impl<'a> Motions<'a> {
     /// Finds the motions that supports and (bilateral) pairs leave free, as unit vectors with one
     /// entry per rigid motion of each group in a block that these conditions couple.
     pub(super) fn free(&self, freedoms: &Freedoms, pairs: &[Pair]) -> Vec<Mode> {
+        self.held_by_less(freedoms, pairs, FREE)
+    }
+
+    /// Finds the motions whose singular value in the conditions that supports and (bilateral) pairs
+    /// impose is below a fraction of the largest, as [`Motions::free`] does.
+    pub(super) fn held_by_less(
+        &self,
+        freedoms: &Freedoms,
+        pairs: &[Pair],
+        fraction: f64,
+    ) -> Vec<Mode> {
         let per = self.per_group();
         let gram = self.gram(freedoms, pairs);
         let largest = gram.largest_diagonal().max(1.0);
         let mut free: Vec<Plain> = Vec::new();
         for block in gram.uncoupled(per) {
             // Most blocks are held, and a single factorisation is enough to show this.
-            if !gram.is_definite(&block, HELD * largest) {
-                let (rows, vectors) = gram.null_vectors(&block, FREE * FREE * largest);
+            let limit = fraction * fraction;
+            if !gram.is_definite(&block, HELD.max(2.0 * limit) * largest) {
+                let (rows, vectors) = gram.null_vectors(&block, limit * largest);
                 free.extend(plain(&rows, vectors, per));
             }
         }
@@ -212,21 +226,28 @@ impl<'a> Motions<'a> {
             }
         }
         for pair in pairs {
-            let mut row = Vec::new();
-            let masters = pair.masters.iter().copied();
-            for (node, share) in masters.chain([(pair.slave, -1.0)]) {
-                let group = self.group_of_node[node];
-                let values = self.row(node, pair.normal);
-                row.extend(
-                    values
-                        .into_iter()
-                        .enumerate()
-                        .map(|(m, v)| (per * group + m, share * v)),
-                );
-            }
-            gram.add(&row);
+            gram.add(&self.row_of_pair(pair));
         }
         gram
+    }
+
+    /// Change of a pair's gap in each rigid motion of the groups of its nodes.
+    fn row_of_pair(&self, pair: &Pair) -> Vec<(usize, f64)> {
+        let per = self.per_group();
+        let masters = pair.masters.iter().copied();
+        let nodes = masters.chain([(pair.slave, -1.0)]);
+        let of_node = nodes.flat_map(|(node, share)| {
+            let first = per * self.group_of_node[node];
+            let values = self.row(node, pair.normal).into_iter().enumerate();
+            values.map(move |(m, v)| (first + m, share * v))
+        });
+        of_node.collect()
+    }
+
+    /// Change of a pair's gap in a mode.
+    pub(super) fn opening(&self, mode: &Mode, pair: &Pair) -> f64 {
+        let row = self.row_of_pair(pair).into_iter();
+        row.map(|(at, value)| value * mode.at(at)).sum()
     }
 
     /// Numbers of the groups that move in a mode, ascending.
@@ -365,83 +386,6 @@ impl<'a> Motions<'a> {
             }
         }
         best.filter(|(b, _)| *b > 0.0).map(|(_, f)| f)
-    }
-
-    pub(super) fn describe(&self, mode: &Mode) -> String {
-        let groups = self.moved(mode);
-        let bodies: Vec<String> = groups
-            .iter()
-            .flat_map(|&g| self.names[g].iter())
-            .map(|n| format!("`{n}`"))
-            .collect();
-        let first = groups.first().copied().unwrap_or(0);
-        let motion = self.in_words(mode, first);
-        let together = if groups.len() > 1 { " together" } else { "" };
-        format!(
-            "bod{} {} can {motion}{together}",
-            if groups.len() > 1 { "ies" } else { "y" },
-            bodies.join(" and ")
-        )
-    }
-}
-
-impl Motions<'_> {
-    /// Describes the motion of a group in a mode.
-    fn in_words(&self, mode: &Mode, group: usize) -> String {
-        let motions = self.space.rigid_motions();
-        let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
-        for (m, motion) in motions.iter().enumerate() {
-            let share = mode.at(motions.len() * group + m);
-            match *motion {
-                RigidMotion::Along(axis) => shift[axis] = share,
-                RigidMotion::About(axis) => turn[axis] = share,
-            }
-        }
-        let axes = self.space.axes();
-        let (size, s) = (self.size[group], 2.0 / self.size[group]);
-        let angle = space::length(turn);
-        if angle > 1e-6 * mode.largest() {
-            // Point nearest to the centre that the rotation leaves in place or moves along its
-            // axis.
-            let arm = space::cross(turn, shift).map(|x| x / (s * angle * angle));
-            let at: Vec<String> = (0..axes.len())
-                .map(|d| format!("{:.4}", tidy(self.center[group][d] + arm[d], size)))
-                .collect();
-            let at = at.join(", ");
-            if !self.space.is_solid() {
-                return format!("rotate about ({at})");
-            }
-            let axis = turn.map(|t| tidy(t / angle, 1.0));
-            return match (0..3).find(|&d| axis[d].abs() == space::length(axis)) {
-                Some(d) => format!("rotate about {} through ({at})", axes[d]),
-                None => format!(
-                    "rotate about ({:.3}, {:.3}, {:.3}) through ({at})",
-                    axis[0], axis[1], axis[2]
-                ),
-            };
-        }
-        let far = space::length(shift);
-        if self.space.is_axisymmetric() {
-            return "move along the axis".to_string();
-        }
-        match (0..axes.len()).find(|&d| shift[d].abs() >= (1.0 - 1e-12) * far) {
-            Some(d) => format!("move along {}", axes[d]),
-            None => {
-                let along: Vec<String> = (shift.iter().take(axes.len()))
-                    .map(|x| format!("{:.3}", tidy(*x, far)))
-                    .collect();
-                format!("move along ({})", along.join(", "))
-            }
-        }
-    }
-}
-
-/// Sets a coordinate to zero if it is only round-off for a body of this size.
-fn tidy(coordinate: f64, size: f64) -> f64 {
-    if coordinate.abs() < 1e-9 * size {
-        0.0
-    } else {
-        coordinate
     }
 }
 

@@ -70,15 +70,25 @@ impl Pair {
         }
     }
 
-    /// Sets a gap to zero if it is no more than the round-off of the nodes' coordinates. Otherwise
-    /// the pairs of matching surfaces would close one after the other.
-    fn take_off_round_off(&mut self, mesh: &Mesh) {
+    /// Sets a gap to zero if it is no more than the round-off of the nodes' coordinates, or than
+    /// decimal places with the spacing `rounding` explain. Otherwise the pairs of matching surfaces
+    /// would close one after the other. Returns a gap that decimal places explain.
+    fn take_off_round_off(&mut self, mesh: &Mesh, rounding: f64) -> Option<f64> {
         let places = self.nodes().flat_map(|node| mesh.point(node));
         let size = places.fold(0.0f64, |most, x| most.max(x.abs()));
-        let weights: f64 = self.masters.iter().map(|(_, weight)| weight.abs()).sum();
-        if self.gap.abs() <= ROUND_OFF * (1.0 + weights) * size {
-            self.gap = 0.0;
+        let round_off = self.gap_by_places(ROUND_OFF * size);
+        let gap = self.gap;
+        if gap.abs() > round_off.max(self.gap_by_places(rounding)) {
+            return None;
         }
+        self.gap = 0.0;
+        Some(gap).filter(|gap| gap.abs() > round_off)
+    }
+
+    /// Largest gap between surfaces that touch if each node is off by `off`.
+    fn gap_by_places(&self, off: f64) -> f64 {
+        let weights: f64 = self.masters.iter().map(|(_, weight)| weight.abs()).sum();
+        (1.0 + weights) * off
     }
 
     /// Converts an overlap in the mesh to an interference and returns it; 0 if there is none.

@@ -1,12 +1,11 @@
 //! Round surfaces, which slide along themselves if their body turns about their centre.
 
-use super::motions::{Mode, Motions};
+use super::Pair;
+use super::motions::{FREE, Mode, Motions};
 use super::pairs::mortar::roundness::true_shape;
 use crate::mesh::{Curve, Mesh, Surface};
 use crate::space::{Vector, along, difference, direction, length};
-
-/// Fraction of a mode's largest entry up to which a node counts as moved along the surface.
-const ALONG: f64 = 1e-6;
+use std::collections::BTreeSet;
 
 /// The surfaces of a mesh that are round.
 pub(super) struct RoundSurfaces {
@@ -33,17 +32,36 @@ impl RoundSurfaces {
 
     /// Largest work of a load on a mode, over the size of the load, that facets may cause because
     /// they are not exactly round: a load that is spread over them does not act exactly through the
-    /// centre. Zero if no round surface slides along itself in the mode.
-    pub(super) fn work_of_facets(&self, motions: &Motions, mode: &Mode) -> f64 {
+    /// centre. Zero if no round surface slides along itself in the mode, to within the fraction
+    /// `off` of the mode's largest entry.
+    pub(super) fn work_of_facets(&self, motions: &Motions, mode: &Mode, off: f64) -> f64 {
+        let sliding = self.sliding(motions, mode, off).into_iter();
+        sliding.map(|s| s.deviation).fold(0.0, f64::max)
+    }
+
+    /// Whether all pairs whose gaps a mode changes are on round surfaces that slide along
+    /// themselves in the mode, to within the fraction `off` of its largest entry. If these surfaces
+    /// were round in every node and facet, nothing would hold the mode.
+    pub(super) fn carry(&self, motions: &Motions, mode: &Mode, pairs: &[Pair], off: f64) -> bool {
+        let sliding = self.sliding(motions, mode, off).into_iter();
+        let nodes: BTreeSet<usize> = sliding.flat_map(|s| s.nodes.iter().map(|n| n.0)).collect();
+        let mut holding = pairs
+            .iter()
+            .filter(|pair| motions.opening(mode, pair).abs() > FREE * mode.largest());
+        !nodes.is_empty() && holding.all(|pair| pair.nodes().any(|node| nodes.contains(&node)))
+    }
+
+    /// The round surfaces that slide along themselves in a mode, to within the fraction `off` of
+    /// its largest entry.
+    fn sliding(&self, motions: &Motions, mode: &Mode, off: f64) -> Vec<&RoundSurface> {
         let moved = motions.moved(mode);
         let slides = |surface: &&RoundSurface| {
             surface.nodes.iter().all(|&(node, out)| {
                 moved.contains(&motions.group_of_node[node])
-                    && motions.along(mode, node, out, 0.0).abs() <= ALONG * mode.largest()
+                    && motions.along(mode, node, out, 0.0).abs() <= off * mode.largest()
             })
         };
-        let sliding = self.surfaces.iter().filter(slides);
-        sliding.map(|s| s.deviation).fold(0.0, f64::max)
+        self.surfaces.iter().filter(slides).collect()
     }
 }
 

@@ -17,6 +17,8 @@ pub(super) struct ContactInput<'a> {
     pub(super) space: Space,
     /// Whether the scene comes from an input deck, whose faces have numbers.
     pub(super) is_of_deck: bool,
+    /// Spacing of the decimal places of the mesh's coordinates ([`Mesh::rounding`]).
+    pub(super) rounding: f64,
 }
 
 impl ContactInput<'_> {

@@ -375,7 +375,11 @@ impl Sides<'_> {
         let (mesh, contact) = (self.entries.mesh, &self.entries.contact);
         self.check_apart(pairs)?;
         let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
-        let overlaps = |pair: &&Pair| pair.gap < -TOUCHING * facet_length && !contact.overlap;
+        let rounding = self.entries.rounding;
+        let overlaps = |pair: &&Pair| {
+            let touching = (TOUCHING * facet_length).max(pair.gap_by_places(rounding));
+            pair.gap < -touching && !contact.overlap
+        };
         let Some(deepest) = deepest.filter(overlaps) else {
             return Ok(());
         };

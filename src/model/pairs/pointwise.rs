@@ -123,7 +123,11 @@ fn check(input: &ContactInput, only: &Only, pairs: &[Pair], facet_length: f64) -
     }
     let may_overlap = input.contact.overlap || input.contact.gap.is_some();
     let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
-    match deepest.filter(|pair| pair.gap < -ROUND_OFF * facet_length && !may_overlap) {
+    let overlaps = |pair: &&Pair| {
+        let touching = (ROUND_OFF * facet_length).max(pair.gap_by_places(input.rounding));
+        pair.gap < -touching && !may_overlap
+    };
+    match deepest.filter(overlaps) {
         None => Ok(()),
         Some(pair) => Err(Error::input(format!(
             "node {} lies {:.3e} behind the other surface in the mesh; move the bodies apart, or \

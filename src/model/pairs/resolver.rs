@@ -38,6 +38,11 @@ pub(in crate::model) fn resolve(
         repeated: Repeated::default(),
         notes,
     };
+    let rounding = if scene.contact.is_empty() {
+        0.0
+    } else {
+        mesh.rounding()
+    };
     let mut contacts = Vec::new();
     for (index, contact) in scene.contact.iter().enumerate() {
         let entry = SceneEntry::of_list(scene, "contact", index);
@@ -58,6 +63,7 @@ pub(in crate::model) fn resolve(
             mesh,
             space: scene.kind,
             is_of_deck: scene.requests.is_of_deck(),
+            rounding,
         };
         if let Some(only) = &only {
             input.contact.slave = only.side;
@@ -164,9 +170,7 @@ impl Resolver<'_, '_> {
         )?;
         let slaves = found.pairs.iter().map(|pair| (pair.slave, one.input.index));
         self.slave_of.extend(slaves);
-        for pair in &mut found.pairs {
-            pair.take_off_round_off(self.mesh);
-        }
+        self.take_off_round_off(one, &mut found);
         if one.contact.overlap {
             self.push_apart(one, &mut found);
         }
@@ -277,6 +281,23 @@ impl Resolver<'_, '_> {
             one.contact.second,
             ["second", "first"][found.slave],
         ))
+    }
+
+    /// Sets gaps that are no more than round-off to zero; of surfaces whose gap is the mesh's alone
+    /// also gaps that the decimal places of its coordinates explain.
+    fn take_off_round_off(&mut self, one: &OneContact, found: &mut Found) {
+        let is_of_mesh = one.contact.gap.is_none() && !one.contact.overlap && one.given.is_none();
+        let rounding = if is_of_mesh { one.input.rounding } else { 0.0 };
+        let taken = found.pairs.iter_mut();
+        let taken = taken.filter_map(|pair| pair.take_off_round_off(self.mesh, rounding));
+        let most = taken.fold(0.0f64, |most, gap| most.max(gap.abs()));
+        if most > 0.0 {
+            let what = &one.what;
+            self.notes.push(format!(
+                "{what}: gaps and overlaps of up to {most:.1e} count as none, because the mesh \
+                 gives its coordinates to {rounding:e}"
+            ));
+        }
     }
 
     /// Makes the overlaps of the pairs in the mesh their interferences.

@@ -87,7 +87,10 @@ fn check_apart(
 ) -> Result<()> {
     let (mesh, contact) = (entries.mesh, &entries.contact);
     let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
-    let inside = |pair: &&Pair| pair.gap < -ROUND_OFF * facet_length && !contact.overlap;
+    let inside = |pair: &&Pair| {
+        let touching = (ROUND_OFF * facet_length).max(pair.gap_by_places(entries.rounding));
+        pair.gap < -touching && !contact.overlap
+    };
     match deepest.filter(inside) {
         None => Ok(()),
         Some(pair) => Err(Error::input(format!(

@@ -112,6 +112,7 @@ fn rows(
     };
     let stated = Stated::default();
     let entries = ContactInput {
+        rounding: 0.0,
         index,
         contact: sides,
         stated: &stated,

@@ -1,0 +1,69 @@
+//! Decimal places to which a mesh file gives its coordinates.
+
+use super::Mesh;
+
+/// Fewest digits of a coordinate that counts as rounded. A coordinate with fewer digits is more
+/// likely to be meant as it is written.
+const FEWEST_DIGITS: usize = 6;
+/// Most digits of a coordinate that counts as rounded: a number with more has the precision of the
+/// computer.
+const MOST_DIGITS: usize = 14;
+
+impl Mesh {
+    /// Spacing of the last decimal place to which the largest coordinates were rounded when the mesh
+    /// was written, for instance `1e-6`; 0 if the coordinates have the precision of the computer, or
+    /// so few digits that they are likely to be exact.
+    pub(crate) fn rounding(&self) -> f64 {
+        let (mut most, mut largest) = (0, i32::MIN);
+        for x in self.coordinates.iter().filter(|x| **x != 0.0) {
+            let (digits, exponent) = digits_of(*x);
+            if digits > MOST_DIGITS {
+                return 0.0;
+            }
+            most = most.max(digits);
+            largest = largest.max(exponent);
+        }
+        match most < FEWEST_DIGITS {
+            true => 0.0,
+            false => 10f64.powi(largest + 1 - most as i32),
+        }
+    }
+}
+
+/// Number of digits of the shortest decimal number that is read as `x`, and the power of ten of the
+/// first digit.
+fn digits_of(x: f64) -> (usize, i32) {
+    let text = format!("{x:e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let digits = mantissa.bytes().filter(u8::is_ascii_digit).count();
+    (digits, exponent.parse().unwrap_or(0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rounding(coordinates: &[f64]) -> f64 {
+        Mesh {
+            coordinates: coordinates.to_vec(),
+            ..Mesh::default()
+        }
+        .rounding()
+    }
+
+    #[test]
+    fn places_are_counted_from_the_largest_coordinate() {
+        assert_eq!(rounding(&[1.234567, -12.5, 0.000001, 0.0]), 1e-6);
+        assert_eq!(rounding(&[123.4567, 0.01234567]), 1e-4);
+        assert_eq!(rounding(&[0.04231509, -0.0389]), 1e-8);
+    }
+
+    /// A grid of few digits is exact, and computed coordinates are not rounded to decimal places.
+    #[test]
+    fn exact_and_computed_coordinates_are_not_rounded() {
+        assert_eq!(rounding(&[0.5, 0.125, 12.0, -3.75]), 0.0);
+        assert_eq!(rounding(&[1.5, 0.1 + 0.2]), 0.0);
+        assert_eq!(rounding(&[1.0 / 3.0, 1.234567]), 0.0);
+        assert_eq!(rounding(&[]), 0.0);
+    }
+}
