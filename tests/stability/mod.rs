@@ -21,6 +21,7 @@ mod prescribed;
 mod quality;
 mod receding;
 mod refinement;
+mod rounded_places;
 mod selftest;
 mod solids;
 mod taken_off;

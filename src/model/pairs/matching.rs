@@ -9,7 +9,7 @@ use crate::error::{Error, Result};
 use crate::mesh::surface::{PAIRING, facing, longest_facet, nodes, normals};
 use crate::mesh::{Mesh, Surface};
 use crate::model::given::{NodePair, Partner, partners};
-use crate::scene::{Contact, SlaveSide};
+use crate::scene::SlaveSide;
 use crate::space::{Vector, difference, direction, dot, length};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -37,7 +37,8 @@ fn faced(
 
 /// Refuses pairs of a node with itself, and pairs that overlap although the contact does not allow
 /// for an overlap.
-fn check(mesh: &Mesh, contact: &Contact, pairs: &[Pair], facet_length: f64) -> Result<()> {
+fn check(entries: &ContactInput, pairs: &[Pair], facet_length: f64) -> Result<()> {
+    let (mesh, contact) = (entries.mesh, &entries.contact);
     let may_overlap = contact.overlap || contact.gap.is_some();
     for pair in pairs {
         let faced = pair.masters[0].0;
@@ -47,7 +48,8 @@ fn check(mesh: &Mesh, contact: &Contact, pairs: &[Pair], facet_length: f64) -> R
                 mesh.node_label(faced)
             )));
         }
-        if pair.gap < -1e-9 * facet_length && !may_overlap {
+        let touching = (1e-9 * facet_length).max(pair.gap_by_places(entries.rounding));
+        if pair.gap < -touching && !may_overlap {
             return Err(Error::input(format!(
                 "nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or say \
                  `overlap = true` where that is an interference",
@@ -130,7 +132,7 @@ pub(super) fn pairs(entries: &ContactInput, given: Option<&[NodePair]>) -> Resul
             "no pair of nodes is given; name some, or leave them out to have the surfaces paired",
         ));
     }
-    check(mesh, contact, &pairs, facet_length)?;
+    check(entries, &pairs, facet_length)?;
     Ok(Some(Found::new(pairs, slave, facet_length)))
 }
 

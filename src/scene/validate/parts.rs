@@ -7,6 +7,9 @@ use crate::shape::Shape;
 use crate::space::Space;
 use std::collections::BTreeSet;
 
+/// Round-off of a difference of angles in degrees.
+const OFF: f64 = 1e-9;
+
 pub(super) fn check_part(problems: &mut Problems, key: &str, part: &Part, kind: Space) {
     problems.exactly_one(
         key,
@@ -151,7 +154,7 @@ fn check_ring(problems: &mut Problems, key: &str, ring: &Ring) {
     );
     let [start, end] = ring.angle;
     problems.pair_must(
-        start < end && end - start <= 360.0,
+        start < end && end - start <= 360.0 + OFF,
         format!("{key}.angle"),
         ring.angle,
         "be ascending and at most 360 degrees apart",
@@ -166,7 +169,10 @@ fn check_disc(problems: &mut Problems, key: &str, disc: &Disc) {
     problems.positive(format!("{key}.radius"), disc.radius);
     let [start, end] = disc.angle;
     problems.pair_must(
-        [90.0, 180.0, 360.0].contains(&(end - start)),
+        [90.0, 180.0, 360.0]
+            .map(|span| (end - start - span).abs())
+            .iter()
+            .any(|off| *off <= OFF),
         format!("{key}.angle"),
         disc.angle,
         "be 90, 180 or 360 degrees apart",
