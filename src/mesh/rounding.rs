@@ -25,7 +25,8 @@ impl Mesh {
         }
         match most < FEWEST_DIGITS {
             true => 0.0,
-            false => 10f64.powi(largest + 1 - most as i32),
+            // The reader of numbers gives the nearest power of ten, which `powi` misses.
+            false => format!("1e{}", largest + 1 - most as i32).parse().unwrap_or(0.0),
         }
     }
 }
