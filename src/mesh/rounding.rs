@@ -14,15 +14,16 @@ impl Mesh {
     /// was written, for instance `1e-6`; 0 if the coordinates have the precision of the computer, or
     /// so few digits that they are likely to be exact.
     pub(crate) fn rounding(&self) -> f64 {
-        let (mut most, mut largest) = (0, i32::MIN);
+        // The most digits of a coordinate, and the largest exponent of those with as many.
+        let mut most = (0, i32::MIN);
         for x in self.coordinates.iter().filter(|x| **x != 0.0) {
             let (digits, exponent) = digits_of(*x);
             if digits > MOST_DIGITS {
                 return 0.0;
             }
-            most = most.max(digits);
-            largest = largest.max(exponent);
+            most = most.max((digits, exponent));
         }
+        let (most, largest) = most;
         match most < FEWEST_DIGITS {
             true => 0.0,
             // The reader of numbers gives the nearest power of ten, which `powi` misses.
