@@ -29,6 +29,7 @@ pub use curve::Curve;
 pub use local_refinement::refined;
 pub(crate) use nearest::NearestNode;
 pub use round::{declared, lay_on};
+pub(crate) use rounding::rounding;
 pub use subdivision::subdivided;
 pub use sweep::{extruded, revolved};
 pub use validate::validate;
@@ -87,6 +88,10 @@ pub struct Mesh {
     pub integration: Vec<Integration>,
     /// Remarks on what was left out when the mesh was read, for the warnings of a model.
     pub notes: Vec<String>,
+    /// Spacing of the last decimal place to which the coordinates were rounded before the mesh was
+    /// refined; 0 if they were not.
+    #[serde(skip)]
+    pub rounding: f64,
 }
 
 impl Mesh {

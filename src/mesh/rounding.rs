@@ -9,26 +9,26 @@ const FEWEST_DIGITS: usize = 6;
 /// computer.
 const MOST_DIGITS: usize = 14;
 
-impl Mesh {
-    /// Spacing of the last decimal place to which the largest coordinates were rounded when the mesh
-    /// was written, for instance `1e-6`; 0 if the coordinates have the precision of the computer, or
-    /// so few digits that they are likely to be exact.
-    pub(crate) fn rounding(&self) -> f64 {
-        // The most digits of a coordinate, and the largest exponent of those with as many.
-        let mut most = (0, i32::MIN);
-        for x in self.coordinates.iter().filter(|x| **x != 0.0) {
-            let (digits, exponent) = digits_of(*x);
-            if digits > MOST_DIGITS {
-                return 0.0;
-            }
-            most = most.max((digits, exponent));
+/// Spacing of the last decimal place to which the largest coordinates of a mesh were rounded when
+/// it was written, for instance `1e-6`; 0 if the coordinates have the precision of the computer, or
+/// so few digits that they are likely to be exact.
+pub(crate) fn rounding(mesh: &Mesh) -> f64 {
+    // The most digits of a coordinate, and the largest exponent of those with as many.
+    let mut most = (0, i32::MIN);
+    for x in mesh.coordinates.iter().filter(|x| **x != 0.0) {
+        let (digits, exponent) = digits_of(*x);
+        if digits > MOST_DIGITS {
+            return 0.0;
         }
-        let (most, largest) = most;
-        match most < FEWEST_DIGITS {
-            true => 0.0,
-            // The reader of numbers gives the nearest power of ten, which `powi` misses.
-            false => format!("1e{}", largest + 1 - most as i32).parse().unwrap_or(0.0),
-        }
+        most = most.max((digits, exponent));
+    }
+    let (most, largest) = most;
+    match most < FEWEST_DIGITS {
+        true => 0.0,
+        // The reader of numbers gives the nearest power of ten, which `powi` misses.
+        false => format!("1e{}", largest + 1 - most as i32)
+            .parse()
+            .unwrap_or(0.0),
     }
 }
 
@@ -45,27 +45,26 @@ fn digits_of(x: f64) -> (usize, i32) {
 mod tests {
     use super::*;
 
-    fn rounding(coordinates: &[f64]) -> f64 {
-        Mesh {
+    fn of(coordinates: &[f64]) -> f64 {
+        rounding(&Mesh {
             coordinates: coordinates.to_vec(),
             ..Mesh::default()
-        }
-        .rounding()
+        })
     }
 
     #[test]
     fn places_are_counted_from_the_largest_coordinate() {
-        assert_eq!(rounding(&[1.234567, -12.5, 0.000001, 0.0]), 1e-6);
-        assert_eq!(rounding(&[123.4567, 0.01234567]), 1e-4);
-        assert_eq!(rounding(&[0.04231509, -0.0389]), 1e-8);
+        assert_eq!(of(&[1.234567, -12.5, 0.000001, 0.0]), 1e-6);
+        assert_eq!(of(&[123.4567, 0.01234567]), 1e-4);
+        assert_eq!(of(&[0.04231509, -0.0389]), 1e-8);
     }
 
     /// A grid of few digits is exact, and computed coordinates are not rounded to decimal places.
     #[test]
     fn exact_and_computed_coordinates_are_not_rounded() {
-        assert_eq!(rounding(&[0.5, 0.125, 12.0, -3.75]), 0.0);
-        assert_eq!(rounding(&[1.5, 0.1 + 0.2]), 0.0);
-        assert_eq!(rounding(&[1.0 / 3.0, 1.234567]), 0.0);
-        assert_eq!(rounding(&[]), 0.0);
+        assert_eq!(of(&[0.5, 0.125, 12.0, -3.75]), 0.0);
+        assert_eq!(of(&[1.5, 0.1 + 0.2]), 0.0);
+        assert_eq!(of(&[1.0 / 3.0, 1.234567]), 0.0);
+        assert_eq!(of(&[]), 0.0);
     }
 }

@@ -28,12 +28,23 @@ pub(super) fn build_mesh(scene: &Scene) -> Result<Mesh> {
         |p| mesh::generate::contact_size::of(scene, p),
         |p| mesh::generate::ellipse_size::of(scene, p),
     );
-    let mut mesh = made.map_err(|error| match scene.mesh.file {
+    let mesh = made.map_err(|error| match scene.mesh.file {
         // Messages about a deck name its file and line themselves.
         Some(_) if scene.requests.is_of_deck() => error,
         Some(_) => scene.places.in_front("mesh.file", error),
         None => scene.places.in_front("mesh", error),
     })?;
+    let rounding = mesh::rounding(&mesh);
+    let mut mesh = refined(scene, mesh)?;
+    mesh.rounding = rounding;
+    Ok(mesh)
+}
+
+/// Lays the mesh of a scene on its declared curves, refines it and sweeps it into a solid.
+///
+/// # Errors
+/// Errors of [`build_mesh`].
+fn refined(scene: &Scene, mut mesh: Mesh) -> Result<Mesh> {
     let declared = mesh::declared(&scene.mesh);
     mesh.name_parts(declared.iter().map(|(_, on, _)| *on));
     for (key, on, curve) in declared {

@@ -4,8 +4,9 @@
 //! Passing means that the run is complete and trusted, with the results of the same mesh in full
 //! precision, and that a warning says what was held or taken off.
 
+use crate::support::msh::{Body, Disc, Msh};
 use crate::support::random::Random;
-use crate::support::{either, parse, run_model};
+use crate::support::{either, parse, run_model, run_text};
 use brinell::linalg::Backend;
 use brinell::mesh::Mesh;
 use brinell::model::Model;
@@ -43,11 +44,19 @@ program.targets = [{{ load_factor = 1.0 }}, {{ load_factor = 0.0 }}]
 [[mesh.parts]]
 body = "pin"
 element = "{element}"
-ring = {{ center = [{x:?}, {y:?}], radius = [2.0, {radius:?}], angle = [{turned:?}, {:?}], elements = [3, {around}] }}
+[mesh.parts.ring]
+center = [{x:?}, {y:?}]
+radius = [2.0, {radius:?}]
+angle = [{turned:?}, {:?}]
+elements = [3, {around}]
 [[mesh.parts]]
 body = "lug"
 element = "{element}"
-ring = {{ center = [{x:?}, {y:?}], radius = [{:?}, 11.0], angle = [{turned:?}, {:?}], elements = [3, {}] }}
+[mesh.parts.ring]
+center = [{x:?}, {y:?}]
+radius = [{:?}, 11.0]
+angle = [{turned:?}, {:?}]
+elements = [3, {}]
 "#,
         angle.cos(),
         angle.sin(),
@@ -144,4 +153,64 @@ fn an_overlap_of_more_than_the_last_place_is_refused() {
     fitted.contact[0].overlap = true;
     let model = with(&fitted, 1e-6).unwrap();
     assert!(model.pairs.iter().any(|pair| pair.interference > 0.0));
+}
+
+/// The refinement of a mesh of few digits computes places with all digits, and the surfaces that
+/// touch still overlap by the last decimal place of the file.
+#[test]
+fn a_refined_mesh_of_few_digits_fits_as_well() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut msh = Msh::default();
+    let disc = Disc {
+        name: "disc",
+        center: [0.0, 0.0],
+        radius: 1.0,
+        angles: (0..24).map(|k| f64::from(k) / 24.0).collect(),
+        rings: 2,
+    };
+    disc.plane(&mut msh, 2);
+    let block = Body {
+        name: "block",
+        from: -1.0,
+        width: 2.0,
+        cells: [16, 4],
+        heights: [&|_| -3.0, &|_| -1.0],
+        kink: None,
+        grading: 1.0,
+        jitter: 0.0,
+    };
+    block.plane(&mut msh, false, 2, &mut Random::new(1));
+    // Turned, so that no coordinate of the flat surface is exact.
+    let [s, c] = [0.3f64.sin(), 0.3f64.cos()];
+    let rounded = |x: f64| (1e7 * x).round() / 1e7;
+    msh.map(|[x, y, z]| [rounded(c * x - s * y), rounded(s * x + c * y), z]);
+    let file = folder.path().join("disc.msh");
+    std::fs::write(&file, msh.text()).unwrap();
+    for times in 0..3 {
+        let text = format!(
+            r#"
+kind = "plane_strain"
+materials.steel = {{ youngs_modulus = 210e3, poissons_ratio = 0.3 }}
+bodies = {{ disc.material = "steel", block.material = "steel" }}
+contact = [{{ first = "disc outline", second = "block top" }}]
+support = [{{ on = "block bottom", fix = ["x", "y"] }}]
+load = [{{ on = "disc outline", force = [{:?}, {:?}] }}]
+program.targets = [{{ load_factor = 1.0 }}]
+[mesh]
+file = {:?}
+subdivisions = {times}
+"#,
+            100.0 * s,
+            -100.0 * c,
+            file.display().to_string(),
+        );
+        let results = run_text(&text);
+        assert!(
+            results.inaccurate.is_empty(),
+            "{times}: {:?}",
+            results.inaccurate
+        );
+        let force = results.states[0].contact_force;
+        assert!((force / 100.0 - 1.0).abs() <= 1e-6, "{times}: {force}");
+    }
 }
