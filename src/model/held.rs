@@ -10,7 +10,7 @@
 use super::far_boundary::{FarBoundary, StoppedMotion};
 use super::motions::{self, FREE, Forces, Mode, Motions};
 use super::rigid_motion::RigidMotion;
-use super::round_surfaces::RoundSurfaces;
+use super::smooth_surfaces::SmoothSurfaces;
 use super::{ContactRows, ContactSurface, Freedoms, LoadCase, Pair, far_boundary, springs};
 use crate::error::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
@@ -190,7 +190,7 @@ fn pin(
 ) -> Result<Vec<Pinned>> {
     let forces = motions.forces(loads);
     let contact: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
-    let mut round: Option<RoundSurfaces> = None;
+    let mut round: Option<SmoothSurfaces> = None;
     let mut pinned = Vec::new();
     for _ in 0..motions.per_group() * motions.names.len() {
         let mut free = motions.free(freedoms, pairs);
@@ -198,16 +198,15 @@ fn pin(
         if are_weak {
             free = motions.held_by_less(freedoms, pairs, WEAK);
             free.retain(|mode| {
-                let surfaces = round.get_or_insert_with(|| RoundSurfaces::of(motions.mesh));
+                let surfaces = round.get_or_insert_with(|| SmoothSurfaces::of(motions.mesh));
                 let driven = most_driving(motions, mode, &forces, loads).map_or(0.0, |of| of.1);
-                driven <= surfaces.work_of_facets(motions, mode, WEAK)
-                    && surfaces.carry(motions, mode, pairs, WEAK)
+                let deviation = surfaces.holding(motions, mode, pairs);
+                deviation.is_some_and(|deviation| driven <= deviation)
             });
         }
         if free.is_empty() {
             break;
         }
-        let off = if are_weak { WEAK } else { SLIDES };
         // Motions that have no body in common stay free when one of them is pinned, so all of them
         // are pinned at once.
         let mut moved = vec![false; motions.names.len()];
@@ -221,8 +220,8 @@ fn pin(
             let unheld = |why: String| Error::new(ErrorKind::Unheld, format!("{motion}: {why}"));
             let driven = most_driving(motions, mode, &forces, loads);
             let mut is_explained = |share: f64| {
-                let round = round.get_or_insert_with(|| RoundSurfaces::of(motions.mesh));
-                share <= round.work_of_facets(motions, mode, off)
+                let round = round.get_or_insert_with(|| SmoothSurfaces::of(motions.mesh));
+                are_weak || share <= round.work_of_facets(motions, mode, SLIDES)
             };
             if let Some((load, share)) = driven.filter(|(_, share)| !is_explained(*share)) {
                 let how_much = match share < 0.01 {

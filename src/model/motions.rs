@@ -226,27 +226,33 @@ impl<'a> Motions<'a> {
             }
         }
         for pair in pairs {
-            gram.add(&self.row_of_pair(pair));
+            gram.add(&self.row_of_pair(pair, &|_| pair.normal));
         }
         gram
     }
 
-    /// Change of a pair's gap in each rigid motion of the groups of its nodes.
-    fn row_of_pair(&self, pair: &Pair) -> Vec<(usize, f64)> {
+    /// Motion of a pair's masters less its slave, each along its normal, in each rigid motion of
+    /// their groups.
+    fn row_of_pair(&self, pair: &Pair, normal: &dyn Fn(usize) -> Vector) -> Vec<(usize, f64)> {
         let per = self.per_group();
         let masters = pair.masters.iter().copied();
         let nodes = masters.chain([(pair.slave, -1.0)]);
         let of_node = nodes.flat_map(|(node, share)| {
             let first = per * self.group_of_node[node];
-            let values = self.row(node, pair.normal).into_iter().enumerate();
+            let values = self.row(node, normal(node)).into_iter().enumerate();
             values.map(move |(m, v)| (first + m, share * v))
         });
         of_node.collect()
     }
 
-    /// Change of a pair's gap in a mode.
-    pub(super) fn opening(&self, mode: &Mode, pair: &Pair) -> f64 {
-        let row = self.row_of_pair(pair).into_iter();
+    /// Change of a pair's gap in a mode, each node moving along its own normal.
+    pub(super) fn opening(
+        &self,
+        mode: &Mode,
+        pair: &Pair,
+        normal: &dyn Fn(usize) -> Vector,
+    ) -> f64 {
+        let row = self.row_of_pair(pair, normal).into_iter();
         row.map(|(at, value)| value * mode.at(at)).sum()
     }
 
