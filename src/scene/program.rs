@@ -23,7 +23,8 @@ pub struct Program {
     #[serde(default = "super::defaults::steps")]
     pub steps: usize,
     /// Relative error of pressure and dent that the increments of `stepping = "auto"` may cause.
-    /// The length of the increments is proportional to its square root.
+    /// The length of the increments is proportional to its square root. If few pairs carry the
+    /// contact, the error is larger; the error estimate says by how much.
     #[serde(default = "super::defaults::path_error")]
     pub path_error: f64,
     /// Largest number of increments of the whole run, whatever the stepping. A run that reaches
