@@ -4,8 +4,8 @@
 //! contact pairs. A motion that both leave free causes an error that names the body and the motion,
 //! unless no load does work on it: then one freedom is pinned, which affects only the free motion.
 //! A round body is pinned too if a load turns it no more than its flat facets explain; the pin then
-//! bears this small load. So is a round body whose rotation is held by nothing but small deviations
-//! of its nodes and facets from the round shape.
+//! bears this small load. So is a body that slides along a plane or turns about the centre of a round
+//! surface, if nothing but small deviations of nodes and facets from these shapes holds this motion.
 
 use super::far_boundary::{FarBoundary, StoppedMotion};
 use super::motions::{self, FREE, Forces, Mode, Motions};
@@ -60,7 +60,7 @@ pub struct Pin {
     /// size of the load. The flat facets of a round surface explain this work. `None` if no load
     /// does work on the motion.
     pub driven: Option<(String, f64)>,
-    /// Whether contact holds the motion a little, because a surface is not exactly round.
+    /// Whether contact holds the motion a little, because a surface is not exactly flat or round.
     pub is_held_by_deviations: bool,
     /// Node of the pinned freedom.
     pub node: usize,
@@ -88,16 +88,21 @@ impl Pin {
             node,
         } = self;
         let node = mesh.node_label(*node);
-        let held = match is_held_by_deviations {
-            true => "only nodes that deviate from a round surface hold this motion",
-            false => "nothing holds this motion",
+        let (held, deviations) = match is_held_by_deviations {
+            true => (
+                "only deviations of a surface from its plane or round shape hold this motion",
+                "these deviations",
+            ),
+            false => (
+                "nothing holds this motion",
+                "flat facets of a round surface",
+            ),
         };
         match driven {
             None => format!("{motion}: {held} and no load drives it; it is held at node {node}"),
             Some((load, share)) => format!(
-                "{motion}: {held}, and load `{load}` drives it by {} of its \
-                 size, no more than flat facets of a round surface explain; it is held at node \
-                 {node}, which carries this small load",
+                "{motion}: {held}, and load `{load}` drives it by {} of its size, no more than \
+                 {deviations} explain; it is held at node {node}, which carries this small load",
                 significant(*share, 2)
             ),
         }
