@@ -5,6 +5,7 @@
 
 mod conformity;
 mod curve;
+mod decimal_places;
 pub mod generate;
 pub mod gmsh;
 pub mod inp;
@@ -16,7 +17,6 @@ mod of_body;
 mod part;
 mod pieces;
 mod round;
-mod rounding;
 mod subdivision;
 pub mod surface;
 mod sweep;
@@ -26,10 +26,10 @@ use crate::shape::{FacetReference, Rule};
 pub use crate::shape::{Integration, Shape};
 use crate::space::{Vector, in_words};
 pub use curve::Curve;
+pub(crate) use decimal_places::last_place;
 pub use local_refinement::refined;
 pub(crate) use nearest::NearestNode;
 pub use round::{declared, lay_on};
-pub(crate) use rounding::rounding;
 pub use subdivision::subdivided;
 pub use sweep::{extruded, revolved};
 pub use validate::validate;

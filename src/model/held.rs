@@ -4,8 +4,9 @@
 //! contact pairs. A motion that both leave free causes an error that names the body and the motion,
 //! unless no load does work on it: then one freedom is pinned, which affects only the free motion.
 //! A round body is pinned too if a load turns it no more than its flat facets explain; the pin then
-//! bears this small load. So is a body that slides along a plane or turns about the centre of a round
-//! surface, if nothing but small deviations of nodes and facets from these shapes holds this motion.
+//! bears this small load. So is a body that slides along a plane or turns about the centre of a
+//! round surface, if nothing but small deviations of nodes and facets from these shapes holds this
+//! motion.
 
 use super::far_boundary::{FarBoundary, StoppedMotion};
 use super::motions::{self, FREE, Forces, Mode, Motions};

@@ -34,7 +34,7 @@ pub(super) fn build_mesh(scene: &Scene) -> Result<Mesh> {
         Some(_) => scene.places.in_front("mesh.file", error),
         None => scene.places.in_front("mesh", error),
     })?;
-    let rounding = mesh::rounding(&mesh);
+    let rounding = mesh::last_place(&mesh);
     let mut mesh = refined(scene, mesh)?;
     mesh.rounding = rounding;
     Ok(mesh)

@@ -12,7 +12,7 @@ const MOST_DIGITS: usize = 14;
 /// Spacing of the last decimal place to which the largest coordinates of a mesh were rounded when
 /// it was written, for instance `1e-6`; 0 if the coordinates have the precision of the computer, or
 /// so few digits that they are likely to be exact.
-pub(crate) fn rounding(mesh: &Mesh) -> f64 {
+pub(crate) fn last_place(mesh: &Mesh) -> f64 {
     // The most digits of a coordinate, and the largest exponent of those with as many.
     let mut most = (0, i32::MIN);
     for x in mesh.coordinates.iter().filter(|x| **x != 0.0) {
@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     fn of(coordinates: &[f64]) -> f64 {
-        rounding(&Mesh {
+        last_place(&Mesh {
             coordinates: coordinates.to_vec(),
             ..Mesh::default()
         })
