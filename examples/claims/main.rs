@@ -55,9 +55,9 @@ const SOLIDS: &str = "# Stated errors of solids beside true ones\n\n`cargo run -
 
 const HELD_OUT: &str = "# Stated errors by default beside true ones\n\n`cargo run --release \
                         --example claims -- default` writes this page. The default estimate takes \
-                        no more than the run (`--estimate quick`); meshes from files and decks are \
-                        judged by the energy norm of the recovered stress error alone. Both sets \
-                        of families were written when the procedure was finished, are of kinds \
+                        no more time than the run itself (`--estimate quick`); meshes from files \
+                        and decks are judged by the energy norm of the difference between \
+                        recovered and computed stresses alone. Both sets of families were written when the procedure was finished, are of kinds \
                         that no other family has, and judged it once as it was then: the first \
                         set with 94.9 % of 1,207 figures within the stated error (82 % of loads, \
                         79 % of plastic strains), the second with 86.5 % of 585 (69 % of rings \
@@ -79,9 +79,9 @@ const PRICES: &str = "# What demands cost\n\n`cargo run --release --example clai
                      smaller than their elements, were written after that. They judge the method \
                      as it was then: a first run, which was stopped half way, showed that their \
                      reference solutions needed finer meshes; nothing else was changed, in the \
-                     scenes or in the method. What the page showed then has changed one thing: of \
-                     a contact that one pair carries no error is stated. Crossed cylinders in \
-                     space, once the tenth of the third set, are left out: with their truth and \
+                     scenes or in the method. What the page showed then has changed one thing: no \
+                     error is stated for a contact that a single pair carries. Crossed cylinders \
+                     in space, once the tenth of the third set, are left out: with their truth and \
                      the meshes by trial they take more than 20 minutes.\n";
 
 fn main() {

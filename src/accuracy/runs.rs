@@ -111,7 +111,8 @@ pub(super) fn run(
     }
 }
 
-/// Analyses a model as far as the extent says, with the references of its scene.
+/// Analyses a model to the given extent (first yield or the whole load program) and compares the
+/// results with the reference values given in its scene.
 pub(super) fn analyse(
     model: Model,
     backend: Backend,

@@ -47,7 +47,7 @@ impl Remaining {
         self.made = now;
     }
 
-    /// Returns the seconds that are left at a time.
+    /// Returns the estimated number of seconds remaining at time `now`.
     pub fn at(&self, now: f64) -> f64 {
         let (whole, passed) = (self.estimate, (now - self.made).max(0.0));
         let tail = LAST * whole;

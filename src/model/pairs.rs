@@ -85,7 +85,8 @@ impl Pair {
         Some(gap).filter(|gap| gap.abs() > round_off)
     }
 
-    /// Largest gap between surfaces that touch if each node is off by `off`.
+    /// Largest gap that can appear between surfaces that really touch if each node is misplaced by
+    /// up to `off`.
     fn gap_by_places(&self, off: f64) -> f64 {
         let weights: f64 = self.masters.iter().map(|(_, weight)| weight.abs()).sum();
         (1.0 + weights) * off

@@ -7,12 +7,15 @@
 use super::Pair;
 use super::motions::{FREE, Mode, Motions};
 use super::pairs::mortar::roundness::true_shape;
-use crate::mesh::{Curve, Facet, Mesh, Surface};
-use crate::space::{Vector, along, cross, difference, direction, length};
+use crate::mesh::{Curve, Facet, Mesh, Surface, last_place};
+use crate::space::{Vector, along, cross, difference, direction, length, unit};
 use std::collections::BTreeSet;
 
-/// Largest angle between a facet and the plane of its surface.
-const FLAT: f64 = 1e-3;
+/// Largest angle between a facet and the plane of its surface, if each corner may be off by the
+/// last decimal place: this many times the decimal place over the shortest edge.
+const FLAT: f64 = 4.0;
+/// Largest angle between a facet and the plane of its surface by round-off.
+const ROUND_OFF: f64 = 1e-10;
 /// Share of the hold of pairs that may be left if they had the normals of smooth shapes.
 const LEFT: f64 = 0.5;
 
@@ -28,7 +31,7 @@ struct SmoothSurface {
     /// Share of a load that is spread over the facets which a motion along the shape may feel: of a
     /// round surface the largest deviation of a facet over the radius, of a plane `turn`.
     deviation: f64,
-    /// Largest angle between a facet and the shape.
+    /// Largest angle between a facet and the shape; of a plane the angle that is allowed.
     turn: f64,
 }
 
@@ -53,10 +56,10 @@ impl SmoothShape {
 
 impl<'m> SmoothSurfaces<'m> {
     pub(super) fn of(mesh: &'m Mesh) -> Self {
-        let surfaces = mesh.surfaces.values();
-        let surfaces = surfaces.filter_map(|surface| match true_shape(mesh, surface) {
-            Some(curve) => SmoothSurface::round(mesh, surface, curve),
-            None => SmoothSurface::flat(mesh, surface),
+        let off = mesh.rounding.max(last_place(mesh));
+        let surfaces = mesh.surfaces.values().filter_map(|surface| {
+            let round = || SmoothSurface::round(mesh, surface, true_shape(mesh, surface)?);
+            SmoothSurface::flat(mesh, surface, off).or_else(round)
         });
         SmoothSurfaces {
             mesh,
@@ -84,7 +87,8 @@ impl<'m> SmoothSurfaces<'m> {
     }
 
     /// Whether pairs hold a mode only because their surfaces deviate from smooth shapes: if each
-    /// node had the normal of a shape, at least half of the hold would vanish. Returns the largest
+    /// node had the normal of a round shape, and the normals of planes deviated no more than their
+    /// facets do, at least half of the hold would vanish. Returns the largest
     /// deviation of these surfaces ([`SmoothSurfaces::work_of_facets`]).
     pub(super) fn holding(&self, motions: &Motions, mode: &Mode, pairs: &[Pair]) -> Option<f64> {
         let [mut held, mut left, mut deviation] = [0.0f64; 3];
@@ -99,9 +103,17 @@ impl<'m> SmoothSurfaces<'m> {
                     let of_shape = surface.shape.normal(self.mesh.point(node));
                     of_shape.unwrap_or(pair.normal)
                 };
-                let opening = motions.opening(mode, pair, &normal).abs();
-                if opening < least {
-                    least = opening;
+                let left = match surface.shape {
+                    SmoothShape::Round(_) => motions.opening(mode, pair, &normal).abs(),
+                    // The normals of a plane's facets deviate by its turn, and so open the gap.
+                    SmoothShape::Plane(_) => {
+                        let axes = (0..3).map(|d| motions.opening(mode, pair, &|_| unit(d)));
+                        let moved = axes.map(|u| u * u).sum::<f64>().sqrt();
+                        (opening - 2.0 * surface.turn * moved).max(0.0)
+                    }
+                };
+                if left < least {
+                    least = left;
                     deviation = deviation.max(surface.deviation);
                 }
             }
@@ -149,20 +161,31 @@ impl SmoothSurface {
         SmoothSurface::new(shape, nodes, [deviation, turn])
     }
 
-    /// A flat surface; `None` if its facets are not in one plane.
-    fn flat(mesh: &Mesh, surface: &Surface) -> Option<Self> {
+    /// A flat surface; `None` if its facets are not in one plane, to within what places of nodes
+    /// that are off by `off` explain.
+    fn flat(mesh: &Mesh, surface: &Surface, off: f64) -> Option<Self> {
         let normals = surface.facets.iter().map(|&facet| area_normal(mesh, facet));
-        let normals: Vec<Vector> = normals.collect();
-        let sum = normals.iter().fold([0.0; 3], |sum, n| along(sum, 1.0, *n));
+        let sum = normals.clone().fold([0.0; 3], |sum, n| along(sum, 1.0, n));
+        // The normals of a closed surface have no mean.
+        let size: f64 = normals.clone().map(length).sum();
+        if length(sum) < 0.5 * size {
+            return None;
+        }
         let normal = direction(sum);
-        let turns = normals.iter().map(|n| length(cross(direction(*n), normal)));
-        let turn = turns.fold(0.0, f64::max);
+        let mut turn = 0.0f64;
+        for (&facet, own) in surface.facets.iter().zip(normals) {
+            let most = FLAT * off / shortest_edge(mesh, facet) + ROUND_OFF;
+            if length(cross(direction(own), normal)) > most {
+                return None;
+            }
+            turn = turn.max(most);
+        }
         let nodes = surface
             .facets
             .iter()
             .flat_map(|&facet| mesh.facet_nodes(facet));
         let shape = SmoothShape::Plane(normal);
-        SmoothSurface::new(shape, nodes.collect(), [turn, turn]).filter(|s| s.turn <= FLAT)
+        SmoothSurface::new(shape, nodes.collect(), [turn, turn])
     }
 
     fn new(
@@ -177,6 +200,18 @@ impl SmoothSurface {
             turn,
         })
     }
+}
+
+/// Least distance between neighbouring corners of a facet.
+fn shortest_edge(mesh: &Mesh, facet: Facet) -> f64 {
+    let n = mesh.facet_corners(facet);
+    let corners: Vec<Vector> = mesh
+        .facet_nodes(facet)
+        .take(n)
+        .map(|c| mesh.point(c))
+        .collect();
+    let edges = (0..n).map(|k| length(difference(corners[k], corners[(k + 1) % n])));
+    edges.fold(f64::INFINITY, f64::min)
 }
 
 /// Normal at the centre of a facet, times its size.

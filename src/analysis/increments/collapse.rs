@@ -51,8 +51,8 @@ const MOST_ANSWERS: usize = 8;
 /// flowing away.
 const DRIVEN: f64 = 0.5;
 
-/// Bound on the accuracy of any iteration: the round-off of the zone elements' forces that follow
-/// from displacements `u`.
+/// The best accuracy that any iteration can reach: the round-off error in the forces of the zone's
+/// elements, which are computed from the displacements `u`.
 pub(super) fn round_off_of_balance(solver: &Solver, u: &Trailing) -> Result<f64> {
     let partition = &solver.structure.sub.partition;
     let mut all = vec![0.0; partition.n];

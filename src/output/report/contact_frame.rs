@@ -14,7 +14,7 @@ pub(super) struct ContactFrame {
     pub center: Vector,
     /// Mean normal, from the second body to the first.
     pub normal: Vector,
-    /// The normal or its opposite, whichever points along a positive coordinate axis.
+    /// The normal or its opposite, whichever has a positive largest component.
     pub up: Vector,
     /// Directions across the normal: those of the patch's half axes.
     pub axes: [Vector; 2],

@@ -115,7 +115,8 @@ impl Problems {
         self.require(holds, key, format!("{pair} must {rule}"));
     }
 
-    /// Requires a value, `what` of a row, to exceed that of the row before.
+    /// Requires a value in a row to be greater than the one in the row before. `what` names the
+    /// value in the message.
     pub(super) fn grows(&mut self, key: &str, what: &str, [before, value]: [f64; 2]) {
         let rule = format!("must be greater than {} of the row before", exact(before));
         self.require(

@@ -55,7 +55,8 @@ fn model() -> (Model, System) {
 }
 
 /// The quality, judged by `system`, of the state at the end of the load. The solver works on
-/// `used`. `tamper` changes the solver before it goes to this state, `after` changes it there.
+/// `used`. `tamper` changes the solver before it goes to this state; `after` changes it in that
+/// state.
 fn quality(
     model: &Model,
     system: &System,
