@@ -57,18 +57,19 @@ const HELD_OUT: &str = "# Stated errors by default beside true ones\n\n`cargo ru
                         --example claims -- default` writes this page. The default estimate takes \
                         no more time than the run itself (`--estimate quick`); meshes from files \
                         and decks are judged by the energy norm of the difference between \
-                        recovered and computed stresses alone. Both sets of families were written when the procedure was finished, are of kinds \
-                        that no other family has, and judged it once as it was then: the first \
-                        set with 94.9 % of 1,207 figures within the stated error (82 % of loads, \
-                        79 % of plastic strains), the second with 86.5 % of 585 (69 % of rings \
-                        squeezed between flats, at worst 13.9 times beyond it). What they showed \
-                        has changed it since, so that the tables below, of the procedure as it \
-                        is now, judge it no more: found loads follow the stress that decides \
-                        them, plastic strains are known to what lies between the outermost points \
-                        and the surface, and where one or two pairs carry a contact the errors of \
-                        its pressures and of first yield there are unknown. The load of the deck \
-                        is that of its first force on a node, which depends on the mesh. True \
-                        errors are the differences from meshes two to eight times finer.\n";
+                        recovered and computed stresses alone. Both sets of families were written \
+                        when the procedure was finished, are of kinds that no other family has, \
+                        and judged it once as it was then: the first set with 94.9 % of 1,207 \
+                        figures within the stated error (82 % of loads, 79 % of plastic strains), \
+                        the second with 86.5 % of 585 (69 % of rings squeezed between flats, at \
+                        worst 13.9 times beyond it). What they showed has changed it since, so \
+                        that the tables below, of the procedure as it is now, judge it no more: \
+                        found loads follow the stress that decides them, plastic strains are \
+                        known to what lies between the outermost points and the surface, and \
+                        where one or two pairs carry a contact the errors of its pressures and of \
+                        first yield there are unknown. The load of the deck is that of its first \
+                        force on a node, which depends on the mesh. True errors are the \
+                        differences from meshes two to eight times finer.\n";
 
 const PRICES: &str = "# What demands cost\n\n`cargo run --release --example claims -- prices` \
                      writes this page. The scenes of the third set were written when the way from \

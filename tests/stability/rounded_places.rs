@@ -214,3 +214,66 @@ subdivisions = {times}
         assert!((force / 100.0 - 1.0).abs() <= 1e-6, "{times}: {force}");
     }
 }
+
+/// A block on another, both turned in space, with the load along the normal of their faces: the
+/// mesh of few digits gives the pressure of the exact one. The faces are planes only to within the
+/// last decimal place, so forces balance to that, and a state that is off by more than usual says
+/// so.
+#[test]
+fn blocks_on_a_plane_at_any_angle() {
+    for seed in 0..either(3, 30) {
+        let mut random = Random::new(seed);
+        let [a, b] = [0, 1].map(|_| random.within(0.2, 1.2));
+        let turn = |[x, y, z]: [f64; 3]| {
+            let [x, y] = [a.cos() * x - a.sin() * y, a.sin() * x + a.cos() * y];
+            [x, b.cos() * y - b.sin() * z, b.sin() * y + b.cos() * z]
+        };
+        let mut cells = || 2 + random.below(3);
+        let [low, up] = [[cells(), cells(), 2], [cells(), cells(), 2]];
+        let scene = |[x, y, z]: [f64; 3]| {
+            parse(&format!(
+                r#"
+kind = "solid"
+materials.steel = {{ youngs_modulus = 210e3, poissons_ratio = 0.3 }}
+bodies = {{ low.material = "steel", up.material = "steel" }}
+contact = [{{ first = "up.bottom", second = "low.top" }}]
+support = [{{ on = "low.bottom", fix = ["x", "y", "z"] }}]
+load = [{{ on = "up.top", force = [{x:?}, {y:?}, {z:?}] }}]
+program.targets = [{{ load_factor = 1.0 }}]
+[[mesh.parts]]
+body = "low"
+element = "hex8"
+brick = {{ x = [0, 3], y = [0, 3], z = [-2, 0], elements = {low:?} }}
+[[mesh.parts]]
+body = "up"
+element = "hex8"
+brick = {{ x = [0.5, 2.1], y = [0.7, 2.3], z = [0, 1.5], elements = {up:?} }}
+"#
+            ))
+        };
+        let force = [0.0, 0.0, -30.0];
+        let (upright, scene) = (from_file(&scene(force), None), scene(turn(force)));
+        let state = |places: Option<i32>| {
+            let mut mesh = upright.clone();
+            for x in mesh.coordinates.chunks_mut(3) {
+                x.copy_from_slice(&turn([x[0], x[1], x[2]]));
+                for x in x.iter_mut() {
+                    if let Some(places) = places {
+                        *x = format!("{x:.*}", places as usize).parse().unwrap();
+                    }
+                }
+            }
+            let model = Model::from_mesh(&scene, mesh).unwrap();
+            let results = run_model(model, Backend::default());
+            assert!(results.incomplete.is_none(), "{:?}", results.incomplete);
+            results.states[0].clone()
+        };
+        let exact = state(None).max_pressure;
+        for places in [6, 8] {
+            let off = state(Some(places)).max_pressure / exact - 1.0;
+            // The last decimal place, over edges of a third, and a factor for the edge of contact.
+            let bound = 1e2 * 10f64.powi(-places);
+            assert!(off.abs() <= bound, "seed {seed}, {places} places: {off:e}");
+        }
+    }
+}
