@@ -10,6 +10,10 @@ use std::path::{Path, PathBuf};
 const LONGEST: usize = 80;
 /// Most files with methods of one type.
 const MOST_FILES: usize = 3;
+/// Most methods of a type that is not counted as large.
+const MOST_METHODS: usize = 25;
+/// Types that are large: a number that only falls.
+const MOST_LARGE: usize = 7;
 /// Shortest doc comment that says something, in characters.
 const SHORTEST: usize = 15;
 /// What a doc comment that does not stand alone opens with.
@@ -169,6 +173,29 @@ fn spread_types(library: &[Text]) -> Vec<String> {
     spread.collect()
 }
 
+/// Types with more than [`MOST_METHODS`] methods, by folder, without those of traits.
+fn large_types(library: &[Text]) -> Vec<String> {
+    let mut types: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+    for t in library.iter().filter(|t| !is_test(&t.name)) {
+        let folder = t.name.split('/').nth(1).unwrap_or("");
+        let mut of = None;
+        for line in of_library(&t.text).lines() {
+            of = match line {
+                "}" => None,
+                _ => implemented(line).or(of),
+            };
+            let code = line.strip_prefix("    ").unwrap_or("");
+            let is_method = !code.starts_with([' ', '/']) && code.contains("fn ");
+            if let Some(of) = of.filter(|_| is_method) {
+                *types.entry((folder, of)).or_default() += 1;
+            }
+        }
+    }
+    let large = types.iter().filter(|(_, n)| **n > MOST_METHODS);
+    let large = large.map(|((folder, name), n)| format!("{folder} {name}: {n}"));
+    large.collect()
+}
+
 /// What is counted of a tree, with the places.
 fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
     let library = texts(base, "src");
@@ -191,7 +218,7 @@ fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
         };
         texts.iter().flat_map(of).collect()
     };
-    let spread = spread_types(&library);
+    let (spread, large) = (spread_types(&library), large_types(&library));
     let modules = Modules::read(base);
     let edges = modules.edges();
     let folders: BTreeSet<&str> = edges.keys().filter_map(|f| f.split('/').nth(1)).collect();
@@ -231,6 +258,7 @@ fn counts(base: &Path) -> Vec<(&'static str, usize, Vec<String>)> {
             spread.len(),
             spread,
         ),
+        ("types with more than 25 methods", large.len(), large),
         (
             "files of src in import circles of their folder",
             circles.len(),
@@ -317,6 +345,11 @@ fn methods_of_a_type_stand_in_few_files() {
     assert!(
         spread.is_empty(),
         "give what several files add to a type objects of their own: {spread:#?}"
+    );
+    let large = large_types(&texts(&root(), "src"));
+    assert!(
+        large.len() <= MOST_LARGE,
+        "give a part of these methods to a type of their own: {large:#?}"
     );
 }
 
