@@ -9,6 +9,12 @@ const FEWEST_DIGITS: usize = 6;
 /// computer.
 const MOST_DIGITS: usize = 14;
 
+/// Spacing of the decimal places to which the coordinates of a mesh were rounded: that of its file
+/// if the mesh was refined since, otherwise that of its coordinates.
+pub(crate) fn rounding(mesh: &Mesh) -> f64 {
+    mesh.places.max(last_place(mesh))
+}
+
 /// Spacing of the last decimal place to which the largest coordinates of a mesh were rounded when
 /// it was written, for instance `1e-6`; 0 if the coordinates have the precision of the computer, or
 /// so few digits that they are likely to be exact.

@@ -26,7 +26,7 @@ use crate::shape::{FacetReference, Rule};
 pub use crate::shape::{Integration, Shape};
 use crate::space::{Vector, in_words};
 pub use curve::Curve;
-pub(crate) use decimal_places::last_place;
+pub(crate) use decimal_places::{last_place, rounding};
 pub use local_refinement::refined;
 pub(crate) use nearest::NearestNode;
 pub use round::{declared, lay_on};
@@ -91,7 +91,7 @@ pub struct Mesh {
     /// Spacing of the last decimal place to which the coordinates were rounded before the mesh was
     /// refined; 0 if they were not.
     #[serde(skip)]
-    pub rounding: f64,
+    pub places: f64,
 }
 
 impl Mesh {

@@ -72,9 +72,6 @@ pub struct Pin {
 /// more accurately, and a load through the centre does about that much work.
 const NO_WORK_FOUND: f64 = 10.0 * FREE;
 
-/// Fraction of a free mode's largest entry by which the nodes of a round surface may leave the
-/// surface.
-const SLIDES: f64 = 1e-6;
 /// Fraction of the largest singular value below which contact holds a motion weakly: the fourth
 /// root of the round-off. The matrix of contact has a condition of the square of its inverse, with
 /// which half of all digits are lost.
@@ -196,7 +193,7 @@ fn pin(
 ) -> Result<Vec<Pinned>> {
     let forces = motions.forces(loads);
     let contact: BTreeSet<usize> = pairs.iter().flat_map(Pair::nodes).collect();
-    let mut round: Option<SmoothSurfaces> = None;
+    let mut smooth: Option<SmoothSurfaces> = None;
     let mut pinned = Vec::new();
     for _ in 0..motions.per_group() * motions.names.len() {
         let mut free = motions.free(freedoms, pairs);
@@ -204,7 +201,7 @@ fn pin(
         if are_weak {
             free = motions.held_by_less(freedoms, pairs, WEAK);
             free.retain(|mode| {
-                let surfaces = round.get_or_insert_with(|| SmoothSurfaces::of(motions.mesh));
+                let surfaces = smooth.get_or_insert_with(|| SmoothSurfaces::of(motions.mesh));
                 let driven = most_driving(motions, mode, &forces, loads).map_or(0.0, |of| of.1);
                 let deviation = surfaces.holding(motions, mode, pairs);
                 deviation.is_some_and(|deviation| driven <= deviation)
@@ -226,8 +223,8 @@ fn pin(
             let unheld = |why: String| Error::new(ErrorKind::Unheld, format!("{motion}: {why}"));
             let driven = most_driving(motions, mode, &forces, loads);
             let mut is_explained = |share: f64| {
-                let round = round.get_or_insert_with(|| SmoothSurfaces::of(motions.mesh));
-                are_weak || share <= round.work_of_facets(motions, mode, SLIDES)
+                let surfaces = smooth.get_or_insert_with(|| SmoothSurfaces::of(motions.mesh));
+                are_weak || share <= surfaces.work_of_facets(motions, mode)
             };
             if let Some((load, share)) = driven.filter(|(_, share)| !is_explained(*share)) {
                 let how_much = match share < 0.01 {

@@ -31,6 +31,8 @@ use std::collections::BTreeMap;
 /// Relative error of a coordinate of a mesh: it was rounded several times by rotations and files of
 /// sixteen digits, and once more in the integrals over a facet.
 const ROUND_OFF: f64 = 256.0 * f64::EPSILON;
+/// Overlap that counts as touching, in units of the facet length.
+const TOUCHING: f64 = 1e-9;
 
 /// A slave node with the masters that it may touch.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,6 +85,12 @@ impl Pair {
         }
         self.gap = 0.0;
         Some(gap).filter(|gap| gap.abs() > round_off)
+    }
+
+    /// Whether the surfaces overlap in the mesh by more than round-off and the decimal places of
+    /// the coordinates explain.
+    fn overlaps(&self, facet_length: f64, rounding: f64) -> bool {
+        -self.gap > (TOUCHING * facet_length).max(self.gap_by_places(rounding))
     }
 
     /// Largest gap that can appear between surfaces that really touch if each node is misplaced by

@@ -34,9 +34,9 @@ pub(super) fn build_mesh(scene: &Scene) -> Result<Mesh> {
         Some(_) => scene.places.in_front("mesh.file", error),
         None => scene.places.in_front("mesh", error),
     })?;
-    let rounding = mesh::last_place(&mesh);
+    let places = mesh::last_place(&mesh);
     let mut mesh = refined(scene, mesh)?;
-    mesh.rounding = rounding;
+    mesh.places = places;
     Ok(mesh)
 }
 

@@ -7,7 +7,7 @@
 use super::Pair;
 use super::motions::{FREE, Mode, Motions};
 use super::pairs::mortar::roundness::true_shape;
-use crate::mesh::{Curve, Facet, Mesh, Surface, last_place};
+use crate::mesh::{Curve, Facet, Mesh, Surface, rounding};
 use crate::space::{Vector, along, cross, difference, direction, length, unit};
 use std::collections::BTreeSet;
 
@@ -16,6 +16,11 @@ use std::collections::BTreeSet;
 const FLAT: f64 = 4.0;
 /// Largest angle between a facet and the plane of its surface by round-off.
 const ROUND_OFF: f64 = 1e-10;
+/// Angle beyond which a surface is not flat, however small its facets are.
+const BENT: f64 = 1e-3;
+/// Fraction of a free mode's largest entry by which the nodes of a round surface may leave the
+/// surface.
+const SLIDES: f64 = 1e-6;
 /// Share of the hold of pairs that may be left if they had the normals of smooth shapes.
 const LEFT: f64 = 0.5;
 
@@ -56,7 +61,7 @@ impl SmoothShape {
 
 impl<'m> SmoothSurfaces<'m> {
     pub(super) fn of(mesh: &'m Mesh) -> Self {
-        let off = mesh.rounding.max(last_place(mesh));
+        let off = rounding(mesh);
         let surfaces = mesh.surfaces.values().filter_map(|surface| {
             let round = || SmoothSurface::round(mesh, surface, true_shape(mesh, surface)?);
             SmoothSurface::flat(mesh, surface, off).or_else(round)
@@ -67,20 +72,21 @@ impl<'m> SmoothSurfaces<'m> {
         }
     }
 
-    /// Largest work of a load on a mode, over the size of the load, that facets may cause because
-    /// they are not exactly smooth: a load that is spread over the facets of a ball does not act
-    /// exactly through its centre. Zero if no surface slides along itself in the mode, to within
-    /// the fraction `off` of the mode's largest entry.
-    pub(super) fn work_of_facets(&self, motions: &Motions, mode: &Mode, off: f64) -> f64 {
+    /// Largest work of a load on a free mode, over the size of the load, that facets may cause
+    /// because they are not exactly round: a load that is spread over them does not act exactly
+    /// through the centre. Zero if no round surface slides along itself in the mode.
+    pub(super) fn work_of_facets(&self, motions: &Motions, mode: &Mode) -> f64 {
         let moved = motions.moved(mode);
+        let stays = |node: usize, out: Vector| {
+            motions.along(mode, node, out, 0.0).abs() <= SLIDES * mode.largest()
+        };
         let slides = |surface: &&SmoothSurface| {
-            surface.nodes.iter().all(|&node| {
-                let out = surface.shape.normal(self.mesh.point(node));
-                moved.contains(&motions.group_of_node[node])
-                    && out.is_some_and(|out| {
-                        motions.along(mode, node, out, 0.0).abs() <= off * mode.largest()
-                    })
-            })
+            matches!(surface.shape, SmoothShape::Round(_))
+                && surface.nodes.iter().all(|&node| {
+                    let out = surface.shape.normal(self.mesh.point(node));
+                    moved.contains(&motions.group_of_node[node])
+                        && out.is_some_and(|out| stays(node, out))
+                })
         };
         let sliding = self.surfaces.iter().filter(slides);
         sliding.map(|s| s.deviation).fold(0.0, f64::max)
@@ -88,8 +94,8 @@ impl<'m> SmoothSurfaces<'m> {
 
     /// Whether pairs hold a mode only because their surfaces deviate from smooth shapes: if each
     /// node had the normal of a round shape, and the normals of planes deviated no more than their
-    /// facets do, at least half of the hold would vanish. Returns the largest
-    /// deviation of these surfaces ([`SmoothSurfaces::work_of_facets`]).
+    /// facets do, at least half of the hold would vanish. Returns the largest deviation of these
+    /// surfaces: no larger share of a load's size can drive the mode because of them.
     pub(super) fn holding(&self, motions: &Motions, mode: &Mode, pairs: &[Pair]) -> Option<f64> {
         let [mut held, mut left, mut deviation] = [0.0f64; 3];
         for pair in pairs {
@@ -174,7 +180,7 @@ impl SmoothSurface {
         let normal = direction(sum);
         let mut turn = 0.0f64;
         for (&facet, own) in surface.facets.iter().zip(normals) {
-            let most = FLAT * off / shortest_edge(mesh, facet) + ROUND_OFF;
+            let most = (FLAT * off / shortest_edge(mesh, facet) + ROUND_OFF).min(BENT);
             if length(cross(direction(own), normal)) > most {
                 return None;
             }

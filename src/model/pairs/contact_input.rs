@@ -17,7 +17,7 @@ pub(super) struct ContactInput<'a> {
     pub(super) space: Space,
     /// Whether the scene comes from an input deck, whose faces have numbers.
     pub(super) is_of_deck: bool,
-    /// Spacing of the decimal places of the mesh's coordinates ([`Mesh::rounding`]).
+    /// Spacing of the decimal places of the mesh's coordinates ([`crate::mesh::rounding`]).
     pub(super) rounding: f64,
 }
 

@@ -48,8 +48,7 @@ fn check(entries: &ContactInput, pairs: &[Pair], facet_length: f64) -> Result<()
                 mesh.node_label(faced)
             )));
         }
-        let touching = (1e-9 * facet_length).max(pair.gap_by_places(entries.rounding));
-        if pair.gap < -touching && !may_overlap {
+        if pair.overlaps(facet_length, entries.rounding) && !may_overlap {
             return Err(Error::input(format!(
                 "nodes {} and {} overlap by {:.3e} in the mesh; move the bodies apart, or say \
                  `overlap = true` where that is an interference",

@@ -49,8 +49,6 @@ const COVERED: f64 = 1e-8;
 const NEAR: f64 = 0.05;
 /// Fraction of a facet's length by which facets of a flat surface may deviate from it.
 const FLAT: f64 = 1e-6;
-/// Overlap of the meshes that counts as round-off, as a fraction of a facet's length.
-const TOUCHING: f64 = 1e-9;
 
 /// Both sides of a contact, with the pairs found.
 struct Coupled<'a> {
@@ -376,10 +374,7 @@ impl Sides<'_> {
         self.check_apart(pairs)?;
         let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
         let rounding = self.entries.rounding;
-        let overlaps = |pair: &&Pair| {
-            let touching = (TOUCHING * facet_length).max(pair.gap_by_places(rounding));
-            pair.gap < -touching && !contact.overlap
-        };
+        let overlaps = |pair: &&Pair| pair.overlaps(facet_length, rounding) && !contact.overlap;
         let Some(deepest) = deepest.filter(overlaps) else {
             return Ok(());
         };

@@ -28,9 +28,6 @@ const STEPS: usize = 20;
 const FACING: f64 = 0.5;
 /// Weight below which a master is dropped as round-off.
 const NOTHING: f64 = 1e-13;
-/// Fraction of a facet's length by which round-off of coordinates may put a node behind the
-/// surface.
-const ROUND_OFF: f64 = 1e-9;
 
 /// The point of a facet that is nearest to a node.
 #[derive(Debug, Clone, Copy)]
@@ -123,10 +120,7 @@ fn check(input: &ContactInput, only: &Only, pairs: &[Pair], facet_length: f64) -
     }
     let may_overlap = input.contact.overlap || input.contact.gap.is_some();
     let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
-    let overlaps = |pair: &&Pair| {
-        let touching = (ROUND_OFF * facet_length).max(pair.gap_by_places(input.rounding));
-        pair.gap < -touching && !may_overlap
-    };
+    let overlaps = |pair: &&Pair| pair.overlaps(facet_length, input.rounding) && !may_overlap;
     match deepest.filter(overlaps) {
         None => Ok(()),
         Some(pair) => Err(Error::input(format!(

@@ -8,7 +8,7 @@ use super::repeated::Repeated;
 use super::stated::Stated;
 use super::{ContactSurface, Pair, held, matching, mortar, only, pointwise, rigid};
 use crate::error::{Error, Result};
-use crate::mesh::{Mesh, last_place};
+use crate::mesh::{Mesh, rounding};
 use crate::model::given::{Given, NodePair};
 use crate::model::names::SceneEntry;
 use crate::model::rigid::{RigidBodies, RigidBody};
@@ -41,7 +41,7 @@ pub(in crate::model) fn resolve(
     let rounding = if scene.contact.is_empty() {
         0.0
     } else {
-        mesh.rounding.max(last_place(mesh))
+        rounding(mesh)
     };
     let mut contacts = Vec::new();
     for (index, contact) in scene.contact.iter().enumerate() {

@@ -17,9 +17,6 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Cosine of the angle between the normals of the two surfaces up to which they face each other:
 /// beyond 60 degrees a surface would have to turn further than small displacements allow.
 const FACING: f64 = 0.5;
-/// Fraction of a facet's length by which round-off of coordinates may put a node into the rigid
-/// body.
-const ROUND_OFF: f64 = 1e-9;
 
 /// Finds the pairs of a mesh surface, number `slave` of the contact, with a rigid one.
 ///
@@ -87,10 +84,7 @@ fn check_apart(
 ) -> Result<()> {
     let (mesh, contact) = (entries.mesh, &entries.contact);
     let deepest = pairs.iter().min_by(|a, b| a.gap.total_cmp(&b.gap));
-    let inside = |pair: &&Pair| {
-        let touching = (ROUND_OFF * facet_length).max(pair.gap_by_places(entries.rounding));
-        pair.gap < -touching && !contact.overlap
-    };
+    let inside = |pair: &&Pair| pair.overlaps(facet_length, entries.rounding) && !contact.overlap;
     match deepest.filter(inside) {
         None => Ok(()),
         Some(pair) => Err(Error::input(format!(
